@@ -1,0 +1,1 @@
+"""Accuracy against time, and speed against the papers and against peers."""

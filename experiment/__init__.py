@@ -1,0 +1,1 @@
+"""Runs a study: config, design, session, display, records, participants, commands."""

@@ -1,0 +1,83 @@
+"""Every column of every table the recorder writes: the data dictionary is made from this file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column: its type ("text", "integer", "number" or "boolean"), unit, meaning and levels.
+
+    In the file, booleans are `true` and `false`, and what does not apply is empty.
+    """
+
+    name: str
+    type: str
+    description: str
+    unit: str = ""
+    levels: tuple[str, ...] = ()
+
+
+_WHO = (
+    Column("row_id", "text", "unique in the whole study: participant, session and row"),
+    Column("study", "text", "name of the study, from its config"),
+    Column("participant", "text", "participant's id; no names"),
+    Column("session", "integer", "1 for the participant's first session"),
+    Column("source", "text", "who answered", levels=("human", "simulated", "pilot")),
+)
+
+_CELL = (
+    Column("transparency", "text", "technique factor", levels=("standard", "dynamic")),
+    Column("scenario", "text", "scenario factor", levels=("abstract", "walkthrough")),
+)
+
+TRIALS = (
+    *_WHO,
+    Column("slot", "integer", "row of the counterbalanced design, from 1"),
+    Column("trial", "integer", "position of the trial in the session, from 1"),
+    Column("block", "integer", "position of the condition in the session, from 1"),
+    Column("task_set", "integer", "position of the task set in the session, from 1"),
+    Column("trial_in_set", "integer", "position of the trial in its task set, from 1"),
+    Column("attempt", "integer", "1, and one more each time the trial was repeated"),
+    *_CELL,
+    Column(
+        "task",
+        "text",
+        "T1 count, T2 pattern, T3 unique, T4 count_in_building",
+        levels=("count", "pattern", "unique", "count_in_building"),
+    ),
+    Column("scene", "text", "which scene: a name of the study's set, or the stream it came from"),
+    Column("targets", "integer", "number of targets in the scene"),
+    Column("answer", "text", "the participant's answer, as given"),
+    Column("truth", "text", "the right answer"),
+    Column("correct", "boolean", "whether the answer is right"),
+    Column("count_error", "integer", "answer − truth, for the counting tasks", "objects"),
+    Column("distance", "number", "from the mark to the target's place, for T3", "world units"),
+    Column("time", "number", "first frame shown to the answer's confirmation", "s"),
+    Column("time_clean", "number", "time, less what passed while the window had no focus", "s"),
+    Column("timed_out", "boolean", "whether the trial ended at its time limit"),
+    Column("frames", "integer", "frames shown", "frames"),
+    Column("frames_missed", "integer", "frames that took over 1.5 display periods", "frames"),
+    Column("worst_frame", "number", "longest time between two frames", "s"),
+    Column("path_length", "number", "how far the viewer moved", "world units"),
+    Column("turned", "number", "how far the view direction turned", "rad"),
+    Column("started", "text", "when the first frame was shown, UTC, ISO 8601"),
+    Column("events_file", "text", "the trial's input events, beside this table"),
+    Column("camera_file", "text", "the trial's camera path, beside this table"),
+)
+
+QUESTIONNAIRE = (
+    *_WHO,
+    Column(
+        "item",
+        "text",
+        "efficiency, ease, enjoy (0–4, per condition), preference (1 dynamic, 0 not), "
+        "depth_self_report (0–4), depth_test (correct of 3), or an item of the study's own",
+    ),
+    *_CELL,
+    Column("value", "number", "the answer as a number"),
+    Column("text", "text", "the answer as text, for free text"),
+)
+
+TABLES = {"trials": TRIALS, "questionnaire": QUESTIONNAIRE}

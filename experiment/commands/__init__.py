@@ -1,0 +1,1 @@
+"""One file each command of the program; cli.py imports only the one that runs."""

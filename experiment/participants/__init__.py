@@ -1,0 +1,1 @@
+"""Simulated participants: for planning and for tests, never evidence."""

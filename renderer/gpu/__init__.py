@@ -1,0 +1,1 @@
+"""The only place that talks to OpenGL. Takes a context; draws scenes."""

@@ -1,0 +1,1 @@
+"""Furniture, vehicles, animals: built from code."""

@@ -1,0 +1,76 @@
+"""What there is to draw, as frozen values: no GPU, no files, no task."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.geometry import Mesh
+
+Color = tuple[float, float, float]
+
+
+def _identity() -> NDArray[np.float64]:
+    return np.eye(4)
+
+
+@dataclass(frozen=True, eq=False)
+class Object:
+    """One thing in the world: a mesh, where it stands, and what it means to the task.
+
+    `transform` is a 4 × 4 affine matrix (world ← mesh). `color` multiplies the mesh's own colours.
+    A `target` carries information for the task; every other object is a distractor, and an
+    occluder wherever it lies in front of a target (paper 004 §III-A). An `impenetrable` object
+    never turns transparent (§III-C.3). Objects with the same `group` are drawn together, in
+    their order in the scene (§V-B, nested dolls); `None` makes the object its own group.
+    """
+
+    mesh: Mesh
+    transform: NDArray[np.float64] = field(default_factory=_identity)
+    color: Color = (1.0, 1.0, 1.0)
+    target: bool = False
+    impenetrable: bool = False
+    group: int | None = None
+    kind: str = ""
+
+    def __post_init__(self) -> None:
+        if self.transform.shape != (4, 4):
+            raise ValueError(f"transform has shape {self.transform.shape}, expected (4, 4)")
+        if not np.isfinite(self.transform).all():
+            raise ValueError(f"transform of {self.kind or 'object'} has a value that is not finite")
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Objects in a fixed order: an object's index is its identity.
+
+    Id pictures hold index + 1, and 0 where there is only background.
+    """
+
+    objects: tuple[Object, ...]
+    background: Color = (0.93, 0.94, 0.96)
+
+    @cached_property
+    def transforms(self) -> NDArray[np.float64]:
+        """(n, 4, 4) world ← mesh."""
+        return np.array([o.transform for o in self.objects]).reshape(-1, 4, 4)
+
+    @cached_property
+    def targets(self) -> NDArray[np.bool_]:
+        """(n,) which objects are targets."""
+        return np.array([o.target for o in self.objects], dtype=bool)
+
+    @cached_property
+    def impenetrable(self) -> NDArray[np.bool_]:
+        """(n,) which objects never turn transparent."""
+        return np.array([o.impenetrable for o in self.objects], dtype=bool)
+
+    @cached_property
+    def centers(self) -> NDArray[np.float64]:
+        """(n, 3) world positions of the mesh bounds' centres (the paper's sort key, §V-B)."""
+        local = np.array([o.mesh.center for o in self.objects]).reshape(-1, 3)
+        moved = np.einsum("nij,nj->ni", self.transforms[:, :3, :3], local)
+        return moved + self.transforms[:, :3, 3]

@@ -1,0 +1,1 @@
+"""Occlusion-management techniques: frozen parameters, and what each asks of a frame."""

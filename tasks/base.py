@@ -1,0 +1,56 @@
+"""The shape that every task has. Adding a task is copying a file (README, tour)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from numpy.random import Generator
+
+from renderer.camera import Camera
+from renderer.scene import Scene
+from tasks.events import Event
+from tasks.hud import Element
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """What the participant should see now. `captured`: the pointer turns the viewer, unseen."""
+
+    scene: Scene
+    camera: Camera
+    hud: tuple[Element, ...] = ()
+    captured: bool = False
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A confirmed answer and its score; None where a measure does not apply to the task.
+
+    `count_error` is answer − truth; `distance` is in world units, from mark to true place.
+    """
+
+    answer: str
+    truth: str
+    correct: bool
+    count_error: int | None = None
+    distance: float | None = None
+
+
+class Task(Protocol):
+    """One task, without state of its own: states are frozen values that replace each other."""
+
+    name: str
+    scenario: str
+
+    def begin(self, rng: Generator, parameters: Any, aspect: float, scene: Any = None) -> Any:
+        """The first state of a trial. Walkthrough tasks are given the study's scene."""
+
+    def on_event(self, state: Any, event: Event) -> Any:
+        """The state after `event`."""
+
+    def view(self, state: Any) -> View:
+        """What to show for `state`."""
+
+    def outcome(self, state: Any) -> Outcome | None:
+        """The scored answer once the participant has confirmed one, else None."""

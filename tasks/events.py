@@ -1,0 +1,67 @@
+"""What a participant does, as values. A window, a replay and a simulated participant send the same.
+
+Positions are in view units: the origin is the upper left corner of the view, y points down and
+runs from 0 to 1, x from 0 to the aspect ratio. Times are seconds on the session's clock.
+Keys are lower-case names: "a"…"z", "0"…"9", "left", "right", "up", "down", "enter", "space",
+"backspace", "escape", "tab".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class PointerMove:
+    """The pointer moved by (dx, dy) to (x, y); `dragging` while the left button is down."""
+
+    time: float
+    x: float
+    y: float
+    dx: float
+    dy: float
+    dragging: bool = False
+
+
+@dataclass(frozen=True)
+class PointerPress:
+    """The left button went down."""
+
+    time: float
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class PointerRelease:
+    """The left button went up."""
+
+    time: float
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class KeyPress:
+    """A key went down."""
+
+    time: float
+    key: str
+
+
+@dataclass(frozen=True)
+class KeyRelease:
+    """A key went up."""
+
+    time: float
+    key: str
+
+
+@dataclass(frozen=True)
+class Tick:
+    """Time went on: sent before each frame, so that held keys move the viewer."""
+
+    time: float
+
+
+Event = PointerMove | PointerPress | PointerRelease | KeyPress | KeyRelease | Tick

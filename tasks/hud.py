@@ -1,0 +1,76 @@
+"""What lies over the 3D view, as values: the display draws it, tasks test clicks against it.
+
+Positions and sizes are in view units (tasks/events.py): 1 is the height of the view.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from renderer.camera import Camera
+from renderer.scene import Scene
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Rect:
+    """A rectangle: upper left corner, width, height."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether the point lies in the rectangle, borders included."""
+        return self.x <= x <= self.x + self.width and self.y <= y <= self.y + self.height
+
+
+@dataclass(frozen=True)
+class Label:
+    """A line of text. `text` is a key of the language file, `values` fill its placeholders."""
+
+    text: str
+    at: Point
+    size: float = 0.035
+    align: str = "left"  # or "center"
+    values: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Button:
+    """Something to click, with its key as a shortcut; `chosen` when it is the current answer."""
+
+    text: str
+    rect: Rect
+    chosen: bool = False
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What has been typed so far."""
+
+    text: str
+    rect: Rect
+
+
+@dataclass(frozen=True, eq=False)
+class Inset:
+    """A small picture of a scene of its own, such as the current target, over the view."""
+
+    scene: Scene
+    camera: Camera
+    rect: Rect
+
+
+@dataclass(frozen=True)
+class FloorPlan:
+    """Walls seen from above as ((x0, y0), (x1, y1)) lines, and the participant's mark, if set."""
+
+    rect: Rect
+    walls: tuple[tuple[Point, Point], ...]
+    mark: Point | None = None
+
+
+Element = Label | Button | Entry | Inset | FloorPlan
