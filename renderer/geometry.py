@@ -76,7 +76,7 @@ def _circle(segments: int) -> NDArray[np.float64]:
 
 
 def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
-    """A rectangle in the plane y = 0 about the origin: `width` along x, `depth` along z, facing +y."""
+    """A rectangle about the origin in the plane y = 0, facing +y: x and z sizes."""
     _check(width=width, depth=depth)
     corners = np.array([[-1, 0, -1], [-1, 0, 1], [1, 0, 1], [1, 0, -1]]) * [width / 2, 0, depth / 2]
     return _mesh(corners, np.tile([0.0, 1.0, 0.0], (4, 1)), [[0, 1, 2], [0, 2, 3]], True)
@@ -93,7 +93,9 @@ def box(width: float = 1.0, height: float = 1.0, depth: float = 1.0) -> Mesh:
             u = np.roll(np.array([1.0, 0.0, 0.0]), axis + 1)
             v = np.cross(normal, u)
             first = 4 * len(vertices)
-            vertices.append(np.array([normal - u - v, normal + u - v, normal + u + v, normal - u + v]))
+            vertices.append(
+                np.array([normal - u - v, normal + u - v, normal + u + v, normal - u + v])
+            )
             normals.append(np.tile(normal, (4, 1)))
             triangles += [[first, first + 1, first + 2], [first, first + 2, first + 3]]
     corners = np.concatenate(vertices) * [width / 2, height / 2, depth / 2]
@@ -125,7 +127,9 @@ def sphere(radius: float = 1.0, subdivisions: int = 2) -> Mesh:
             return midpoints[key]
 
         split = [(a, b, c, middle(a, b), middle(b, c), middle(c, a)) for a, b, c in faces]
-        faces = [t for a, b, c, d, e, f in split for t in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))]
+        faces = [
+            t for a, b, c, d, e, f in split for t in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))
+        ]
     unit = np.array(vertices)
     return _mesh(unit * radius, unit, faces, True)
 
@@ -241,10 +245,13 @@ def merged(*meshes: Mesh) -> Mesh:
     if not meshes:
         raise ValueError("no meshes to merge, expected at least one")
     firsts = np.cumsum([0] + [len(m.vertices) for m in meshes[:-1]])
+    triangles = np.concatenate([m.triangles + f for m, f in zip(meshes, firsts, strict=True)])
     return Mesh(
         np.concatenate([m.vertices for m in meshes]),
         np.concatenate([m.normals for m in meshes]),
         np.concatenate([m.colors for m in meshes]),
-        np.concatenate([m.triangles + f for m, f in zip(meshes, firsts, strict=True)]).astype(np.int32),
+        np.concatenate([m.triangles + f for m, f in zip(meshes, firsts, strict=True)]).astype(
+            np.int32
+        ),
         len(meshes) == 1 and meshes[0].convex,
     )
