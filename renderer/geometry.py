@@ -250,8 +250,6 @@ def merged(*meshes: Mesh) -> Mesh:
         np.concatenate([m.vertices for m in meshes]),
         np.concatenate([m.normals for m in meshes]),
         np.concatenate([m.colors for m in meshes]),
-        np.concatenate([m.triangles + f for m, f in zip(meshes, firsts, strict=True)]).astype(
-            np.int32
-        ),
+        triangles.astype(np.int32),
         len(meshes) == 1 and meshes[0].convex,
     )
