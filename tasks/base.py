@@ -43,8 +43,14 @@ class Task(Protocol):
     name: str
     scenario: str
 
+    def make_scene(self, rng: Generator, parameters: Any) -> Any:
+        """The world of a trial, with all that `begin` and the score need to know of it."""
+
     def begin(self, rng: Generator, parameters: Any, aspect: float, scene: Any = None) -> Any:
-        """The first state of a trial. Walkthrough tasks are given the study's scene."""
+        """The first state of a trial, in `scene` or in one of its own made with `rng`.
+
+        Walkthrough tasks are given the study's scenes. `aspect` is the view's width / height.
+        """
 
     def on_event(self, state: Any, event: Event) -> Any:
         """The state after `event`."""

@@ -40,7 +40,10 @@ class Label:
 
 @dataclass(frozen=True)
 class Button:
-    """Something to click, with its key as a shortcut; `chosen` when it is the current answer."""
+    """Something to click; `chosen` when it is the current answer.
+
+    `text` is a digit, a letter, or a key of the language file ("button.confirm").
+    """
 
     text: str
     rect: Rect
@@ -66,7 +69,10 @@ class Inset:
 
 @dataclass(frozen=True)
 class FloorPlan:
-    """Walls seen from above as ((x0, y0), (x1, y1)) lines, and the participant's mark, if set."""
+    """Walls seen from above as ((x0, y0), (x1, y1)) lines, and the participant's mark, if set.
+
+    All in view units, within `rect`.
+    """
 
     rect: Rect
     walls: tuple[tuple[Point, Point], ...]

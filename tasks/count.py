@@ -1,0 +1,71 @@
+"""T1, discovery: how many red objects are there in the abstract world? (paper 004 §VI)"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from numpy.random import Generator
+
+from renderer.scene import Scene
+from tasks.abstract_scene import abstract_scene
+from tasks.base import Outcome, View
+from tasks.controls import Orbit, orbit
+from tasks.entry import NumberEntry
+from tasks.events import Event
+from tasks.hud import Label
+from tasks.parameters import AbstractParameters
+
+
+@dataclass(frozen=True, eq=False)
+class CountState:
+    """A trial between two events."""
+
+    scene: Scene
+    orbit: Orbit
+    entry: NumberEntry
+
+
+class Count:
+    """Count the red objects: drag or arrow keys orbit, digits and enter answer."""
+
+    name = "count"
+    scenario = "abstract"
+
+    def make_scene(self, rng: Generator, parameters: AbstractParameters) -> Scene:
+        """A world of its own for each trial."""
+        return abstract_scene(rng, parameters)
+
+    def begin(
+        self,
+        rng: Generator,
+        parameters: AbstractParameters,
+        aspect: float,
+        scene: Scene | None = None,
+    ) -> CountState:
+        """The first state of a trial."""
+        scene = self.make_scene(rng, parameters) if scene is None else scene
+        return CountState(scene, orbit(parameters, aspect), NumberEntry(aspect))
+
+    def on_event(self, state: CountState, event: Event) -> CountState:
+        """The state after `event`."""
+        entry = state.entry.on_event(event)
+        if entry.takes(event):
+            event = replace(event, dragging=False)
+        return replace(state, orbit=state.orbit.on_event(event), entry=entry)
+
+    def view(self, state: CountState) -> View:
+        """What to show for `state`."""
+        hud = (Label("count.question", (0.02, 0.02)), *state.entry.elements())
+        return View(state.scene, state.orbit.camera(), hud)
+
+    def outcome(self, state: CountState) -> Outcome | None:
+        """The scored answer once confirmed: `count_error` is answer − truth."""
+        return number_outcome(state.entry, int(state.scene.targets.sum()))
+
+
+def number_outcome(entry: NumberEntry, truth: int) -> Outcome | None:
+    """The score of a number, or None before it is confirmed."""
+    if not entry.confirmed:
+        return None
+    answer = int(entry.text)
+    return Outcome(str(answer), str(truth), answer == truth, count_error=answer - truth)

@@ -1,0 +1,32 @@
+"""The current target, turning in the upper left corner of the view (paper 004 §VI)."""
+
+from __future__ import annotations
+
+from math import sin
+
+from renderer.camera import Camera
+from renderer.scene import Object, Scene
+from tasks.building import Building
+from tasks.controls import turned
+from tasks.hud import Inset, Rect
+
+PLACE = Rect(0.02, 0.02, 0.22, 0.22)
+FOV_Y = 0.7
+PITCH = -0.35
+TURN_RATE = 0.8  # radians a second: once round in eight seconds
+
+
+def target_picture(building: Building) -> Scene:
+    """A scene of the asked thing alone; made once a trial, so that the display can keep it."""
+    mesh = building.scene.objects[building.asked_objects[0]].mesh
+    return Scene((Object(mesh, kind=building.asked),))
+
+
+def inset(picture: Scene, time: float) -> Inset:
+    """The picture at `time`: it fits the frame whichever way it is turned."""
+    mesh = picture.objects[0].mesh
+    rotation = turned(TURN_RATE * time, PITCH)
+    distance = 1.1 * mesh.radius / sin(FOV_Y / 2)
+    eye = mesh.center + rotation[:, 2] * distance
+    camera = Camera(eye, rotation, FOV_Y, 0.05 * distance, 2 * distance)
+    return Inset(picture, camera, PLACE)

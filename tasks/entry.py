@@ -1,0 +1,72 @@
+"""Typing a number: with the keyboard, or with buttons on the view."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease
+from tasks.hud import Button, Element, Entry, Rect
+
+KEYS = ("7", "8", "9", "4", "5", "6", "1", "2", "3", "backspace", "0", "enter")
+MOST_DIGITS = 4
+SIZE, GAP, EDGE = 0.055, 0.006, 0.02
+
+
+@dataclass(frozen=True)
+class NumberEntry:
+    """What has been typed, and whether it has been confirmed. `aspect` places the buttons.
+
+    `pressed` says that the pointer went down on a button, so that its moves until it comes up
+    are no drag.
+    """
+
+    aspect: float
+    text: str = ""
+    confirmed: bool = False
+    pressed: bool = False
+
+    def on_event(self, event: Event) -> NumberEntry:
+        """Digits, backspace and enter, typed or clicked. An empty entry can't be confirmed."""
+        if self.confirmed:
+            return self
+        if isinstance(event, PointerPress):
+            hit = next((k for k, rect in self.buttons() if rect.contains(event.x, event.y)), None)
+            return replace(self.type(hit), pressed=True) if hit else self
+        if isinstance(event, PointerRelease):
+            return replace(self, pressed=False)
+        return self.type(event.key) if isinstance(event, KeyPress) else self
+
+    def type(self, key: str) -> NumberEntry:
+        """The entry after one key; keys that mean nothing to it leave it as it is."""
+        if key == "enter":
+            return replace(self, confirmed=bool(self.text))
+        if key == "backspace":
+            return replace(self, text=self.text[:-1])
+        if len(key) == 1 and key in "0123456789" and len(self.text) < MOST_DIGITS:
+            return replace(self, text=(self.text + key).lstrip("0") or "0")
+        return self
+
+    def takes(self, event: Event) -> bool:
+        """Whether a pointer event belongs to the buttons and must not turn the view."""
+        return isinstance(event, PointerMove) and event.dragging and self.pressed
+
+    def buttons(self) -> list[tuple[str, Rect]]:
+        """Each key's name and place: three columns in the lower right corner of the view."""
+        left = self.aspect - EDGE - 3 * SIZE - 2 * GAP
+        top = 1 - EDGE - 4 * SIZE - 3 * GAP
+        step = SIZE + GAP
+        return [
+            (key, Rect(left + i % 3 * step, top + i // 3 * step, SIZE, SIZE))
+            for i, key in enumerate(KEYS)
+        ]
+
+    def elements(self) -> tuple[Element, ...]:
+        """The typed number above its buttons."""
+        buttons = self.buttons()
+        first = buttons[0][1]
+        field = Rect(first.x, first.y - SIZE - GAP, 3 * SIZE + 2 * GAP, SIZE)
+        texts = {"backspace": "button.backspace", "enter": "button.confirm"}
+        return (
+            Entry(self.text, field),
+            *(Button(texts.get(key, key), rect) for key, rect in buttons),
+        )

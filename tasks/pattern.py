@@ -1,0 +1,109 @@
+"""T2, relation: which letter do the red cones form? (paper 004 §VI)"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from numpy.random import Generator
+
+from renderer.scene import Scene
+from tasks.abstract_scene import abstract_scene
+from tasks.base import Outcome, View
+from tasks.controls import Orbit, orbit
+from tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease
+from tasks.hud import Button, Label, Rect
+from tasks.letters import LETTERS
+from tasks.parameters import AbstractParameters
+
+SIZE, GAP, EDGE = 0.07, 0.012, 0.02
+
+
+@dataclass(frozen=True)
+class PatternScene:
+    """A world and the letter that its red cones form."""
+
+    scene: Scene
+    letter: str
+
+
+@dataclass(frozen=True, eq=False)
+class PatternState:
+    """A trial between two events."""
+
+    world: PatternScene
+    orbit: Orbit
+    aspect: float
+    chosen: str | None = None
+    confirmed: bool = False
+    pressed: bool = False
+
+
+class Pattern:
+    """Name the letter: drag or arrow keys orbit; letter keys or buttons choose, enter answers."""
+
+    name = "pattern"
+    scenario = "abstract"
+
+    def make_scene(self, rng: Generator, parameters: AbstractParameters) -> PatternScene:
+        """A world of its own for each trial, each letter equally likely."""
+        letter = sorted(LETTERS)[int(rng.integers(len(LETTERS)))]
+        return PatternScene(abstract_scene(rng, parameters, letter), letter)
+
+    def begin(
+        self,
+        rng: Generator,
+        parameters: AbstractParameters,
+        aspect: float,
+        scene: PatternScene | None = None,
+    ) -> PatternState:
+        """The first state of a trial."""
+        world = self.make_scene(rng, parameters) if scene is None else scene
+        return PatternState(world, orbit(parameters, aspect), aspect)
+
+    def on_event(self, state: PatternState, event: Event) -> PatternState:
+        """The state after `event`."""
+        if isinstance(event, PointerPress):
+            places = buttons(state.aspect).items()
+            hit = next((t for t, rect in places if rect.contains(event.x, event.y)), None)
+            state = replace(_chosen(state, hit), pressed=True) if hit else state
+        elif isinstance(event, PointerRelease):
+            state = replace(state, pressed=False)
+        elif isinstance(event, KeyPress):
+            state = _chosen(state, event.key)
+        elif isinstance(event, PointerMove) and event.dragging and state.pressed:
+            event = replace(event, dragging=False)
+        return replace(state, orbit=state.orbit.on_event(event))
+
+    def view(self, state: PatternState) -> View:
+        """What to show for `state`."""
+        hud = [Label("pattern.question", (0.02, 0.02))]
+        for text, rect in buttons(state.aspect).items():
+            label = "button.confirm" if text == "enter" else text
+            hud.append(Button(label, rect, chosen=text == state.chosen))
+        return View(state.world.scene, state.orbit.camera(), tuple(hud))
+
+    def outcome(self, state: PatternState) -> Outcome | None:
+        """Right or wrong, once confirmed."""
+        if not state.confirmed:
+            return None
+        return Outcome(state.chosen, state.world.letter, state.chosen == state.world.letter)
+
+
+def buttons(aspect: float) -> dict[str, Rect]:
+    """The letters and enter, three to a row in the lower right corner of the view."""
+    texts = (*sorted(LETTERS), "enter")
+    step = SIZE + GAP
+    left, top = aspect - EDGE + GAP - 3 * step, 1 - EDGE + GAP - 2 * step
+    return {
+        text: Rect(left + i % 3 * step, top + i // 3 * step, SIZE, SIZE)
+        for i, text in enumerate(texts)
+    }
+
+
+def _chosen(state: PatternState, key: str) -> PatternState:
+    """A letter can be changed until enter confirms it; nothing chosen can't be confirmed."""
+    if state.confirmed:
+        return state
+    if key == "enter":
+        return replace(state, confirmed=state.chosen is not None)
+    return replace(state, chosen=key.upper()) if key.upper() in LETTERS else state

@@ -1,0 +1,97 @@
+"""Marking a place on the floor plan, seen from above: −z is up the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tasks.building import Building
+from tasks.events import Event, KeyPress, PointerPress
+from tasks.hud import Button, Element, FloorPlan, Point, Rect
+
+SIZE, TOP = 0.78, 0.1
+BUTTON = (0.22, 0.07)
+STEPS = 32  # arrow keys move the mark by one part in so many of the building's side
+
+
+@dataclass(frozen=True)
+class PlanMark:
+    """A mark in world units (x, z), or none yet, and whether it has been confirmed."""
+
+    aspect: float
+    side: float
+    mark: Point | None = None
+    confirmed: bool = False
+
+    @property
+    def rect(self) -> Rect:
+        """Where the plan lies on the view: a square in its middle."""
+        return Rect((self.aspect - SIZE) / 2, TOP, SIZE, SIZE)
+
+    @property
+    def button(self) -> Rect:
+        """Where the button that confirms lies: below the plan."""
+        width, height = BUTTON
+        return Rect((self.aspect - width) / 2, TOP + SIZE + 0.02, width, height)
+
+    def on_event(self, event: Event) -> PlanMark:
+        """A click or arrow keys set the mark; enter or the button confirm it, once there is one."""
+        if self.confirmed:
+            return self
+        if isinstance(event, PointerPress):
+            if self.rect.contains(event.x, event.y):
+                return replace(self, mark=self.world(event.x, event.y))
+            hit = self.button.contains(event.x, event.y)
+            return replace(self, confirmed=self.mark is not None) if hit else self
+        if not isinstance(event, KeyPress):
+            return self
+        if event.key == "enter":
+            return replace(self, confirmed=self.mark is not None)
+        return self._stepped(event.key)
+
+    def _stepped(self, key: str) -> PlanMark:
+        """The mark after an arrow key; the first one puts it in the middle."""
+        steps = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+        if key not in steps:
+            return self
+        if self.mark is None:
+            return replace(self, mark=(0.0, 0.0))
+        half, step = self.side / 2, self.side / STEPS
+        x, z = (
+            min(half, max(-half, old + way * step))
+            for old, way in zip(self.mark, steps[key], strict=True)
+        )
+        return replace(self, mark=(x, z))
+
+    def world(self, x: float, y: float) -> Point:
+        """World (x, z) of a point of the view."""
+        rect, scale = self.rect, self.side / SIZE
+        return ((x - rect.x) * scale - self.side / 2, (y - rect.y) * scale - self.side / 2)
+
+    def on_view(self, x: float, z: float) -> Point:
+        """View units of a world place: the inverse of `world`."""
+        rect, scale = self.rect, SIZE / self.side
+        return (rect.x + (x + self.side / 2) * scale, rect.y + (z + self.side / 2) * scale)
+
+    def elements(self, building: Building) -> tuple[Element, ...]:
+        """The plan with its mark, all in view units, and the button."""
+        lines = tuple((self.on_view(*a), self.on_view(*b)) for a, b in wall_lines(building))
+        mark = None if self.mark is None else self.on_view(*self.mark)
+        return (FloorPlan(self.rect, lines, mark), Button("button.confirm", self.button))
+
+
+def wall_lines(building: Building) -> list[tuple[Point, Point]]:
+    """The outer walls, and the inner ones open at their doorways, as lines in world (x, z)."""
+    p = building.parameters
+    half = p.side / 2
+    corners = [(-half, -half), (half, -half), (half, half), (-half, half)]
+    lines = [(corners[i], corners[(i + 1) % 4]) for i in range(4)]
+    for wall in building.floor.walls:
+        for a, b in (
+            (wall.start, wall.door - p.door_width / 2),
+            (wall.door + p.door_width / 2, wall.end),
+        ):
+            if wall.axis == 0:
+                lines.append(((a, wall.level), (b, wall.level)))
+            else:
+                lines.append(((wall.level, a), (wall.level, b)))
+    return lines
