@@ -1,1 +1,32 @@
-"""Furniture, vehicles, animals: built from code."""
+"""Recognisable things, built from code.
+
+Every model stands on y = 0, is centred at x = z = 0, faces −z and is 1 to 2 units long, wide or
+high. `MODELS` maps each name to its builder; a builder makes its mesh once, so scenes share it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+from renderer.geometry import Mesh
+from renderer.models import animals, furniture, seats
+
+_BUILDERS: tuple[Callable[[], Mesh], ...] = (
+    animals.cat,
+    animals.dog,
+    animals.horse,
+    animals.bird,
+    seats.chair,
+    seats.directors_chair,
+    seats.armchair,
+    seats.sofa,
+    seats.bed,
+    furniture.table,
+    furniture.lamp,
+    furniture.bookshelf,
+    furniture.piano,
+    furniture.television,
+)
+
+MODELS: dict[str, Callable[[], Mesh]] = {build.__name__: cache(build) for build in _BUILDERS}
