@@ -10,13 +10,19 @@ from collections.abc import Callable
 from functools import cache
 
 from renderer.geometry import Mesh
-from renderer.models import animals, furniture, seats
+from renderer.models import animals, cars, craft, cycles, furniture, seats
 
 _BUILDERS: tuple[Callable[[], Mesh], ...] = (
     animals.cat,
     animals.dog,
     animals.horse,
     animals.bird,
+    cycles.bike,
+    cycles.motorbike,
+    cars.car,
+    cars.truck,
+    craft.plane,
+    craft.boat,
     seats.chair,
     seats.directors_chair,
     seats.armchair,
