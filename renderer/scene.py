@@ -74,3 +74,32 @@ class Scene:
         local = np.array([o.mesh.center for o in self.objects]).reshape(-1, 3)
         moved = np.einsum("nij,nj->ni", self.transforms[:, :3, :3], local)
         return moved + self.transforms[:, :3, 3]
+
+    @cached_property
+    def corners(self) -> NDArray[np.float64]:
+        """(n, 8, 3) world corners of the mesh bounds; corner k is high in x if k & 4, y 2, z 1."""
+        bits = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)])
+        bounds = np.array([o.mesh.bounds for o in self.objects]).reshape(-1, 2, 3)
+        local = bounds[:, bits, np.arange(3)]
+        moved = np.einsum("nij,nkj->nki", self.transforms[:, :3, :3], local)
+        return moved + self.transforms[:, None, :3, 3]
+
+    @cached_property
+    def group_of(self) -> NDArray[np.int64]:
+        """(n,) number of each object's group, counted from 0 in the order of first appearance."""
+        keys = [
+            ("alone", i) if o.group is None else ("group", o.group)
+            for i, o in enumerate(self.objects)
+        ]
+        numbers: dict[tuple[str, int], int] = {}
+        return np.array([numbers.setdefault(k, len(numbers)) for k in keys], dtype=np.int64)
+
+    @cached_property
+    def group_centers(self) -> NDArray[np.float64]:
+        """(n, 3) centre of each object's group: of the box about its members' bounds (§V-B)."""
+        count = int(self.group_of.max(initial=-1)) + 1
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        np.minimum.at(low, self.group_of, self.corners.min(axis=1))
+        np.maximum.at(high, self.group_of, self.corners.max(axis=1))
+        alone = np.bincount(self.group_of, minlength=count)[self.group_of] == 1
+        return np.where(alone[:, None], self.centers, ((low + high) / 2)[self.group_of])

@@ -1,0 +1,60 @@
+"""Meshes on the GPU: each uploaded once, for all objects and scenes that share it."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from renderer.geometry import Mesh
+from renderer.silhouettes import Topology, topology
+
+FORMAT = "3f 3f 3f"
+ATTRIBUTES = ("in_position", "in_normal", "in_color")
+
+
+class GpuMesh:
+    """One mesh's buffers and, where asked for, its edges. `mirrored` turns its triangles round.
+
+    Positions are relative to the centre of the mesh's bounds: an object far from the origin
+    keeps its details in 32 bits.
+    """
+
+    def __init__(self, context: moderngl.Context, mesh: Mesh, mirrored: bool) -> None:
+        self.mesh = mesh
+        arrays = (mesh.vertices - mesh.center, mesh.normals, mesh.colors)
+        self._vertices = context.buffer(np.concatenate(arrays, axis=1).astype("f4").tobytes())
+        triangles = mesh.triangles[:, ::-1] if mirrored else mesh.triangles
+        self._indices = context.buffer(np.ascontiguousarray(triangles, dtype="i4").tobytes())
+        self._arrays: dict[int, moderngl.VertexArray] = {}
+        self._topology: Topology | None = None
+
+    @property
+    def topology(self) -> Topology:
+        """The mesh's edges, found when first asked for."""
+        if self._topology is None:
+            self._topology = topology(self.mesh)
+        return self._topology
+
+    def array(self, context: moderngl.Context, program: moderngl.Program) -> moderngl.VertexArray:
+        """The vertex array of this mesh for a program."""
+        if program.glo not in self._arrays:
+            used = [a if a in program else None for a in ATTRIBUTES]
+            layout = " ".join("3f" if a else "12x" for a in used)
+            content = [(self._vertices, layout, *[a for a in used if a])]
+            self._arrays[program.glo] = context.vertex_array(program, content, self._indices)
+        return self._arrays[program.glo]
+
+
+class MeshStore:
+    """Every mesh that this context has seen, by identity."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._meshes: dict[tuple[int, bool], GpuMesh] = {}
+
+    def get(self, mesh: Mesh, mirrored: bool) -> GpuMesh:
+        """The mesh's buffers, uploaded at its first use."""
+        key = (id(mesh), mirrored)
+        if key not in self._meshes:
+            self._meshes[key] = GpuMesh(self._context, mesh, mirrored)
+        return self._meshes[key]

@@ -1,0 +1,84 @@
+"""A scene on the GPU: one row of a texture for each object, uploaded when the scene changes."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.camera import Camera
+from renderer.gpu.meshes import GpuMesh, MeshStore
+from renderer.scene import Scene
+
+Run = tuple[GpuMesh, int, int]  # a mesh, its first row in the sequence, how many instances
+
+
+class SceneTable:
+    """The objects of one scene, and the sequence in which a frame draws them."""
+
+    def __init__(self, context: moderngl.Context, store: MeshStore, scene: Scene) -> None:
+        self.scene = scene
+        n = len(scene.objects)
+        linear = scene.transforms[:, :3, :3]
+        mirrored = np.linalg.det(linear) < 0
+        slots: dict[int, int] = {}
+        self.meshes: list[GpuMesh] = []
+        self.slot = np.zeros(n, dtype=np.int64)
+        for i, thing in enumerate(scene.objects):
+            mesh = store.get(thing.mesh, bool(mirrored[i]))
+            if id(mesh) not in slots:
+                slots[id(mesh)] = len(self.meshes)
+                self.meshes.append(mesh)
+            self.slot[i] = slots[id(mesh)]
+        self.convex = np.array([o.mesh.convex for o in scene.objects], dtype=bool)
+        rows = np.zeros((max(n, 1), 4, 4), dtype="f4")
+        rows[:n, :3, :3] = linear
+        rows[:n, 3, :3] = np.array([o.color for o in scene.objects]).reshape(n, 3)
+        self.table = _texture(context, (4, max(n, 1)))
+        self.table.write(rows.tobytes())
+        self._context = context
+        self._sequence = _texture(context, (2, max(n, 1)))
+
+    def sequence(
+        self, parts: list[NDArray[np.int64]], camera: Camera, channels: NDArray[np.float64]
+    ) -> tuple[moderngl.Texture, list[list[Run]]]:
+        """Upload the objects of all `parts`, and say which instanced draws make up each part.
+
+        Objects of one part are put together by mesh. `channels` (n,) goes with each object.
+        """
+        number = np.repeat(np.arange(len(parts)), [len(p) for p in parts])
+        objects = np.concatenate([*parts, np.zeros(0, np.int64)])
+        by_mesh = np.lexsort((objects, self.slot[objects], number))
+        objects, number = objects[by_mesh], number[by_mesh]
+        self._upload(objects, camera, channels)
+        slots = self.slot[objects]
+        starts = np.nonzero(np.diff(number, prepend=-1) | np.diff(slots, prepend=-1))[0]
+        ends = np.append(starts[1:], len(objects))
+        runs: list[list[Run]] = [[] for _ in parts]
+        for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
+            runs[number[a]].append((self.meshes[slots[a]], a, b - a))
+        return self._sequence, runs
+
+    def _upload(
+        self, objects: NDArray[np.int64], camera: Camera, channels: NDArray[np.float64]
+    ) -> None:
+        if len(objects) > self._sequence.height:
+            self._sequence.release()
+            self._sequence = _texture(self._context, (2, 2 * len(objects)))
+        rows = np.zeros((len(objects), 2, 4), dtype="f4")
+        rows[:, 0, :3] = self.scene.centers[objects] - camera.eye
+        rows[:, 0, 3] = objects
+        rows[:, 1, 0] = channels[objects]
+        if len(objects):
+            self._sequence.write(rows.tobytes(), viewport=(0, 0, 2, len(objects)))
+
+    def release(self) -> None:
+        """Give the GPU's memory back."""
+        self.table.release()
+        self._sequence.release()
+
+
+def _texture(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Texture:
+    texture = context.texture(size, 4, dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture

@@ -1,0 +1,67 @@
+"""Where a frame is drawn: colour and alpha in 16-bit float, with depth.
+
+Eight bits of alpha drift visibly over many layers: each mask and each layer rounds.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+
+class FrameTarget:
+    """A picture of a fixed size. `samples` > 0 antialiases; `ids` adds a picture of objects."""
+
+    def __init__(
+        self, context: moderngl.Context, size: tuple[int, int], samples: int = 0, ids: bool = False
+    ) -> None:
+        self.size = size
+        self._context = context
+        self._owned: list[moderngl.Texture | moderngl.Renderbuffer | moderngl.Framebuffer] = []
+        self.color = self._keep(context.texture(size, 4, dtype="f2"))
+        self.color.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        pictures: list[moderngl.Texture | moderngl.Renderbuffer] = [self.color]
+        if ids:
+            pictures.append(self._keep(context.texture(size, 1, dtype="f4")))
+        if samples:
+            smooth = self._keep(context.renderbuffer(size, 4, samples=samples, dtype="f2"))
+            depth = self._keep(context.depth_renderbuffer(size, samples=samples))
+            self.resolved = self._keep(context.framebuffer(pictures))
+            self.framebuffer = self._keep(context.framebuffer([smooth], depth))
+        else:
+            depth = self._keep(context.depth_renderbuffer(size))
+            self.framebuffer = self._keep(context.framebuffer(pictures, depth))
+            self.resolved = self.framebuffer
+
+    def _keep(self, thing):  # type: ignore[no-untyped-def]
+        self._owned.append(thing)
+        return thing
+
+    def resolve(self) -> None:
+        """Average the samples into `color`."""
+        if self.resolved is not self.framebuffer:
+            self._context.copy_framebuffer(self.resolved, self.framebuffer)
+
+    def read(self) -> NDArray[np.uint8]:
+        """(h, w, 3), row 0 on top."""
+        width, height = self.size
+        data = self.resolved.read(components=3, alignment=1, dtype="f1")
+        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1].copy()
+
+    def read_ids(self) -> NDArray[np.int64]:
+        """(h, w) object + 1, 0 where there is only background; row 0 on top."""
+        width, height = self.size
+        data = self.framebuffer.read(components=1, attachment=1, alignment=1, dtype="f4")
+        return np.frombuffer(data, "f4").reshape(height, width)[::-1].astype(np.int64)
+
+    def read_alpha(self) -> NDArray[np.float32]:
+        """(h, w) the frame's own alpha: how strongly the next object would show."""
+        width, height = self.size
+        data = self.framebuffer.read(components=4, alignment=1, dtype="f4")
+        return np.frombuffer(data, "f4").reshape(height, width, 4)[::-1, :, 3]
+
+    def release(self) -> None:
+        """Give the GPU's memory back."""
+        for thing in self._owned:
+            thing.release()
