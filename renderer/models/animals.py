@@ -95,7 +95,7 @@ def cat() -> Mesh:
     limbs += chain(
         [tuple(p) for p in tail], [0.05, 0.043, 0.04, 0.038, 0.037, 0.036, 0.03], fur, soft=0.04
     )
-    coat = body(limbs, 0.0135).tinted(dark, _stripes)
+    coat = body(limbs, 0.0215).tinted(dark, _stripes)
     inner = ball((0.036, 0.055, 0.012), pink, 10).turned("z", -14).at(0.094, 0.80, -0.438).both()
     nose = ball((0.024, 0.016, 0.016), pink, 8).at(0, 0.648, -0.597)
     whiskers = [
@@ -153,7 +153,7 @@ def dog() -> Mesh:
         )
     tail = curve([(0, 0.68, 0.46), (0, 0.80, 0.58), (0, 0.97, 0.62), (0, 1.10, 0.56)], 6)
     limbs += chain([tuple(p) for p in tail], [0.055, 0.05, 0.045, 0.04, 0.035, 0.022], saddle)
-    coat = body(limbs, 0.0185).painted(white, lambda p: (p[:, 1] > 1.02) & (p[:, 2] > 0.45))
+    coat = body(limbs, 0.027).painted(white, lambda p: (p[:, 1] > 1.02) & (p[:, 2] > 0.45))
     nose = ball((0.045, 0.036, 0.035), BLACK, 10).at(0, 0.875, -0.845)
     collar = sweep(curve_ring((0, 0.745, -0.36), (0, 0.62, -0.75), 0.15), 0.022, (0.80, 0.12, 0.10),
                    6, closed=True)  # fmt: skip
@@ -235,7 +235,7 @@ def horse() -> Mesh:
         soft=0.03,
         flat=(0.55, 1, 1),
     )
-    coat = body(limbs, 0.03).painted(WHITE, _blaze)
+    coat = body(limbs, 0.04).painted(WHITE, _blaze)
     eyes = _eyes(0.098, 1.91, -1.06, 0.025)
     nostrils = ball((0.014, 0.022, 0.022), BLACK, 8).at(0.052, 1.60, -1.395).both()
     return assemble(coat, eyes, nostrils, size=1.9)
@@ -273,7 +273,7 @@ def bird() -> Mesh:
             flat=(0.4, 1, 1),
         )
         limbs += [Limb((0.09 * s, 0.36, 0.0), (0.09 * s, 0.24, 0.0), 0.06, 0.028, breast)]
-    plumage = body(limbs, 0.0165)
+    plumage = body(limbs, 0.0235)
     bill = sweep(
         [(0, 0.845, -0.39), (0, 0.838, -0.46), (0, 0.825, -0.60)], [0.058, 0.045, 0.002], beak, 10
     )

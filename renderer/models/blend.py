@@ -55,6 +55,8 @@ def body(limbs: Sequence[Limb], cell: float) -> Shape:
     low = ends.min(axis=1) - reach * flat - margin
     high = ends.max(axis=1) + reach * flat + margin
     origin = low.min(axis=0)
+    # A grid that is its own mirror image in x = 0 gives symmetric bodies symmetric meshes.
+    origin[0] = -cell * np.ceil(max(-origin[0], high[:, 0].max()) / cell)
     count = np.ceil((high.max(axis=0) - origin) / cell).astype(int) + 2
     field = np.full(count, 4 * cell, np.float32)
     owner = np.zeros(count, np.int8)
@@ -65,12 +67,12 @@ def body(limbs: Sequence[Limb], cell: float) -> Shape:
         part = tuple(slice(a, b) for a, b in zip(first[i], last[i], strict=True))
         near = _distance(limb, *(axis[s] for axis, s in zip(axes, part, strict=True)))
         old = field[part]
-        owner[part][near < old] = i
+        np.copyto(owner[part], i, where=near < old)
         overlap = np.maximum(limb.soft - np.abs(old - near), 0)
         field[part] = np.minimum(old, near) - overlap * overlap * np.float32(0.25 / limb.soft)
     corner, triangles, cells = _surface_net(field)
     palette = np.array([limb.color for limb in limbs])
-    colors = palette[owner[tuple(cells.T)]]
+    colors = palette[owner.ravel()[cells]]
     return shape(origin + cell * corner, triangles, colors[triangles], sharp=180)
 
 
@@ -83,14 +85,23 @@ def _distance(limb: Limb, x: Field, y: Field, z: Field) -> Field:
     px = (x / np.float32(flat[0]) - np.float32(a[0]))[:, None, None]
     py = (y / np.float32(flat[1]) - np.float32(a[1]))[:, None]
     pz = z / np.float32(flat[2]) - np.float32(a[2])
+    d2 = px * px + (py * py + pz * pz)
     if length2 < 1e-12:
-        return (np.sqrt(px * px + py * py + pz * pz) - np.float32(limb.ra)) * _step(flat)
-    t = (px * along[0] + py * along[1] + pz * along[2]) * np.float32(1 / length2)
-    np.clip(t, 0, 1, out=t)
-    d2 = (px - t * along[0]) ** 2
-    d2 += (py - t * along[1]) ** 2
-    d2 += (pz - t * along[2]) ** 2
-    return (np.sqrt(d2) - (np.float32(limb.ra) + np.float32(limb.rb - limb.ra) * t)) * _step(flat)
+        return (np.sqrt(d2, out=d2) - np.float32(limb.ra)) * _step(flat)
+    # |p − t·along|² = |p|² − t·(2 p·along − t·|along|²)
+    dot = px * along[0] + (py * along[1] + pz * along[2])
+    t = np.clip(dot * np.float32(1 / length2), 0, 1)
+    dot *= 2
+    dot -= t * np.float32(length2)
+    dot *= t
+    d2 -= dot
+    np.maximum(d2, 0, out=d2)
+    np.sqrt(d2, out=d2)
+    t *= np.float32(limb.rb - limb.ra)
+    d2 -= t
+    d2 -= np.float32(limb.ra)
+    d2 *= _step(flat)
+    return d2
 
 
 def _step(flat: Array) -> np.float32:
@@ -103,40 +114,42 @@ EDGES = np.array([[a, a | bit] for bit in (1, 2, 4) for a in range(8) if not a &
 
 
 def _surface_net(field: Field) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
-    """Vertices (n, 3) in cells, triangles (m, 3), and the cell (n, 3) each vertex lies in."""
-    inside = field < 0
-    nearby = np.zeros(np.array(field.shape) - 1, np.int8)
-    for i, j, k in CORNERS:
-        nearby += inside[i : i - 1 or None, j : j - 1 or None, k : k - 1 or None]
-    cells = np.argwhere((nearby > 0) & (nearby < 8))
-    number = np.full(nearby.shape, -1)
-    number[tuple(cells.T)] = np.arange(len(cells))
-    value = field[tuple((cells[:, None] + CORNERS).transpose(2, 0, 1))]
+    """Vertices (n, 3) in cells, triangles (m, 3), and the flat index (n,) of each vertex's cell.
+
+    The border of the field lies outside, so flat indices may run over the end of a row: the cells
+    they reach by mistake are never crossed.
+    """
+    strides = np.array([field.shape[1] * field.shape[2], field.shape[2], 1])
+    offsets = CORNERS @ strides
+    inside = (field < 0).ravel()
+    nearby = np.zeros(field.size - offsets[-1], np.int8)
+    for offset in offsets:
+        nearby += inside[offset : offset + len(nearby)]
+    cells = np.flatnonzero(nearby & 7)  # neither none nor all of the eight corners
+    value = field.ravel()[cells[:, None] + offsets].astype(float)
     one, two = value[:, EDGES[:, 0]], value[:, EDGES[:, 1]]
     crossed = (one < 0) != (two < 0)
-    t = np.where(crossed, one / np.where(crossed, one - two, 1), 0)
-    start, step = CORNERS[EDGES[:, 0]], CORNERS[EDGES[:, 1]] - CORNERS[EDGES[:, 0]]
-    crossings = crossed[..., None] * (start + t[..., None] * step)
-    vertices = cells + crossings.sum(axis=1) / crossed.sum(axis=1)[:, None]
-    return vertices, _net_faces(inside, number), cells
+    t = crossed * one / np.where(crossed, one - two, 1)
+    start = CORNERS[EDGES[:, 0]].astype(float)
+    step = CORNERS[EDGES[:, 1]] - start
+    mean = (crossed @ start + t @ step) / (crossed @ np.ones(12))[:, None]
+    vertices = np.stack(np.unravel_index(cells, field.shape), axis=1) + mean
+    number = np.empty(field.size, np.int64)
+    number[cells] = np.arange(len(cells))
+    return vertices, _net_faces(inside, number, strides), cells
 
 
-def _net_faces(inside: NDArray[np.bool_], number: NDArray[np.int64]) -> NDArray[np.int64]:
+def _net_faces(
+    inside: NDArray[np.bool_], number: NDArray[np.int64], strides: NDArray[np.int64]
+) -> NDArray[np.int64]:
     """A quad, as two triangles, round each grid edge that crosses the surface."""
     faces = []
     for axis in range(3):
-        u, v = (axis + 1) % 3, (axis + 2) % 3
-        low = inside.take(range(inside.shape[axis] - 1), axis)
-        high = inside.take(range(1, inside.shape[axis]), axis)
-        at = np.argwhere(low != high)
-        outward = low[tuple(at.T)]
-        around = []
-        for du, dv in ((-1, -1), (0, -1), (0, 0), (-1, 0)):
-            cell = at.copy()
-            cell[:, u] += du
-            cell[:, v] += dv
-            around.append(number[tuple(cell.T)])
-        quad = np.stack(around, axis=1)
-        quad = np.where(outward[:, None], quad, quad[:, ::-1])
-        faces += [quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]]
+        along, u, v = (strides[(axis + i) % 3] for i in range(3))
+        at = np.flatnonzero(inside[along:] != inside[:-along])
+        outward = inside[at]
+        a, c = number[at - u - v], number[at]
+        b, d = number[at - v], number[at - u]
+        b, d = np.where(outward, b, d), np.where(outward, d, b)
+        faces += [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]
     return np.concatenate(faces)

@@ -17,6 +17,7 @@ from renderer.models.surfaces import (
     ring,
     rod,
     rounded,
+    spun,
     sweep,
 )
 from renderer.models.wheels import RUBBER, STEEL, road_wheel, spoked_wheel, tyre
@@ -97,7 +98,7 @@ def _drive(crank: tuple, rear: tuple) -> Shape:
     wheel = ring(
         [(big - 0.015, -0.002), (big, -0.002), (big, 0.002), (big - 0.015, 0.002)], STEEL, 32
     ).turned("z", 90)
-    arms = [box((0.004, 0.17, 0.014), STEEL).turned("x", a) for a in (0, 72, 144)]
+    arms = spun(box((0.004, 0.085, 0.014), STEEL).at(y=0.0425), 5)
     sprocket = disc(small, 0.006, STEEL, 20).turned("z", 90).at(x, *rear[1:])
     a = np.linspace(np.pi / 2, 3 * np.pi / 2, 16)
     one = np.stack([np.sin(a) * big + crank[1], np.cos(a) * big + crank[2]], axis=1)
@@ -111,14 +112,14 @@ def _drive(crank: tuple, rear: tuple) -> Shape:
     right = join(lever, pedal)
     left = right.turned("x", 180).mirrored()
     shaft = rod((-0.08, 0, 0), (0.08, 0, 0), 0.02, STEEL, 12)
-    return join(join(join(wheel, *arms).at(x), right, left, shaft).at(*crank), sprocket, chain)
+    return join(join(join(wheel, arms).at(x), right, left, shaft).at(*crank), sprocket, chain)
 
 
 def motorbike() -> Mesh:
     """A red motorcycle: tank, twin engine, exhausts, round lamp."""
     red, r = (0.72, 0.07, 0.08), 0.31
     front, rear = (0, r, -0.74), (0, r, 0.68)
-    tread = join(tyre(r, 0.13, 0.085, 40, 4), road_wheel(r * 0.8, 0.10, STEEL, 6).at())
+    tread = join(tyre(r, 0.13, 0.085, 40, 4), road_wheel(r * 0.8, 0.10, STEEL, 6))
     tank = pillow((0.30, 0.26, 0.56), red, 0.7, 32).bent(_tank).turned("x", 8).at(0, 0.82, -0.17)
     seat = (
         pillow((0.27, 0.12, 0.62), BLACK, 0.45, 28)

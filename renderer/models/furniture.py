@@ -6,10 +6,11 @@ import numpy as np
 
 from renderer.geometry import Mesh
 from renderer.models.seats import OAK, WALNUT, turned_leg
-from renderer.models.shapes import Color, assemble, join
+from renderer.models.shapes import Array, Color, Shape, assemble, join
 from renderer.models.surfaces import (
     ball,
     box,
+    boxes,
     copies,
     curve,
     disc,
@@ -122,29 +123,31 @@ def bookshelf() -> Mesh:
         box((w + 0.08, 0.05, d + 0.05), OAK, 0.015).at(y=h + 0.02),
         box((w, 0.08, d - 0.02), OAK).at(y=0.04),
     )
+    floors = np.linspace(0.06, h - t / 2, 5)[:4] + t / 2
+    return assemble(case, _books(w - t, floors), size=1.8)
+
+
+COVERS = np.array(
+    [(0.65, 0.12, 0.12), (0.12, 0.25, 0.52), (0.14, 0.42, 0.26), (0.85, 0.66, 0.20),
+     (0.45, 0.18, 0.42), (0.90, 0.86, 0.76), (0.20, 0.20, 0.22), (0.82, 0.40, 0.14)]
+)  # fmt: skip
+
+
+def _books(width: float, floors: Array, count: int = 17) -> Shape:
+    """Rows of upright books, each with a band round its back; always the same ones."""
     rng = np.random.default_rng(7)
-    return assemble(
-        case,
-        *(_books(rng, w - t, y + t / 2) for y in np.linspace(0.06, h - t / 2, 5)[:4]),
-        size=1.8,
+    size = rng.uniform((0.03, 0.24, 0.19), (0.065, 0.35, 0.25), (len(floors), count, 3))
+    size[..., 0] *= (width - 0.06 - 0.003 * count) / size[..., 0].sum(axis=1, keepdims=True)
+    right = np.cumsum(size[..., 0] + 0.003, axis=1) - width / 2 + 0.01
+    center = np.stack(
+        [right - size[..., 0] / 2, floors[:, None] + size[..., 1] / 2, np.full(right.shape, -0.02)],
+        -1,
     )
-
-
-def _books(rng: np.random.Generator, width: float, floor: float):
-    """A row of upright books that fills most of a shelf."""
-    colors = np.array([(0.65, 0.12, 0.12), (0.12, 0.25, 0.52), (0.14, 0.42, 0.26), (0.85, 0.66, 0.20),
-                       (0.45, 0.18, 0.42), (0.90, 0.86, 0.76), (0.20, 0.20, 0.22), (0.82, 0.40, 0.14)])  # fmt: skip
-    books, x = [], -width / 2 + 0.01
-    while x < width / 2 - 0.07:
-        thick, high, deep = rng.uniform((0.03, 0.24, 0.19), (0.065, 0.35, 0.25))
-        color = colors[rng.integers(len(colors))]
-        cover = box((thick, high, deep), color, 0.008)
-        band = box((thick + 0.002, 0.02, 0.02), (0.95, 0.85, 0.55)).at(
-            y=high * 0.3, z=-deep / 2 + 0.009
-        )
-        books.append(join(cover, band).at(x + thick / 2, floor + high / 2, -0.02))
-        x += thick + 0.003
-    return join(*books)
+    cover, place = size.reshape(-1, 3), center.reshape(-1, 3)
+    books = boxes(cover, place, COVERS[rng.integers(len(COVERS), size=len(cover))], 0.008)
+    band = np.column_stack([cover[:, 0] + 0.002, np.full(len(cover), 0.02), cover[:, 2] + 0.002])
+    gold = np.tile((0.95, 0.85, 0.55), (len(cover), 1))
+    return join(books, boxes(band, place + cover * (0, 0.3, 0), gold, 0.003))
 
 
 def piano() -> Mesh:

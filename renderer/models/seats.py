@@ -6,7 +6,18 @@ import numpy as np
 
 from renderer.geometry import Mesh
 from renderer.models.shapes import Color, Shape, assemble, join
-from renderer.models.surfaces import box, copies, curve, disc, lathe, pillow, rod, slab, sweep
+from renderer.models.surfaces import (
+    box,
+    copies,
+    curve,
+    disc,
+    lathe,
+    pillow,
+    rod,
+    rounded,
+    slab,
+    sweep,
+)
 
 OAK: Color = (0.66, 0.44, 0.22)
 WALNUT: Color = (0.36, 0.21, 0.12)
@@ -50,8 +61,6 @@ def chair() -> Mesh:
 
 def rounded_bar(width: float, height: float) -> np.ndarray:
     """(16, 2) cross-section of a flat bar with round edges, in units of its radius."""
-    from renderer.models.surfaces import rounded
-
     return rounded(2 * width, 2 * height, 0.8 * height, 3)
 
 

@@ -118,54 +118,72 @@ def shade(whole: Shape) -> Mesh:
     Normals are means of the adjacent faces weighted by area, so that large flat faces stay flat
     beside rounded edges.
     """
-    corners = whole.vertices[whole.triangles]
-    faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    label = _corner_groups(whole, faces)
-    first, vertex_of = np.unique(label, return_inverse=True)
-    weight = np.repeat(faces, 3, axis=0)
-    normals = np.stack([np.bincount(vertex_of, weight[:, i]) for i in range(3)], axis=1)
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    faces = _areas(whole)
+    most = int(np.bincount(whole.triangles.ravel()).max())
+    label = _corner_groups(_across_smooth_edges(whole, faces), most)
+    kept = label == np.arange(len(label))
+    triangles = (np.cumsum(kept) - 1)[label]
+    normals = np.stack([np.bincount(triangles, np.repeat(f, 3)) for f in faces.T], axis=1)
     return Mesh(
-        vertices=whole.vertices[whole.triangles.ravel()[first]],
-        normals=normals / length,
-        colors=np.clip(whole.colors.reshape(-1, 3)[first], 0.0, 1.0),
-        triangles=vertex_of.reshape(-1, 3).astype(np.int32),
+        vertices=whole.vertices[whole.triangles.ravel()[kept]],
+        normals=normals / _lengths(normals)[:, None],
+        colors=np.clip(whole.colors.reshape(-1, 3)[kept], 0.0, 1.0),
+        triangles=triangles.reshape(-1, 3).astype(np.int32),
     )
 
 
-def _corner_groups(whole: Shape, faces: Array) -> NDArray[np.int64]:
-    """(3m,) for each corner the lowest corner that shares its vertex, across smooth edges only."""
-    here, there = _smooth_edges(whole, faces)
-    face, k = np.divmod(here, 3)
-    face2, k2 = np.divmod(there, 3)
-    # The edge runs a→b in one face and b→a in the other.
-    one = np.concatenate([here, 3 * face + (k + 1) % 3])
-    two = np.concatenate([3 * face2 + (k2 + 1) % 3, there])
-    label = np.arange(3 * len(faces))
-    while True:
-        low = np.minimum(label[one], label[two])
-        new = label.copy()
-        np.minimum.at(new, label[one], low)
-        np.minimum.at(new, label[two], low)
-        new = new[new]
-        if (new == label).all():
-            return label
-        label = new
+def _areas(whole: Shape) -> Array:
+    """(m, 3) outward normals of the triangles, as long as twice their area."""
+    x, y, z = whole.vertices.T
+    a, b, c = whole.triangles.T
+    ux, uy, uz = x[b] - x[a], y[b] - y[a], z[b] - z[a]
+    vx, vy, vz = x[c] - x[a], y[c] - y[a], z[c] - z[a]
+    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], axis=1)
 
 
-def _smooth_edges(whole: Shape, faces: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Corners that begin the two directions of each edge across which shading runs on."""
-    start, end = whole.triangles.ravel(), np.roll(whole.triangles, -1, axis=1).ravel()
+def _lengths(vectors: Array) -> Array:
+    """(n,) of (n, 3) vectors."""
+    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+
+
+def _across_smooth_edges(whole: Shape, faces: Array) -> NDArray[np.int64]:
+    """(3m,) for each corner the next corner round its vertex, or itself where the edge is sharp.
+
+    Corner 3f + k is vertex k of triangle f; its edge leads to vertex k + 1. The triangle on the
+    other side of that edge runs it the other way, so its corner at our vertex follows that edge's
+    own corner. Edges of other than two triangles count as sharp.
+    """
+    count = 3 * len(faces)
+    following = np.arange(count).reshape(-1, 3)[:, [1, 2, 0]].ravel()
+    start = whole.triangles.ravel()
+    end = start[following]
     key = np.minimum(start, end) * len(whole.vertices) + np.maximum(start, end)
     order = np.argsort(key)
-    pair = np.flatnonzero(key[order[1:]] == key[order[:-1]])
+    same = np.concatenate([[False], np.diff(key[order]) == 0, [False]])
+    pair = np.flatnonzero(same[1:-1] & ~same[:-2] & ~same[2:])
     here, there = order[pair], order[pair + 1]
-    unit = faces / np.linalg.norm(faces, axis=1, keepdims=True)
+    unit = (faces / _lengths(faces)[:, None]).T
     f, g = here // 3, there // 3
-    smooth = (unit[f] * unit[g]).sum(axis=1) >= np.minimum(whole.crease[f], whole.crease[g])
+    cosine = sum(unit[i][f] * unit[i][g] for i in range(3))
+    smooth = cosine >= np.minimum(whole.crease[f], whole.crease[g])
     smooth &= start[here] == end[there]
-    colors = whole.colors.reshape(-1, 3)
-    following = np.roll(np.arange(len(start)).reshape(-1, 3), -1, axis=1).ravel()
-    smooth &= (colors[here] == colors[following[there]]).all(axis=1)
-    smooth &= (colors[following[here]] == colors[there]).all(axis=1)
-    return here[smooth], there[smooth]
+    color = (whole.colors.reshape(-1, 3) * 1023).astype(np.int64) @ np.array([1 << 20, 1 << 10, 1])
+    here2, there2 = following[here], following[there]
+    smooth &= (color[here] == color[there2]) & (color[here2] == color[there])
+    onward = np.arange(count)
+    onward[here[smooth]] = there2[smooth]
+    onward[there[smooth]] = here2[smooth]
+    return onward
+
+
+def _corner_groups(onward: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+    """(3m,) one corner to stand for all those that `onward` chains together.
+
+    A chain either ends, and its end stands for it, or runs round the vertex, and its lowest corner
+    does. Steps double in length, so rounds are the logarithm of the longest chain, `most` corners.
+    """
+    lowest, jump = np.arange(len(onward)), onward
+    for _ in range(int(np.ceil(np.log2(most)))):
+        lowest = np.minimum(lowest, lowest[jump])
+        jump = jump[jump]
+    return np.where(onward[jump] == jump, jump, lowest)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -247,9 +248,31 @@ def pillow(
 def copies(one: Shape, places: ArrayLike) -> Shape:
     """The shape once at each of the places (k, 3)."""
     at = np.asarray(places, float)
-    k, n = len(at), len(one.vertices)
+    return _repeated(one, one.vertices + at[:, None])
+
+
+def spun(one: Shape, count: int) -> Shape:
+    """The shape `count` times round the x axis, evenly."""
+    c, s = circle(count).T[..., None]
+    x, y, z = one.vertices.T
+    turned = np.stack([np.broadcast_to(x, (count, len(x))), c * y - s * z, s * y + c * z], axis=-1)
+    return _repeated(one, turned)
+
+
+def boxes(sizes: ArrayLike, centers: ArrayLike, colors: ArrayLike, edge: float) -> Shape:
+    """Boxes (k, 3) of colours (k, 3), their edges bevelled by `edge`."""
+    one = box((1, 1, 1), (0, 0, 0), edge, 1)
+    grown = np.sign(one.vertices) * (np.asarray(sizes, float)[:, None] - 1) / 2
+    many = _repeated(one, one.vertices + grown + np.asarray(centers, float)[:, None])
+    rgb = np.repeat(np.asarray(colors, float), len(one.triangles), axis=0)
+    return replace(many, colors=np.broadcast_to(rgb[:, None], many.colors.shape))
+
+
+def _repeated(one: Shape, vertices: Array) -> Shape:
+    """The shape's triangles over each of k sets of its vertices (k, n, 3)."""
+    k, n = vertices.shape[:2]
     return Shape(
-        (one.vertices + at[:, None]).reshape(-1, 3),
+        vertices.reshape(-1, 3),
         (one.triangles + n * np.arange(k)[:, None, None]).reshape(-1, 3),
         np.tile(one.colors, (k, 1, 1)),
         np.tile(one.crease, k),

@@ -8,7 +8,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from renderer.models.shapes import Array, Color, Shape, join
-from renderer.models.surfaces import box, circle, copies, disc, lathe, ring, rounded, tube
+from renderer.models.surfaces import (
+    box,
+    circle,
+    copies,
+    disc,
+    lathe,
+    ring,
+    rod,
+    rounded,
+    spun,
+    tube,
+)
 
 RUBBER: Color = (0.09, 0.09, 0.10)
 STEEL: Color = (0.72, 0.73, 0.76)
@@ -32,9 +43,9 @@ def road_wheel(radius: float, width: float, rim: Color = STEEL, spokes: int = 5)
     bar = box((0.2 * radius, 0.16 * width, 0.60 * radius), rim, 0.02 * radius).at(
         y=0.28 * width, z=0.3 * radius
     )
-    arms = [bar.turned("y", 360 * i / spokes) for i in range(spokes)]
     hub = disc(0.19 * radius, 0.2 * width, rim, 16, 0.03 * radius).at(y=0.32 * width)
-    return join(tyre(radius, width, 0.33 * radius), join(dish, *arms, hub).turned("z", -90))
+    arms = spun(bar.turned("z", -90), spokes)
+    return join(tyre(radius, width, 0.33 * radius), join(dish, hub).turned("z", -90), arms)
 
 
 def plate(corners: ArrayLike, thickness: float, color: Color) -> Shape:
@@ -102,21 +113,26 @@ def wing(
 
 def spoked_wheel(radius: float, depth: float, width: float, spokes: int, hub: float) -> Shape:
     """A bicycle's wheel about the x axis: tyre, rim and thin spokes crossed to both hub flanges."""
-    from renderer.models.surfaces import rod
-
     tread = tyre(radius, width, depth, 40, 2)
     inner = radius - depth
     rim = ring(rounded(0.5 * depth, width * 0.8, 0.1 * depth, 1) + (inner, 0), STEEL, 40).turned(
         "z", 90
     )
-    wires = []
-    for i in range(spokes):
-        a = 2 * np.pi * i / spokes
-        b = a + (0.5 if i % 4 < 2 else -0.5)
-        side = hub if i % 2 else -hub
-        start = (side, 0.04 * radius * np.cos(b), 0.04 * radius * np.sin(b))
-        end = (0, inner * np.cos(a), inner * np.sin(a))
-        wires.append(rod(start, end, 0.006 * radius, STEEL, 4))
+    wires = [_spoke(2 * np.pi * i / spokes, i, hub, radius, inner) for i in range(4)]
     axle = disc(0.05 * radius, 2.6 * hub, STEEL, 12).turned("z", 90)
     flange = disc(0.075 * radius, 0.3 * hub, STEEL, 12).turned("z", 90)
-    return join(tread, rim, *wires, axle, copies(flange, [(hub, 0, 0), (-hub, 0, 0)]))
+    return join(
+        tread,
+        rim,
+        spun(join(*wires), spokes // 4),
+        axle,
+        copies(flange, [(hub, 0, 0), (-hub, 0, 0)]),
+    )
+
+
+def _spoke(angle: float, i: int, hub: float, radius: float, inner: float) -> Shape:
+    """The i-th of four spokes: flanges alternate, pairs cross."""
+    leave = angle + (0.5 if i < 2 else -0.5)
+    start = (hub if i % 2 else -hub, 0.04 * radius * np.cos(leave), 0.04 * radius * np.sin(leave))
+    end = (0, inner * np.cos(angle), inner * np.sin(angle))
+    return rod(start, end, 0.006 * radius, STEEL, 4)
