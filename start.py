@@ -51,7 +51,7 @@ OPENGL = {
     "dnf": ["mesa-dri-drivers", "mesa-libEGL", "mesa-libGL", "libX11", "libXext"],
     "pacman": ["mesa", "libglvnd", "libx11", "libxext"],
 }
-VENV_MODULE = {"apt-get": [f"python{sys.version_info[0]}.{sys.version_info[1]}-venv"]}
+VENV_MODULE = {"apt-get": ["python{}.{}-venv".format(*sys.version_info)]}  # others ship it
 
 # Prints what is missing. A process of its own runs it: a driver once loaded stays loaded.
 OPENGL_PROBE = """
@@ -166,34 +166,33 @@ def why(output: str) -> str:
     if any(sign in output for sign in NO_NETWORK):
         return "there is no network: connect this machine, then run this again"
     lines = [line.strip() for line in output.splitlines() if line.strip()]
-    errors = [line for line in lines if line.lower().startswith(("error", "e:"))]
+    errors = [line for line in lines if line.startswith(("ERROR:", "E:", "Error:"))]
     return f"{(errors or lines or ['it said nothing'])[-1]} (all of it: {os.path.relpath(LOG)})"
+
+
+def ask(*command: str) -> subprocess.CompletedProcess:
+    """What a quick command answers."""
+    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 def as_root() -> list[str] | None:
     """What to put before a command so that it runs as root, or None where that may not be."""
     if os.geteuid() == 0:
         return []
-    ask = ["sudo", "-n", "true"]
-    if (
-        shutil.which("sudo")
-        and not subprocess.run(ask, capture_output=True, check=False).returncode
-    ):
-        return ["sudo", "-n"]
-    return None
+    may = shutil.which("sudo") and ask("sudo", "-n", "true").returncode == 0
+    return ["sudo", "-n"] if may else None
 
 
 def install_system(what: str, packages: dict[str, list[str]]) -> None:
     """Install `packages[manager]`; Stop, saying what to type, where this user may not."""
-    manager = next((name for name in MANAGERS if shutil.which(name) and name in packages), None)
-    if manager is None:
-        raise Stop(f"{what} is missing: install it with this system's package manager")
+    manager = next(filter(shutil.which, packages), "")
+    if not manager:
+        raise Stop(f"missing: {what}; install it with this system's package manager")
     update, install = MANAGERS[manager]
     install = [*install, *packages[manager]]
     prefix = as_root()
     if prefix is None:
-        typed = " ".join(["sudo", manager, *install])
-        raise Stop(f"{what} is missing, and installing it needs an administrator: {typed}")
+        raise Stop(f"missing: {what}; an administrator types: sudo {manager} {' '.join(install)}")
     for words in filter(None, (update, install)):
         command = [*prefix, manager, *words]
         status, output = run_logged(command, f"{what}: {manager} {' '.join(words)}")
@@ -203,17 +202,21 @@ def install_system(what: str, packages: dict[str, list[str]]) -> None:
 
 def opengl_missing() -> str:
     """The first library of OpenGL and X11 that does not load, "" if all do and a driver starts."""
-    command = [sys.executable, "-c", OPENGL_PROBE]
-    return subprocess.run(command, capture_output=True, text=True, check=False).stderr.strip()
+    return ask(sys.executable, "-c", OPENGL_PROBE).stderr.strip()
 
 
-def need_opengl() -> None:
-    """OpenGL and a window's library on Linux; other systems bring theirs."""
-    if sys.platform == "linux" and opengl_missing():
-        install_system("OpenGL", OPENGL)
-        missing = opengl_missing()
-        if missing:
-            say(f"{missing} still does not work: drawing may fail")
+def need_system(usable: bool) -> None:
+    """What only the system has (Linux): OpenGL, a window's library, what makes an environment."""
+    if sys.platform != "linux":
+        return
+    needs = {"OpenGL": OPENGL} if opengl_missing() else {}
+    if not usable and not importlib.util.find_spec("ensurepip"):
+        needs["Python's venv module"] = VENV_MODULE
+    if needs:
+        wanted = {name: [p for of in needs.values() for p in of.get(name, [])] for name in MANAGERS}
+        install_system(" and ".join(needs), wanted)
+        if opengl_missing():
+            say(f"{opengl_missing()} still does not work: drawing may fail")
 
 
 def need_test_programs() -> None:
@@ -231,7 +234,7 @@ def need_test_programs() -> None:
         try:
             install_system("what the tests open windows and pages with", wanted)
         except Stop as stop:
-            say(f"{stop}; the tests that need it will fail")
+            say(f"{stop} (tests that need it will fail)")
 
 
 def check_platform() -> None:
@@ -254,16 +257,16 @@ def is_usable() -> bool:
         return False
     if not os.path.exists(PYTHON):
         return False
-    command = [PYTHON, "-c", "import pip, sys; print(sys.implementation.cache_tag)"]
-    answer = subprocess.run(command, capture_output=True, text=True, check=False).stdout
-    return answer.strip() == sys.implementation.cache_tag
+    answer = ask(PYTHON, "-c", "import pip, sys; print(sys.implementation.cache_tag)")
+    return answer.stdout.strip() == sys.implementation.cache_tag
 
 
 def begin_environment() -> bool:
     """Mark .venv as unfinished, emptied first if it is not usable; returns whether it is."""
     usable = is_usable()
     if not usable and os.path.isdir(VENV):
-        say("the environment in .venv is unfinished or another Python's: making it again")
+        if os.path.lexists(PYTHON):
+            say("the environment in .venv is unfinished or another Python's: making it again")
         shutil.rmtree(VENV)
     os.makedirs(VENV, exist_ok=True)
     with open(UNFINISHED, "w", encoding="utf-8") as file:
@@ -273,8 +276,6 @@ def begin_environment() -> bool:
 
 def make_environment() -> None:
     """An empty environment in .venv, with pip."""
-    if not all(importlib.util.find_spec(name) for name in ("venv", "ensurepip")):
-        install_system("Python's venv module", VENV_MODULE)
     python = getattr(sys, "_base_executable", None) or sys.executable
     status, output = run_logged([python, "-m", "venv", VENV], "making the environment .venv")
     if status:
@@ -334,7 +335,7 @@ def set_up(extras: str) -> None:
         stamp = read_stamp()
         extras = extras or (stamp[2] if stamp else "")
         usable = begin_environment()
-        need_opengl()
+        need_system(usable)
         if not usable:
             make_environment()
         install_packages(extras, lock)
