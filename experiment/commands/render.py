@@ -1,0 +1,101 @@
+"""`seethrough render`: draw a scene into a picture, without a window."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from experiment.errors import InputError
+from renderer.camera import Camera
+from renderer.plan import Technique
+from renderer.scene import Scene
+from renderer.techniques.dynamic import DynamicTransparency
+from renderer.techniques.standard import Standard
+from tasks.abstract_scene import abstract_scene
+from tasks.building import unique_building
+from tasks.controls import orbit, walk
+from tasks.parameters import AbstractParameters, BuildingParameters
+
+HELP = "draw a scene into a picture"
+
+TECHNIQUES: dict[str, Callable[[], Technique]] = {
+    "standard": Standard,
+    "dynamic": DynamicTransparency,
+}
+
+
+def abstract(seed: int, aspect: float) -> tuple[Scene, Camera]:
+    """A world of the counting task, from where its trial begins."""
+    parameters = AbstractParameters()
+    scene = abstract_scene(np.random.default_rng(seed), parameters)
+    return scene, orbit(parameters, aspect).camera()
+
+
+def walkthrough(seed: int, aspect: float) -> tuple[Scene, Camera]:
+    """A building of the search task, from where its trial begins."""
+    parameters = BuildingParameters()
+    building = unique_building(np.random.default_rng(seed), parameters)
+    return building.scene, walk(parameters, building.start).camera()
+
+
+SCENES: dict[str, Callable[[int, float], tuple[Scene, Camera]]] = {
+    "abstract": abstract,
+    "walkthrough": walkthrough,
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.add_argument("scene", choices=sorted(SCENES), help="what to draw")
+    parser.add_argument("--technique", choices=sorted(TECHNIQUES), default="dynamic")
+    parser.add_argument("--out", required=True, type=Path, help="the picture, a .png file")
+    parser.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
+    parser.add_argument("--seed", type=int, default=1, help="of the scene, ≥ 0")
+    parser.add_argument("--samples", type=int, default=0, help="for antialiasing, 0 to 16")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Draw, write the picture, and say in a line what the frame took."""
+    size = _size(args.size)
+    out = _writable(args.out)
+    if args.seed < 0:
+        raise InputError(f"--seed = {args.seed}: expected a number ≥ 0")
+    if not 0 <= args.samples <= 16:
+        raise InputError(f"--samples = {args.samples}: expected a number from 0 to 16")
+    from PIL import Image
+
+    from renderer.gpu.context import standalone
+    from renderer.gpu.renderer import Renderer
+
+    scene, camera = SCENES[args.scene](args.seed, size[0] / size[1])
+    try:
+        renderer = Renderer(standalone(), size, args.samples)
+    except RuntimeError as error:
+        raise InputError(str(error)) from error
+    stats = renderer.draw(scene, camera, TECHNIQUES[args.technique]())
+    Image.fromarray(renderer.read()).save(out)
+    print(
+        f"{out}: {len(scene.objects)} objects, {stats.passes} passes, {stats.draws} draws, "
+        f"{stats.masks} masks, {stats.ordered} objects put in order"
+    )
+    return 0
+
+
+def _size(text: str) -> tuple[int, int]:
+    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
+    size = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not all(1 <= s <= 8192 for s in size):
+        raise InputError(f"--size = {text}: expected WIDTHxHEIGHT, each from 1 to 8192, as 800x600")
+    return size
+
+
+def _writable(out: Path) -> Path:
+    if out.suffix.lower() != ".png":
+        raise InputError(f"--out = {out}: expected a name that ends in .png")
+    if not out.parent.is_dir():
+        raise InputError(f"--out = {out}: expected an existing folder, there is no {out.parent}")
+    return out

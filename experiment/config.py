@@ -1,0 +1,236 @@
+"""One TOML file is a study: read, checked, frozen. Every message about a config is made here."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import tomllib
+from collections.abc import Mapping, Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+
+from experiment.design import Factors
+from experiment.errors import InputError
+from experiment.parameter_tables import from_table
+from renderer.techniques.dynamic import DynamicTransparency
+from tasks.parameters import AbstractParameters, BuildingParameters
+
+TaskName = Literal["count", "pattern", "unique", "count_in_building"]
+TASK_SCENARIO: Mapping[str, str] = {
+    "count": "abstract",
+    "pattern": "abstract",
+    "unique": "walkthrough",
+    "count_in_building": "walkthrough",
+}
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class StudyTable(_Table):
+    """[study]: what it is."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9]{1,32}$")]
+    title: Annotated[str, Field(min_length=1, max_length=200)]
+    description: Annotated[str, Field(min_length=1)]
+    participants: Annotated[int, Field(ge=1, le=10_000)]
+    seed: Annotated[int, Field(ge=0, lt=2**63)]
+    language: Annotated[str, Field(pattern=r"^[a-z]{2}$")] = "en"
+
+
+class DesignTable(_Table):
+    """[design]: what is crossed, and how often."""
+
+    transparency: Annotated[
+        tuple[Literal["standard", "dynamic"], ...], Field(min_length=1, max_length=2)
+    ] = ("standard", "dynamic")
+    tasks: Annotated[tuple[TaskName, ...], Field(min_length=1)] = (
+        "count",
+        "pattern",
+        "unique",
+        "count_in_building",
+    )
+    trials: Annotated[int, Field(ge=1, le=100)] = 3
+    training: Annotated[int, Field(ge=0, le=20)] = 1
+
+    @field_validator("transparency", "tasks", mode="before")
+    @classmethod
+    def _from_array(cls, value: Any) -> Any:
+        return tuple(value) if isinstance(value, list) else value
+
+    @field_validator("transparency", "tasks")
+    @classmethod
+    def _once(cls, value: tuple[str, ...]) -> tuple[str, ...]:
+        if len(set(value)) < len(value):
+            raise ValueError("each name once")
+        return value
+
+    def factors(self) -> Factors:
+        """The design's factors, tasks grouped by scenario in the order of the scenarios."""
+        scenarios = ("abstract", "walkthrough")
+        tasks = {s: tuple(t for t in self.tasks if TASK_SCENARIO[t] == s) for s in scenarios}
+        present = {s: ts for s, ts in tasks.items() if ts}
+        return Factors(self.transparency, present, self.trials, self.training)
+
+
+class DisplayTable(_Table):
+    """[display]: the window, in pixels, and what it promises."""
+
+    width: Annotated[int, Field(ge=1, le=8192)] = 800
+    height: Annotated[int, Field(ge=1, le=8192)] = 600
+    fullscreen: bool = False
+    refresh: Annotated[float, Field(ge=10, le=1000, strict=False)] = 60.0
+    samples: Literal[0, 2, 4, 8] = 0
+
+
+class SessionTable(_Table):
+    """[session]: limits in seconds; 0 is none. Training ends at its limit (004 §VI-G)."""
+
+    training_limit: Annotated[float, Field(ge=0, strict=False)] = 300.0
+    trial_limit: Annotated[float, Field(ge=0, strict=False)] = 0.0
+    session_limit: Annotated[float, Field(ge=0, strict=False)] = 4800.0
+    questionnaire: bool = True
+
+
+class AnalysisTable(_Table):
+    """[analysis]: what is decided before anybody is invited; the report lists deviations."""
+
+    alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
+    tests: tuple[str, ...] = ()
+    exclude: tuple[str, ...] = ()
+
+    @field_validator("tests", "exclude", mode="before")
+    @classmethod
+    def _from_array(cls, value: Any) -> Any:
+        return tuple(value) if isinstance(value, list) else value
+
+
+class Study(_Table):
+    """A whole study, checked."""
+
+    study: StudyTable
+    design: DesignTable = DesignTable()
+    abstract: Annotated[AbstractParameters, from_table(AbstractParameters)] = AbstractParameters()
+    walkthrough: Annotated[BuildingParameters, from_table(BuildingParameters)] = (
+        BuildingParameters()
+    )
+    dynamic: Annotated[DynamicTransparency, from_table(DynamicTransparency)] = DynamicTransparency()
+    display: DisplayTable = DisplayTable()
+    session: SessionTable = SessionTable()
+    analysis: AnalysisTable = AnalysisTable()
+    texts: dict[str, str] = {}
+
+    def resolved(self) -> dict[str, Any]:
+        """Every value, defaults included, as plain JSON types."""
+        return json.loads(self.model_dump_json())
+
+    def digest(self) -> str:
+        """SHA-256 of the resolved study: two sessions with the same digest ran the same study."""
+        text = json.dumps(self.resolved(), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+
+def shipped() -> dict[str, Path]:
+    """Name → file of the studies that ship in configs/."""
+    folder = Path(str(resources.files("configs")))
+    return {p.stem: p for p in sorted(folder.glob("*.toml"))}
+
+
+def find(name: str) -> Path:
+    """The config file for a path or a shipped study's name. Raises InputError."""
+    path = Path(name)
+    if path.is_file():
+        return path
+    if path.name == name and name in shipped():
+        return shipped()[name]
+    if path.parent == Path("configs") and path.stem in shipped() and path.suffix == ".toml":
+        return shipped()[path.stem]
+    raise InputError(
+        f"{name}: no such file; expected a TOML file or one of: {', '.join(shipped())}"
+    )
+
+
+def load(name: str) -> Study:
+    """Read and check a study. Raises InputError with file, key, value and what was expected."""
+    path = find(name)
+    try:
+        table = tomllib.loads(path.read_bytes().decode("utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: byte {error.start} is not UTF-8") from None
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(f"{path}: not valid TOML: {_one_line(str(error))}") from None
+    return parse(table, str(path))
+
+
+def parse(table: Mapping[str, Any], file: str) -> Study:
+    """Check a study that is already a table; `file` is named in messages. Raises InputError."""
+    try:
+        return Study.model_validate(dict(table))
+    except ValidationError as error:
+        raise InputError(f"{file}: {_message(error, table)}") from None
+
+
+def _message(error: ValidationError, table: Mapping[str, Any]) -> str:
+    """The first problem: key = value: what was expected (and how many more there are)."""
+    problems = error.errors(include_url=False)
+    first = problems[0]
+    key = _key(first["loc"], table)
+    more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
+    kind = first["type"]
+    if kind == "missing":
+        return f"{key}: missing, expected a value{more}"
+    if kind == "extra_forbidden":
+        return f"{key} = {_show(first['input'])}: unknown key{more}"
+    reason = _plain(first["msg"])
+    if kind == "value_error" and " = " in reason:
+        # The parameters check themselves, and name the field and the value.
+        return f"{key}.{reason.replace(', expected ', ': expected ', 1)}{more}"
+    return f"{key} = {_show(first['input'])}: expected {reason}{more}"
+
+
+# pydantic's words → ours, in this order.
+_WORDS = (
+    ("Value error, ", ""),
+    ("Input should be ", ""),
+    ("String should match pattern", "text that matches"),
+    ("Tuple should have", ""),
+    (" after validation", ""),
+    ("a valid dictionary or instance of", "a table, as"),
+    ("an instance of", "a table, as"),
+    ("should ", ""),
+)
+
+
+def _plain(message: str) -> str:
+    for theirs, ours in _WORDS:
+        message = message.replace(theirs, ours)
+    return _one_line(message)
+
+
+def _key(location: Sequence[int | str], table: Mapping[str, Any]) -> str:
+    """The dotted key as the file has it: pydantic adds names of types, which no file has."""
+    parts: list[str] = []
+    here: Any = table
+    for i, part in enumerate(location):
+        if isinstance(part, int):
+            parts[-1:] = [f"{parts[-1]}[{part}]"] if parts else [f"[{part}]"]
+            here = here[part] if isinstance(here, Sequence) and part < len(here) else None
+        elif i == len(location) - 1 or (isinstance(here, Mapping) and part in here):
+            parts.append(str(part))
+            here = here.get(part) if isinstance(here, Mapping) else None
+    return ".".join(parts) or "the file"
+
+
+def _show(value: Any) -> str:
+    text = _one_line(json.dumps(value, default=str, ensure_ascii=False))
+    return text if len(text) <= 60 else text[:57] + "…"
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())

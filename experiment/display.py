@@ -1,0 +1,41 @@
+"""What a session needs of the world: Protocols, so that window, offscreen and tests are alike."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from experiment.pages import Answers, Page
+from tasks.base import View
+from tasks.events import Event
+
+
+class Leave(Exception):
+    """The participant or the experimenter ends the session now."""
+
+
+class Display(Protocol):
+    """Shows views."""
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of the view."""
+
+    def show(self, view: View, technique: Any) -> float:
+        """Draw and flip; the time of the flip."""
+
+    def describe(self) -> Mapping[str, str]:
+        """Driver, size, refresh: for the sidecar."""
+
+
+class Input(Protocol):
+    """Brings what the participant does."""
+
+    def begin_trial(self, task: str, training: bool) -> None:
+        """A trial of `task` is about to show its first view."""
+
+    def events(self, view: View) -> list[Event]:
+        """What happened until the next frame is due, ending with a Tick; waits for it."""
+
+    def ask(self, page: Page) -> Answers:
+        """Show a page until it is answered. Raises Leave if the session is to end."""

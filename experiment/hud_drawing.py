@@ -1,0 +1,124 @@
+"""Draws tasks/hud.py's elements over a view, with imgui's draw list."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from experiment.interface import Interface
+from experiment.texts import Texts
+from tasks.hud import Button, Element, Entry, FloorPlan, Inset, Label, Rect
+
+
+def _rgba(red: float, green: float, blue: float, alpha: float = 1.0) -> int:
+    return imgui.color_convert_float4_to_u32(imgui.ImVec4(red, green, blue, alpha))
+
+
+INK, PAPER, VEIL = (0.08, 0.09, 0.11), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0, 0.82)
+ACCENT, MARK, GREY = (0.16, 0.40, 0.70), (0.85, 0.10, 0.10), (0.55, 0.58, 0.62)
+
+
+class HudDrawing:
+    """Draws elements at a height of `scale` pixels a view unit."""
+
+    def __init__(
+        self,
+        interface: Interface,
+        texts: Texts,
+        scale: float,
+        inset: Callable[[int, Inset], int],
+    ) -> None:
+        self.interface = interface
+        self.texts = texts
+        self.scale = scale
+        self.inset = inset
+        self.list = imgui.get_foreground_draw_list()
+
+    def draw(self, elements: tuple[Element, ...]) -> None:
+        """All elements, first to last."""
+        insets = 0
+        for element in elements:
+            match element:
+                case Label():
+                    self._label(element)
+                case Button():
+                    self._button(element)
+                case Entry():
+                    self._entry(element)
+                case FloorPlan():
+                    self._plan(element)
+                case Inset():
+                    self._inset(insets, element)
+                    insets += 1
+
+    def draw_pointer(self, at: tuple[float, float]) -> None:
+        """A ring where a simulated participant points."""
+        center = imgui.ImVec2(at[0] * self.scale, at[1] * self.scale)
+        self.list.add_circle(center, 0.014 * self.scale, _rgba(*MARK), 0, 3.0)
+
+    def _corners(self, rect: Rect) -> tuple[imgui.ImVec2, imgui.ImVec2]:
+        s = self.scale
+        return (
+            imgui.ImVec2(rect.x * s, rect.y * s),
+            imgui.ImVec2((rect.x + rect.width) * s, (rect.y + rect.height) * s),
+        )
+
+    def _write(self, text: str, x: float, y: float, size: float, color: int) -> None:
+        imgui.push_font(self.interface.regular, size * self.scale)
+        self.list.add_text(imgui.ImVec2(x * self.scale, y * self.scale), color, text)
+        imgui.pop_font()
+
+    def _width(self, text: str, size: float) -> float:
+        imgui.push_font(self.interface.regular, size * self.scale)
+        width = imgui.calc_text_size(text).x / self.scale
+        imgui.pop_font()
+        return width
+
+    def _label(self, label: Label) -> None:
+        text = self.texts.fill(label.text, label.values)
+        width = self._width(text, label.size)
+        x, y = label.at
+        x -= width / 2 if label.align == "center" else 0
+        pad = 0.3 * label.size
+        back = Rect(x - pad, y - pad / 2, width + 2 * pad, label.size + pad)
+        self.list.add_rect_filled(*self._corners(back), _rgba(*VEIL), pad * self.scale)
+        self._write(text, x, y, label.size, _rgba(*INK))
+
+    def _button(self, button: Button) -> None:
+        fill, ink = (ACCENT, PAPER) if button.chosen else (PAPER, INK)
+        round_, size = 0.008 * self.scale, 0.55 * button.rect.height
+        self.list.add_rect_filled(*self._corners(button.rect), _rgba(*fill), round_)
+        self.list.add_rect(*self._corners(button.rect), _rgba(*GREY), round_)
+        text = self.texts.get(button.text)
+        size = min(size, size * 0.9 * button.rect.width / max(self._width(text, size), 1e-6))
+        x = button.rect.x + (button.rect.width - self._width(text, size)) / 2
+        y = button.rect.y + (button.rect.height - size) / 2
+        self._write(text, x, y, size, _rgba(*ink))
+
+    def _entry(self, entry: Entry) -> None:
+        self.list.add_rect_filled(*self._corners(entry.rect), _rgba(*PAPER))
+        self.list.add_rect(*self._corners(entry.rect), _rgba(*ACCENT), 0.0, thickness=2.0)
+        size = 0.7 * entry.rect.height
+        y = entry.rect.y + 0.15 * entry.rect.height
+        self._write(entry.text + "|", entry.rect.x + 0.3 * size, y, size, _rgba(*INK))
+
+    def _inset(self, number: int, inset: Inset) -> None:
+        name = self.inset(number, inset)
+        reference = imgui.ImTextureRef(name)
+        # Framebuffer pictures have their first row at the bottom.
+        low, high = imgui.ImVec2(0, 1), imgui.ImVec2(1, 0)
+        self.list.add_image(reference, *self._corners(inset.rect), low, high)
+        self.list.add_rect(*self._corners(inset.rect), _rgba(*GREY), thickness=2.0)
+
+    def _plan(self, plan: FloorPlan) -> None:
+        self.list.add_rect_filled(*self._corners(plan.rect), _rgba(*PAPER))
+        s = self.scale
+        for (x0, y0), (x1, y1) in plan.walls:
+            self.list.add_line(
+                imgui.ImVec2(x0 * s, y0 * s), imgui.ImVec2(x1 * s, y1 * s), _rgba(*INK), 2.0
+            )
+        if plan.mark is not None:
+            center = imgui.ImVec2(plan.mark[0] * s, plan.mark[1] * s)
+            self.list.add_circle_filled(center, 0.010 * s, _rgba(*MARK))
+            self.list.add_circle(center, 0.018 * s, _rgba(*MARK), 0, 2.0)

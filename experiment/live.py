@@ -1,0 +1,67 @@
+"""A session in a window, wired: the only place that builds everything for a person."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from numpy.random import Generator
+
+from experiment.clock import RealClock
+from experiment.config import Study
+from experiment.display import Input
+from experiment.provenance import provenance
+from experiment.recorder import FileRecorder, Who
+from experiment.session import World, run_session
+from experiment.texts import Texts
+from experiment.trial import TrialRecord
+from experiment.window import Window
+from tasks.catalog import TASKS
+
+
+def play_in_window(
+    study: Study,
+    participant: str,
+    slot: int,
+    source: str,
+    data: Path,
+    clock: RealClock,
+    watched: Generator | None = None,
+) -> str:
+    """Play a slot's session in a window: `complete` or `left`. Raises InputError.
+
+    With `watched`, the stream of a simulated participant, it plays and somebody looks on;
+    without, the window's own events count.
+    """
+    texts = Texts(study.study.language, study.texts)
+    window = Window(study.display, texts, clock, study.study.title)
+    try:
+        described = provenance(study, window.describe(), speed=clock.speed)
+        who = Who(study.study.name, participant, source, slot, described)
+        person: Input = window if watched is None else _simulated(watched, window)
+        recorder = FileRecorder(data, who)
+        world = World(window, person, clock, recorder, TASKS, say)
+        return run_session(study, slot, world)
+    finally:
+        window.close()
+
+
+def _simulated(stream: Generator, window: Window) -> Input:
+    from experiment.looking import Looking
+    from experiment.participants.participant import SimulatedParticipant
+    from experiment.watched_input import WatchedInput
+
+    looking = Looking(window.context, window.aspect)
+    return WatchedInput(SimulatedParticipant(stream), window, looking)
+
+
+def say(record: TrialRecord) -> None:
+    """One line on standard error for the experimenter."""
+    trial, outcome = record.trial, record.outcome
+    answer = outcome.answer if outcome else "timed out"
+    print(
+        f"trial {trial.number:3d} {trial.transparency:9s}{trial.task:18s}{answer:>6s} "
+        f"{record.time:6.1f} s, {record.frames_missed}/{record.frames} frames missed",
+        file=sys.stderr,
+        flush=True,
+    )

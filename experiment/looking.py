@@ -1,0 +1,32 @@
+"""How a simulated participant's eyes get at what is drawn: a small id picture of the view."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from renderer.gpu.renderer import Renderer
+from renderer.visibility import Visibility
+from tasks.base import View
+
+HEIGHT = 150  # pixels of the id picture
+
+
+class Looking:
+    """Looks at views of one aspect ratio; a view that did not change is drawn only once."""
+
+    def __init__(self, context: Any, aspect: float) -> None:
+        self.size = (round(HEIGHT * aspect), HEIGHT)
+        self._renderer = Renderer(context, self.size)
+        self._seen: tuple[Any, Any, Any, Visibility] | None = None
+        self.technique: Any = None
+        self.looks = 0
+
+    def look(self, view: View) -> Visibility:
+        """What can be seen in `view`, drawn with `technique`."""
+        seen, technique = self._seen, self.technique
+        if seen and (seen[0] is view.scene and seen[1] is view.camera and seen[2] is technique):
+            return seen[3]
+        visibility = self._renderer.look(view.scene, view.camera, technique, self.size)
+        self._seen = (view.scene, view.camera, technique, visibility)
+        self.looks += 1
+        return visibility

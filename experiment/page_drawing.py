@@ -1,0 +1,128 @@
+"""Draws a page as a form and keeps what is filled in; mouse alone or keyboard alone will do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from imgui_bundle import imgui
+
+from experiment.interface import Interface
+from experiment.pages import Answers, Choice, Page, Paragraph, Picture, Scale, TextField
+from experiment.texts import Texts
+
+COLUMN = 1.05  # widest text column, in heights of the screen
+
+
+@dataclass
+class Form:
+    """A page while it is being filled in."""
+
+    page: Page
+    answers: Answers = field(default_factory=dict)
+    fresh: bool = True
+
+    @property
+    def complete(self) -> bool:
+        """Whether every scale and choice has an answer."""
+        return all(name in self.answers for name in self.page.required)
+
+
+class PageDrawing:
+    """Draws forms at a height of `scale` pixels."""
+
+    def __init__(
+        self, interface: Interface, texts: Texts, picture: Callable[[Picture, int, int], int]
+    ) -> None:
+        self.interface = interface
+        self.texts = texts
+        self.picture = picture
+
+    def draw(self, form: Form, width: int, height: int) -> bool:
+        """Draw; whether a button was pressed (then answers["button"] says which)."""
+        column = min(COLUMN * height, 0.9 * width)
+        imgui.set_next_window_pos(imgui.ImVec2(0, 0))
+        imgui.set_next_window_size(imgui.ImVec2(width, height))
+        flags = imgui.WindowFlags_
+        style = imgui.get_style()
+        style.window_padding = imgui.ImVec2((width - column) / 2, 0.06 * height)
+        style.item_spacing = imgui.ImVec2(0.012 * height, 0.016 * height)
+        style.frame_padding = imgui.ImVec2(0.022 * height, 0.012 * height)
+        imgui.push_font(self.interface.regular, 0.034 * height)
+        imgui.begin(
+            "page",
+            None,
+            flags.no_decoration & ~flags.no_scrollbar | flags.no_move | flags.no_saved_settings,
+        )
+        imgui.push_font(self.interface.bold, 0.058 * height)
+        imgui.text_wrapped(self.texts.get(form.page.title))
+        imgui.pop_font()
+        imgui.dummy(imgui.ImVec2(0, 0.01 * height))
+        for block in form.page.blocks:
+            self._block(block, form, column, height)
+        imgui.dummy(imgui.ImVec2(0, 0.01 * height))
+        pressed = self._buttons(form)
+        imgui.end()
+        imgui.pop_font()
+        form.fresh = False
+        return pressed
+
+    def _block(self, block: object, form: Form, column: float, height: int) -> None:
+        match block:
+            case Paragraph():
+                imgui.text_wrapped(self.texts.fill(block.text, block.values))
+            case Scale():
+                self._scale(block, form)
+            case Choice():
+                self._choice(block, form)
+            case TextField():
+                self._text_field(block, form, column, height)
+            case Picture():
+                wide, high = int(0.45 * height * 4 / 3), int(0.45 * height)
+                reference = imgui.ImTextureRef(self.picture(block, wide, high))
+                size = imgui.ImVec2(wide, high)
+                imgui.image(reference, size, imgui.ImVec2(0, 1), imgui.ImVec2(1, 0))
+
+    def _scale(self, scale: Scale, form: Form) -> None:
+        imgui.text_wrapped(self.texts.fill(scale.text, scale.values))
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled(self.texts.get(scale.low))
+        for step in range(scale.steps):
+            imgui.same_line()
+            chosen = form.answers.get(scale.name) == str(step)
+            if imgui.radio_button(f"{step}##{scale.name}", chosen):
+                form.answers[scale.name] = str(step)
+        imgui.same_line()
+        imgui.text_disabled(self.texts.get(scale.high))
+
+    def _choice(self, choice: Choice, form: Form) -> None:
+        imgui.text_wrapped(self.texts.get(choice.text))
+        for number, option in enumerate(choice.options):
+            chosen = form.answers.get(choice.name) == str(number)
+            if imgui.radio_button(f"{self.texts.get(option)}##{choice.name}", chosen):
+                form.answers[choice.name] = str(number)
+
+    def _text_field(self, field_: TextField, form: Form, column: float, height: int) -> None:
+        imgui.text_wrapped(self.texts.get(field_.text))
+        size = imgui.ImVec2(column, 0.2 * height)
+        _, text = imgui.input_text_multiline(
+            f"##{field_.name}", form.answers.get(field_.name, ""), size
+        )
+        form.answers[field_.name] = text
+
+    def _buttons(self, form: Form) -> bool:
+        pressed = False
+        imgui.begin_disabled(not form.complete)
+        imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(1, 1, 1, 1))
+        for number, text in enumerate(form.page.buttons):
+            if number:
+                imgui.same_line()
+            if imgui.button(f"{self.texts.get(text)}##button{number}"):
+                form.answers["button"] = str(number)
+                pressed = True
+            if number == 0 and not form.page.required:
+                # Enter goes on at once where there is nothing to fill in.
+                imgui.set_item_default_focus()
+        imgui.pop_style_color()
+        imgui.end_disabled()
+        return pressed

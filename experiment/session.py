@@ -1,0 +1,135 @@
+"""The state machine of a session. Knows Protocols only: the same code runs in the window,
+offscreen, and in tests.
+
+    instructions → for each task set: its instruction, training, trials → questionnaire → end
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from experiment import questionnaire
+from experiment.clock import Clock
+from experiment.config import Study
+from experiment.design import TaskSet, Trial, session_for
+from experiment.display import Display, Input, Leave
+from experiment.pages import Page, Paragraph, Picture
+from experiment.trial import TrialRecord, TrialRun
+from tasks.base import Task
+
+
+class Recorder(Protocol):
+    """Keeps what happened; the only writer of data."""
+
+    def trial_begins(self, trial: Trial) -> None:
+        """Open the traces of a trial."""
+
+    def event(self, event: Any) -> None:
+        """One input event of the running trial."""
+
+    def frame(self, time: float, view: Any) -> None:
+        """One frame shown in the running trial."""
+
+    def trial_ends(self, record: TrialRecord) -> None:
+        """A completed trial: on disk when this returns."""
+
+    def answers(self, rows: list[Mapping[str, str]]) -> None:
+        """Rows of the questionnaire: on disk when this returns."""
+
+    def close(self, status: str) -> None:
+        """The session ended: `complete` or `left`."""
+
+
+@dataclass(frozen=True)
+class World:
+    """Everything a session touches."""
+
+    display: Display
+    input: Input
+    clock: Clock
+    recorder: Recorder
+    tasks: Mapping[str, Task]
+    progress: Callable[[TrialRecord], None] = lambda record: None
+
+
+def run_session(study: Study, slot: int, world: World, done: frozenset[int] = frozenset()) -> str:
+    """Run a slot's session; returns `complete` or `left`. Trials numbered in `done` are skipped."""
+    status = "left"
+    try:
+        _run(study, slot, world, done)
+        status = "complete"
+    except Leave:
+        pass  # the caller and the record are told by the status
+    finally:
+        world.recorder.close(status)
+    return status
+
+
+def _run(study: Study, slot: int, world: World, done: frozenset[int]) -> None:
+    start = world.clock.now()
+    world.input.ask(Page("welcome", "welcome.title", (Paragraph("welcome.text"),)))
+    task_sets = session_for(slot, study.design.factors())
+    for task_set in task_sets:
+        remaining = tuple(t for t in task_set.trials if t.number not in done)
+        if remaining:
+            _run_task_set(study, TaskSet(task_set.training, remaining), len(task_sets), world)
+        if _over(world.clock.now() - start, study.session.session_limit):
+            world.input.ask(Page("time", "time.title", (Paragraph("time.text"),)))
+            raise Leave
+    if study.session.questionnaire:
+        rows = questionnaire.ask(study, world.input)
+        world.recorder.answers(rows)
+    world.input.ask(Page("thanks", "thanks.title", (Paragraph("thanks.text"),)))
+
+
+def _run_task_set(study: Study, task_set: TaskSet, total: int, world: World) -> None:
+    first = task_set.trials[0]
+    run = TrialRun(study, world)
+    world.input.ask(_instruction(first, total, run))
+    began = world.clock.now()
+    for trial in task_set.training:
+        limit = study.session.training_limit
+        left = limit - (world.clock.now() - began) if limit else 0.0
+        if limit and left <= 0:
+            break
+        record = run.play(trial, left)
+        world.input.ask(_feedback(record))
+    if task_set.training:
+        world.input.ask(Page("ready", "ready.title", (Paragraph("ready.text"),)))
+    for trial in task_set.trials:
+        record = run.play(trial, study.session.trial_limit)
+        world.recorder.trial_ends(record)
+        world.progress(record)
+
+
+def _instruction(trial: Trial, total: int, run: TrialRun) -> Page:
+    values = (("set", str(trial.task_set)), ("sets", str(total)))
+    return Page(
+        "instruction",
+        f"{trial.task}.title",
+        (
+            Paragraph(f"{trial.task}.instruction"),
+            Paragraph(f"{trial.scenario}.controls"),
+            Paragraph(f"transparency.{trial.transparency}"),
+            Picture(run.preview(trial), run.technique(trial)),
+            Paragraph("progress", values),
+        ),
+        ("begin",),
+    )
+
+
+def _feedback(record: TrialRecord) -> Page:
+    outcome = record.outcome
+    if outcome is None:
+        return Page("feedback", "feedback.title", (Paragraph("feedback.time"),))
+    values = (("answer", outcome.answer), ("truth", outcome.truth))
+    right = "feedback.right" if outcome.correct else "feedback.wrong"
+    if outcome.distance is not None:
+        right, values = "feedback.distance", (("distance", f"{outcome.distance:.1f}"),)
+    return Page("feedback", "feedback.title", (Paragraph(right, values),))
+
+
+def _over(passed: float, limit: float) -> bool:
+    return bool(limit) and passed > limit

@@ -1,0 +1,40 @@
+"""Lets a simulated participant sit at the session: same Protocol, same events as a person."""
+
+from __future__ import annotations
+
+from experiment.clock import SimulatedClock
+from experiment.offscreen import OffscreenDisplay
+from experiment.pages import Answers, Page
+from experiment.participants.participant import SimulatedParticipant
+from tasks.base import View
+from tasks.events import Event, Tick
+
+
+class SimulatedInput:
+    """Asks the participant what it does next and lets the simulated clock go on to then."""
+
+    def __init__(
+        self, participant: SimulatedParticipant, display: OffscreenDisplay, clock: SimulatedClock
+    ) -> None:
+        self.participant = participant
+        self.display = display
+        self.clock = clock
+        self._task = ""
+
+    def begin_trial(self, task: str, training: bool) -> None:
+        """The participant meets a new trial."""
+        self._task = task
+        self.participant.begin_trial(task, self.clock.now())
+
+    def events(self, view: View) -> list[Event]:
+        """The participant's next events, then a Tick at the time of the last."""
+        events = self.participant.events(view, self.display.look, self.clock.now(), self._task)
+        end = max((e.time for e in events), default=self.clock.now())
+        self.clock.advance(end)
+        return [*events, Tick(end)]
+
+    def ask(self, page: Page) -> Answers:
+        """The participant reads and answers a page."""
+        answers, seconds = self.participant.answer(page)
+        self.clock.advance(self.clock.now() + seconds)
+        return answers

@@ -1,0 +1,105 @@
+"""Draws what a participant sees, view or page, into any framebuffer: window, offscreen, tests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import moderngl
+
+from experiment.hud_drawing import HudDrawing
+from experiment.interface import INSET_TEXTURES, Interface
+from experiment.page_drawing import Form, PageDrawing
+from experiment.pages import Picture
+from experiment.texts import Texts
+from renderer.gpu.renderer import Renderer
+from renderer.techniques.standard import Standard
+from tasks.base import View
+from tasks.hud import Inset
+
+
+class Stage:
+    """A renderer for the view, small ones for insets, and the interface over them."""
+
+    def __init__(
+        self, context: moderngl.Context, size: tuple[int, int], texts: Texts, samples: int = 0
+    ) -> None:
+        self.context = context
+        self.size = size
+        self.texts = texts
+        self.renderer = Renderer(context, size, samples)
+        self.interface = Interface(context)
+        self.pointer: tuple[float, float] | None = None
+        self._pictures: dict[int, _SmallPicture] = {}
+
+    @property
+    def aspect(self) -> float:
+        """Width / height."""
+        return self.size[0] / self.size[1]
+
+    def resize(self, size: tuple[int, int]) -> None:
+        """The window has another size now, in pixels."""
+        self.size = size
+        self.renderer.resize(size)
+
+    def draw_view(
+        self, view: View, technique: Any, target: moderngl.Framebuffer, passed: float
+    ) -> None:
+        """Draw a task's view with its HUD."""
+        self.renderer.draw(view.scene, view.camera, technique, target)
+        if not view.hud and self.pointer is None:
+            return
+        self.interface.begin(self.size, passed)
+        hud = HudDrawing(self.interface, self.texts, self.size[1], self._inset)
+        hud.draw(view.hud)
+        if self.pointer is not None and not view.captured:
+            hud.draw_pointer(self.pointer)
+        self.interface.end(target)
+
+    def draw_form(self, form: Form, target: moderngl.Framebuffer, passed: float) -> bool:
+        """Draw a page; whether one of its buttons was pressed."""
+        target.use()
+        target.clear(0.97, 0.97, 0.98, 1.0)
+        self.interface.begin(self.size, passed)
+        pressed = PageDrawing(self.interface, self.texts, self._picture).draw(form, *self.size)
+        self.interface.end(target)
+        return pressed
+
+    def _inset(self, number: int, inset: Inset) -> int:
+        height = self.size[1]
+        size = (round(inset.rect.width * height), round(inset.rect.height * height))
+        return self._small(number, size).draw(View(inset.scene, inset.camera), Standard())
+
+    def _picture(self, picture: Picture, width: int, height: int) -> int:
+        return self._small(-1, (width, height)).draw(picture.view, picture.technique)
+
+    def _small(self, number: int, size: tuple[int, int]) -> _SmallPicture:
+        size = (max(size[0], 1), max(size[1], 1))
+        picture = self._pictures.get(number)
+        if picture is None or picture.size != size:
+            if picture is not None:
+                picture.release(self.interface)
+            picture = _SmallPicture(self.context, size, INSET_TEXTURES + 1 + number, self.interface)
+            self._pictures[number] = picture
+        return picture
+
+
+class _SmallPicture:
+    """A picture of its own size that the interface can show as a texture."""
+
+    def __init__(
+        self, context: moderngl.Context, size: tuple[int, int], name: int, interface: Interface
+    ) -> None:
+        self.size = size
+        self.name = name
+        self._renderer = Renderer(context, size)
+        self._texture = context.texture(size, 4)
+        self._target = context.framebuffer([self._texture])
+        interface.overlay.adopt_texture(name, self._texture)
+
+    def draw(self, view: View, technique: Any) -> int:
+        self._renderer.draw(view.scene, view.camera, technique, self._target)
+        return self.name
+
+    def release(self, interface: Interface) -> None:
+        self._target.release()
+        interface.overlay.delete_texture(self.name)

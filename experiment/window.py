@@ -1,0 +1,274 @@
+"""The only pyglet import: a window that shows views and pages, and turns its events into ours."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import moderngl
+import pyglet
+from pyglet.window import key, mouse
+
+from experiment.clock import Clock
+from experiment.config import DisplayTable
+from experiment.display import Leave
+from experiment.driver import describe
+from experiment.errors import InputError
+from experiment.page_drawing import Form
+from experiment.pages import Answers, Page, Paragraph
+from experiment.stage import Stage
+from experiment.texts import Texts
+from tasks.base import View
+from tasks.events import (
+    Event,
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerPress,
+    PointerRelease,
+    Tick,
+)
+
+_KEYS = {
+    key.LEFT: "left",
+    key.RIGHT: "right",
+    key.UP: "up",
+    key.DOWN: "down",
+    key.RETURN: "enter",
+    key.ENTER: "enter",
+    key.NUM_ENTER: "enter",
+    key.SPACE: "space",
+    key.BACKSPACE: "backspace",
+    key.DELETE: "delete",
+    key.ESCAPE: "escape",
+    key.TAB: "tab",
+    key.HOME: "home",
+    key.END: "end",
+    key.PAGEUP: "pageup",
+    key.PAGEDOWN: "pagedown",
+    key.LSHIFT: "shift",
+    key.RSHIFT: "shift",
+    **{getattr(key, f"_{d}"): str(d) for d in range(10)},
+    **{getattr(key, f"NUM_{d}"): str(d) for d in range(10)},
+    **{getattr(key, c.upper()): c for c in "abcdefghijklmnopqrstuvwxyz"},
+}
+
+
+class Window:
+    """Display and Input of a session. Raises InputError where no window can be opened."""
+
+    def __init__(self, table: DisplayTable, texts: Texts, clock: Clock, title: str) -> None:
+        self.clock = clock
+        self.period = 1.0 / table.refresh
+        self._window = _open(table, title)
+        self.context = moderngl.create_context(require=330)
+        self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, table.samples)
+        self.technique: Any = None  # what the view shown last was drawn with
+        self._events: list[Event] = []
+        self._form: Form | None = None
+        self._closed = False
+        self._flipped = time.perf_counter()
+        self._passed = self.period
+        self._pressed = False
+        self._window.push_handlers(self)
+        self.on_frame: Callable[[], None] = lambda: None
+
+    # Display
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of the view."""
+        return self.stage.aspect
+
+    def show(self, view: View, technique: Any) -> float:
+        """Draw a view and flip; the time of the flip."""
+        self._window.set_exclusive_mouse(view.captured)
+        self.technique = technique
+        self.stage.draw_view(view, technique, self.context.screen, self._passed)
+        self.on_frame()
+        return self._flip()
+
+    def describe(self) -> Mapping[str, str]:
+        """Driver, size and refresh rate."""
+        width, height = self.stage.size
+        rate = self._window.screen.get_mode().rate if self._window.screen.get_mode() else None
+        return {
+            **describe(self.context),
+            "size": f"{width}x{height}",
+            "refresh_declared": f"{1 / self.period:g}",
+            "refresh_of_screen": str(rate or "unknown"),
+            "window": "yes",
+        }
+
+    # Input
+
+    def begin_trial(self, task: str, training: bool) -> None:
+        """Forget what was pressed before the trial."""
+        self._events.clear()
+
+    def events(self, view: View) -> list[Event]:
+        """What happened until the next frame is due. Raises Leave when the window was closed."""
+        self._pump()
+        if self._closed:
+            raise Leave
+        happened, self._events = self._events, []
+        return [*happened, Tick(self.clock.now())]
+
+    def ask(self, page: Page) -> Answers:
+        """Show a page until it is answered; Esc asks whether to leave. Raises Leave."""
+        self._window.set_exclusive_mouse(False)
+        form = self._form = Form(page)
+        self._events.clear()
+        while not self._draw_page(form):
+            if self._closed:
+                raise Leave
+            if page.name != "leave" and self._escape_pressed():
+                text = (Paragraph("leave.text"),)
+                leave = Page("leave", "leave.title", text, ("leave.no", "leave.yes"))
+                if self.ask(leave)["button"] == "1":
+                    raise Leave
+                self._form = form
+        self._form = None
+        self._events.clear()
+        return form.answers
+
+    def present(self, page: Page, answers: Answers, seconds: float) -> None:
+        """Show a page that somebody else has filled in. Raises Leave on Esc or a closed window."""
+        form = Form(page, dict(answers))
+        end = self.clock.now() + seconds
+        while self.clock.now() < end:
+            self._draw_page(form)
+            if self._closed or self._escape_pressed():
+                raise Leave
+
+    def point(self, at: tuple[float, float] | None) -> None:
+        """Draw a pointer at a place in view units, for a simulated participant's hand."""
+        self.stage.pointer = at
+
+    def close(self) -> None:
+        """Close the window."""
+        self.stage.interface.close()
+        self._window.close()
+
+    def _draw_page(self, form: Form) -> bool:
+        self._pump()
+        pressed = self.stage.draw_form(form, self.context.screen, self._passed)
+        self.on_frame()
+        self._flip()
+        return pressed
+
+    def _escape_pressed(self) -> bool:
+        pressed = any(isinstance(e, KeyPress) and e.key == "escape" for e in self._events)
+        self._events.clear()
+        return pressed
+
+    def _pump(self) -> None:
+        self._window.switch_to()
+        self._window.dispatch_events()
+
+    def _flip(self) -> float:
+        """Flip, and pace: a display without a vertical retrace returns from the flip at once."""
+        self._window.flip()
+        early = self._flipped + self.period - time.perf_counter()
+        if early > 0:
+            time.sleep(early)
+        now = time.perf_counter()
+        self._passed, self._flipped = now - self._flipped, now
+        return self.clock.now()
+
+    # pyglet's events. Its pixels count from the lower left corner of the window.
+
+    def _at(self, x: float, y: float) -> tuple[float, float]:
+        return x / self._window.height, 1.0 - y / self._window.height
+
+    def _io_pointer(self, x: float, y: float) -> None:
+        ratio = self.stage.size[1] / self._window.height
+        io = self.stage.interface.io
+        io.add_mouse_pos_event(x * ratio, (self._window.height - y) * ratio)
+
+    def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
+        """The pointer moved, no button down."""
+        self._moved(x, y, dx, dy, False)
+
+    def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, _: int) -> None:
+        """The pointer moved with a button down."""
+        self._moved(x, y, dx, dy, bool(buttons & mouse.LEFT))
+
+    def _moved(self, x: int, y: int, dx: int, dy: int, dragging: bool) -> None:
+        self._io_pointer(x, y)
+        height = self._window.height
+        self._events.append(
+            PointerMove(self.clock.now(), *self._at(x, y), dx / height, -dy / height, dragging)
+        )
+
+    def on_mouse_press(self, x: int, y: int, button: int, _: int) -> None:
+        """A button went down."""
+        if button == mouse.LEFT:
+            self._io_pointer(x, y)
+            self.stage.interface.io.add_mouse_button_event(0, True)
+            self._events.append(PointerPress(self.clock.now(), *self._at(x, y)))
+
+    def on_mouse_release(self, x: int, y: int, button: int, _: int) -> None:
+        """A button went up."""
+        if button == mouse.LEFT:
+            self._io_pointer(x, y)
+            self.stage.interface.io.add_mouse_button_event(0, False)
+            self._events.append(PointerRelease(self.clock.now(), *self._at(x, y)))
+
+    def on_mouse_scroll(self, x: int, y: int, _: float, dy: float) -> None:
+        """The wheel turned: pages scroll."""
+        self.stage.interface.io.add_mouse_wheel_event(0, dy)
+
+    def on_key_press(self, symbol: int, _: int) -> bool:
+        """A key went down. Handled: pyglet would close the window on Esc."""
+        name = _KEYS.get(symbol)
+        if name:
+            self.stage.interface.key(name, True)
+            self._events.append(KeyPress(self.clock.now(), name))
+        return pyglet.event.EVENT_HANDLED
+
+    def on_key_release(self, symbol: int, _: int) -> None:
+        """A key went up."""
+        name = _KEYS.get(symbol)
+        if name:
+            self.stage.interface.key(name, False)
+            self._events.append(KeyRelease(self.clock.now(), name))
+
+    def on_text(self, text: str) -> None:
+        """Characters typed, for text fields."""
+        if self._form is not None:
+            self.stage.interface.io.add_input_characters_utf8(text.replace("\r", ""))
+
+    def on_resize(self, width: int, height: int) -> bool:
+        """The window changed its size. Handled: pyglet would set a viewport of its own."""
+        if hasattr(self, "stage"):
+            self.stage.resize(self._window.get_framebuffer_size())
+        return pyglet.event.EVENT_HANDLED
+
+    def on_close(self) -> bool:
+        """The desktop closes the window: the session saves and leaves. Handled by us."""
+        self._closed = True
+        return pyglet.event.EVENT_HANDLED
+
+
+def _open(table: DisplayTable, title: str) -> pyglet.window.Window:
+    config = pyglet.gl.Config(
+        double_buffer=True, major_version=3, minor_version=3, forward_compatible=True
+    )
+    try:
+        return pyglet.window.Window(
+            table.width, table.height, title, fullscreen=table.fullscreen, vsync=True,
+            resizable=not table.fullscreen, config=config,
+        )  # fmt: skip
+    except Exception as error:  # pyglet raises a different class on each platform
+        raise InputError(f"display: no window can be opened: {error}") from error
+
+
+def available() -> bool:
+    """Whether there is a desktop to open a window on."""
+    try:
+        pyglet.display.get_display()
+    except Exception:  # as above; the answer is the point
+        return False
+    return True

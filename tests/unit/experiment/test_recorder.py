@@ -1,0 +1,124 @@
+"""What the recorder writes, read back; and what it refuses."""
+
+import csv
+import json
+import shutil
+
+import numpy as np
+import pytest
+
+from experiment.columns import TABLES, TRIALS
+from experiment.design import Trial
+from experiment.errors import InputError
+from experiment.recorder import FileRecorder, Who, check_participant, next_free, stem_of
+from experiment.trial import TrialRecord
+from renderer.camera import look_at
+from renderer.scene import Scene
+from tasks.base import Outcome, View
+from tasks.events import KeyPress, PointerMove, Tick
+
+TRIAL = Trial(5, 1, 2, 2, "dynamic", "abstract", "count", "stream-1", (1, 1))
+RECORD = TrialRecord(
+    TRIAL, Outcome("12", "14", False, count_error=-2), 14, 10.0, 52.25, 2.25, False,
+    2500, 3, 0.05, 12.5, 3.25,
+)  # fmt: skip
+
+
+def recorder(folder, participant="P01", source="human"):
+    who = Who("test", participant, source, 1, {"seed": 3})
+    return FileRecorder(folder, who, now=lambda: "2026-01-02T03:04:05.678Z")
+
+
+def play(rec, record=RECORD):
+    view = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
+    rec.trial_begins(record.trial)
+    rec.frame(10.0, view)
+    rec.event(PointerMove(11.0, 0.5, 0.25, 0.1, 0.0, True))
+    rec.event(Tick(11.5))
+    rec.frame(11.5, view)
+    rec.event(KeyPress(52.25, "enter"))
+    rec.trial_ends(record)
+
+
+def rows(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_trial_is_a_row_on_disk_as_soon_as_it_ends(tmp_path):
+    rec = recorder(tmp_path)
+    play(rec)
+    copy = tmp_path / "copy"
+    shutil.copytree(tmp_path / "data", copy / "data")  # as a crash now would leave it
+    rec.close("left")
+    folder = copy / "data" / "human" / "P01"
+    (row,) = rows(folder / "study-test_subject-P01_session-1_trials_data.csv")
+    assert list(row) == [c.name for c in TRIALS]
+    expected = {
+        "row_id": "human-P01-1-trial005", "participant": "P01", "source": "human",
+        "trial": "5", "transparency": "dynamic", "task": "count", "answer": "12", "truth": "14",
+        "correct": "false", "count_error": "-2", "distance": "", "time": "42.25",
+        "time_clean": "40.0", "timed_out": "false", "frames": "2500", "frames_missed": "3",
+        "started": "2026-01-02T03:04:05.678Z",
+    }  # fmt: skip
+    assert {k: row[k] for k in expected} == expected
+    events = rows(folder / row["events_file"])
+    assert [e["event"] for e in events] == ["PointerMove", "tick", "KeyPress"]
+    assert events[0] | {"x": "0.5", "dragging": "true"} == events[0]
+    camera = rows(folder / row["camera_file"])
+    assert [c["eye_z"] for c in camera] == ["9.0", ""]  # a camera that stands is written once
+
+
+def test_columns_are_the_declared_ones_and_unknown_ones_are_refused(tmp_path):
+    rec = recorder(tmp_path)
+    with pytest.raises(KeyError, match="columns not declared: \\['mood'\\]"):
+        rec.answers([{"item": "ease", "value": "3", "mood": "good"}])
+    rec.close("left")
+    described = json.loads((tmp_path / "dataset_description.json").read_text(encoding="utf-8"))
+    names = {v["name"] for v in described["variableMeasured"]}
+    assert names == {c.name for table in TABLES.values() for c in table}
+
+
+def test_nothing_is_overwritten_and_the_next_free_number_is_named(tmp_path):
+    play(first := recorder(tmp_path))
+    first.close("complete")
+    before = {p: p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()}
+    with pytest.raises(InputError, match=r"participant P01 exists already; .* free one is P02"):
+        recorder(tmp_path)
+    assert {p: p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()} == before
+    assert next_free(tmp_path, "human") == "P02"
+    assert next_free(tmp_path, "simulated") == "S01"
+
+
+def test_sources_have_folders_of_their_own(tmp_path):
+    for source in ("human", "simulated", "pilot"):
+        recorder(tmp_path, source=source).close("left")
+        assert (tmp_path / "data" / source / "P01").is_dir()
+
+
+def test_the_sidecar_says_how_and_the_end_says_how_it_ended(tmp_path):
+    rec = recorder(tmp_path)
+    play(rec)
+    rec.close("complete")
+    folder, stem = tmp_path / "data" / "human" / "P01", "study-test_subject-P01_session-1"
+    sidecar = json.loads((folder / f"{stem}_trials_data.json").read_text(encoding="utf-8"))
+    assert sidecar["provenance"] == {"seed": 3}
+    end = json.loads((folder / f"{stem}_end.json").read_text(encoding="utf-8"))
+    assert (end["status"], end["trials"]) == ("complete", 1)
+
+
+@pytest.mark.parametrize("participant", ["", "../x", "a b", "é", "a/b", "x" * 33, "a\n"])
+def test_ids_that_could_be_paths_or_names_are_refused(participant):
+    with pytest.raises(InputError, match=r"--participant = .*: expected 1 to 32 letters"):
+        check_participant(participant)
+
+
+def test_file_names_keep_the_key_value_form_for_any_id():
+    assert stem_of("demo", "P_0-1") == "study-demo_subject-P01_session-1"
+    assert stem_of("demo", "--") == "study-demo_subject-x_session-1"
+
+
+def test_a_folder_that_can_not_be_written_is_one_line(tmp_path):
+    (tmp_path / "data").write_text("a file where a folder should be")
+    with pytest.raises(InputError, match=r"data/human/P01: cannot be written: Not a directory"):
+        recorder(tmp_path)

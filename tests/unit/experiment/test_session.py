@@ -1,0 +1,251 @@
+"""The session's state machine, through its Protocols only: no window, no GPU, no files."""
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import pytest
+
+from experiment.clock import SimulatedClock
+from experiment.config import parse
+from experiment.display import Leave
+from experiment.session import World, run_session
+from tasks.base import View
+from tasks.catalog import TASKS
+from tasks.events import KeyPress, PointerPress, Tick
+
+FRAME = 0.25  # s between the frames of the fake display: a binary fraction, so sums are exact
+
+
+def study(**tables):
+    return parse(
+        {
+            "study": {
+                "name": "t", "title": "t", "description": "t", "participants": 4, "seed": 1,
+            },
+            "design": {"trials": 2, "training": 1, "tasks": ["count", "pattern"]},
+            "abstract": {"objects": 100, "target_share": [0.2, 0.3]},
+            "session": {"questionnaire": False},
+            **tables,
+        },
+        "test",
+    )  # fmt: skip
+
+
+@dataclass
+class FakeDisplay:
+    clock: SimulatedClock
+    aspect: float = 4 / 3
+    shown: list = field(default_factory=list)
+
+    def show(self, view, technique):
+        self.shown.append((view, technique))
+        return self.clock.now()
+
+    def describe(self):
+        return {}
+
+
+@dataclass
+class ScriptedInput:
+    """Looks at `thinking` frames, then types what `answer` says for the task."""
+
+    clock: SimulatedClock
+    answers: dict
+    thinking: int = 3
+    pages: list = field(default_factory=list)
+    leave_at: int = -1
+    trials: int = 0
+    frames: int = 0
+
+    def begin_trial(self, task, training):
+        self.task, self.frames = task, 0
+        self.trials += 1
+
+    def events(self, view):
+        assert isinstance(view, View)
+        self.clock.advance(self.clock.now() + FRAME)
+        self.frames += 1
+        now = self.clock.now()
+        if self.trials == self.leave_at:
+            return [KeyPress(now, "escape"), Tick(now)]
+        if self.frames <= self.thinking:
+            return [Tick(now)]
+        keys = self.answers[self.task]
+        return [*(KeyPress(now, k) for k in keys), Tick(now)]
+
+    def ask(self, page):
+        self.pages.append(page)
+        self.clock.advance(self.clock.now() + 2.0)
+        return {"button": "1" if page.name == "leave" else "0"}
+
+
+@dataclass
+class MemoryRecorder:
+    begun: list = field(default_factory=list)
+    ended: list = field(default_factory=list)
+    events: list = field(default_factory=list)
+    status: str = ""
+
+    def trial_begins(self, trial):
+        self.begun.append(trial)
+
+    def event(self, event):
+        self.events.append(event)
+
+    def frame(self, time, view):
+        pass
+
+    def trial_ends(self, record):
+        self.ended.append(record)
+
+    def answers(self, rows):
+        pass
+
+    def close(self, status):
+        self.status = status
+
+
+ANSWERS = {"count": ["2", "0", "enter"], "pattern": ["k", "enter"]}
+
+
+def play(config, slot=1, done=frozenset(), **script):
+    clock = SimulatedClock(100.0)
+    display, recorder = FakeDisplay(clock), MemoryRecorder()
+    person = ScriptedInput(clock, ANSWERS, **script)
+    world = World(display, person, clock, recorder, TASKS)
+    status = run_session(config, slot, world, done)
+    return status, recorder, person, display
+
+
+def test_every_task_set_has_its_instruction_training_and_trials_in_that_order():
+    status, recorder, person, _ = play(study())
+    assert status == recorder.status == "complete"
+    assert [r.trial.number for r in recorder.ended] == list(range(1, 9))
+    assert Counter((r.trial.transparency, r.trial.task) for r in recorder.ended) == {
+        (t, k): 2 for t in ("standard", "dynamic") for k in ("count", "pattern")
+    }
+    # One training trial before each of the four task sets; it is shown but leaves no row.
+    assert [t.training for t in recorder.begun] == [True, False, False] * 4
+    names = [p.name for p in person.pages]
+    one_set = ["instruction", "feedback", "ready"]
+    assert names == ["welcome", *(one_set * 4), "thanks"]
+
+
+def test_time_runs_from_the_first_frame_to_the_confirmation():
+    _, recorder, _, _ = play(study(), thinking=9)
+    # The first frame is shown at once; nine frames of thinking, then the answer in the tenth.
+    assert {r.time for r in recorder.ended} == {10 * FRAME}
+    assert all(r.frames == 10 and r.timed_out is False for r in recorder.ended)
+    # 0.25 s a frame is over 1.5 × 1/60 s: every one of the nine intervals is a missed frame.
+    assert all(r.frames_missed == 9 and r.worst_frame == FRAME for r in recorder.ended)
+
+
+def test_answers_are_scored_by_the_task():
+    _, recorder, _, _ = play(study())
+    for record in recorder.ended:
+        if record.trial.task == "count":
+            assert record.outcome.count_error == 20 - record.targets
+        else:
+            assert record.outcome.answer == "K"
+            assert record.outcome.truth in "CKRXY"
+
+
+def test_the_transparency_level_decides_the_technique():
+    config = study()
+    _, _, _, display = play(config)
+    kinds = {type(technique).__name__ for _, technique in display.shown}
+    assert kinds == {"Standard", "DynamicTransparency"}
+    assert all(t in (config.dynamic,) or type(t).__name__ == "Standard" for _, t in display.shown)
+
+
+def test_the_trial_limit_ends_a_trial_without_an_answer():
+    config = study(session={"trial_limit": 1.0, "questionnaire": False})
+    _, recorder, _, _ = play(config, thinking=100)
+    assert len(recorder.ended) == 8
+    assert all(r.timed_out and r.outcome is None and r.time == 1.0 for r in recorder.ended)
+
+
+def test_training_ends_at_its_limit():
+    config = study(session={"training_limit": 1.0, "questionnaire": False})
+    _, _, person, _ = play(config, thinking=40)
+    feedback = [p for p in person.pages if p.name == "feedback"]
+    assert len(feedback) == 4
+    assert all(p.blocks[0].text == "feedback.time" for p in feedback)
+
+
+def test_the_session_limit_ends_the_session_after_the_task_set():
+    config = study(session={"session_limit": 5.0, "questionnaire": False})
+    status, recorder, person, _ = play(config)
+    assert status == recorder.status == "left"
+    assert person.pages[-1].name == "time"
+    assert len(recorder.ended) == 2
+
+
+def test_leaving_keeps_what_was_completed():
+    # Trials 1 (training), 2 and 3 are played; in the fourth, a training, Esc is confirmed.
+    status, recorder, person, _ = play(study(), leave_at=4)
+    assert status == recorder.status == "left"
+    assert [r.trial.number for r in recorder.ended] == [1, 2]
+    assert person.pages[-1].name == "leave"
+
+
+def test_going_on_after_escape_subtracts_the_question_from_the_clean_time():
+    class GoesOn(ScriptedInput):
+        def ask(self, page):
+            answers = super().ask(page)
+            self.leave_at = -1
+            return {**answers, "button": "0"}
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    person = GoesOn(clock, ANSWERS, leave_at=2)
+    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    first = recorder.ended[0]
+    assert first.away == 2.0
+    assert first.time - first.away == pytest.approx(5 * FRAME)
+
+
+def test_trials_done_before_are_not_played_again():
+    status, recorder, _, _ = play(study(), done=frozenset({1, 2, 3, 4, 5}))
+    assert status == "complete"
+    assert [r.trial.number for r in recorder.ended] == [6, 7, 8]
+
+
+def test_an_error_in_a_task_still_closes_the_record():
+    class Broken(ScriptedInput):
+        def events(self, view):
+            raise RuntimeError("lost")
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    world = World(FakeDisplay(clock), Broken(clock, ANSWERS), clock, recorder, TASKS)
+    with pytest.raises(RuntimeError, match="lost"):
+        run_session(study(), 1, world)
+    assert recorder.status == "left"
+    assert Leave is not RuntimeError
+
+
+def test_the_same_slot_gives_the_same_scenes_and_another_slot_others():
+    def centers(slot):
+        return [v.scene.centers.tobytes() for v, _ in play(study(), slot)[3].shown[:40:13]]
+
+    assert centers(1) == centers(1)
+    assert centers(1) != centers(2)
+
+
+def test_pointer_presses_answer_the_letter_too():
+    class Clicks(ScriptedInput):
+        def events(self, view):
+            events = super().events(view)
+            if self.task == "pattern" and self.frames > self.thinking:
+                button = next(e for e in view.hud if getattr(e, "text", "") == "X")
+                x, y = button.rect.x + 0.01, button.rect.y + 0.01
+                return [PointerPress(events[-1].time, x, y), *events[1:]]
+            return events
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    person = Clicks(clock, ANSWERS)
+    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    patterns = [r for r in recorder.ended if r.trial.task == "pattern"]
+    assert {r.outcome.answer for r in patterns} == {"X"}
