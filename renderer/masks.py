@@ -19,7 +19,7 @@ def opacity(distance: NDArray[np.float64], technique: DynamicTransparency) -> ND
     t, e = technique.alpha_target, technique.alpha_edge
     if technique.width == 0:
         return np.where(distance <= 0, t, 1.0)
-    gradient = np.minimum(e + (1 - e) * distance / technique.width, 1.0)
+    gradient = e + (1 - e) * np.minimum(distance / technique.width, 1.0)
     return np.where(distance <= 0, t, gradient)
 
 

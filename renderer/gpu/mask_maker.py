@@ -7,7 +7,6 @@ minimum as blend equation, so no framebuffer is switched between objects.
 
 from __future__ import annotations
 
-import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
@@ -49,7 +48,7 @@ def channels_of(
 
 
 def hull_targets(table: SceneTable, frame: FramePlan) -> NDArray[np.bool_]:
-    """(m,) which of the masked targets show their hull: closed, convex, not cut by the near plane."""
+    """(m,) which masked targets show their hull: closed, convex, not cut by the near plane."""
     shapes = [table.meshes[table.slot[t]] for t in frame.masked.tolist()]
     convex = [m.mesh.convex and m.topology.closed for m in shapes]
     return np.array(convex, dtype=bool) & ~frame.boxes.crosses[frame.masked]

@@ -17,6 +17,7 @@ from renderer.gpu.targets import FrameTarget
 from renderer.plan import FramePlan, Technique, plan
 from renderer.scene import Scene
 from renderer.techniques.dynamic import DynamicTransparency
+from renderer.visibility import Visibility, visibility
 
 OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
@@ -95,7 +96,7 @@ class Layer:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
         self._context.depth_func = "<="
         target.framebuffer.use()
-        target.framebuffer.clear(*background, 1.0, depth=1.0)
+        target.clear(background)
         for shader in (self._object, self._depth):
             self._bind(shader, matrix)
 
@@ -195,6 +196,38 @@ class Renderer:
     def read(self) -> NDArray[np.uint8]:
         """(h, w, 3) the last frame, row 0 on top."""
         return self._target.read()
+
+    def look(
+        self,
+        scene: Scene,
+        camera: Camera,
+        technique: Technique,
+        size: tuple[int, int] = (200, 150),
+    ) -> Visibility:
+        """What can be seen of each object in the frame as `draw` serves it, found at `size`.
+
+        Masks are as wide, against the picture, as in the frame. The picture drawn last stays.
+        """
+        if self._small is None or self._small.size != size:
+            if self._small is not None:
+                self._small.release()
+            self._small = FrameTarget(self.context, _checked(size), ids=True)
+        if self._id_layer is None:
+            self._id_layer = Layer(self.context, self._store, ids=True)
+        small = self._small
+        layers: list[tuple[NDArray[np.int64], NDArray[np.floating]]] = []
+        last = np.zeros(size[::-1], dtype=np.int64)
+
+        def keep() -> None:
+            nonlocal last
+            ids = small.read_ids()
+            layers.append((np.where(ids != last, ids, 0), small.read_alpha()))
+            last = ids
+
+        frame = plan(scene, camera, technique, size)
+        scale = size[1] / self.size[1]
+        self._id_layer.draw(self._table(scene), frame, camera, technique, small, scale, keep)
+        return visibility(layers, small.read(), len(scene.objects))
 
     def _show(self, framebuffer: moderngl.Framebuffer) -> None:
         framebuffer.use()

@@ -22,8 +22,11 @@ class FrameTarget:
         self.color = self._keep(context.texture(size, 4, dtype="f2"))
         self.color.filter = (moderngl.NEAREST, moderngl.NEAREST)
         pictures: list[moderngl.Texture | moderngl.Renderbuffer] = [self.color]
+        self._ids: moderngl.Framebuffer | None = None
         if ids:
-            pictures.append(self._keep(context.texture(size, 1, dtype="f4")))
+            numbers = self._keep(context.texture(size, 1, dtype="f4"))
+            self._ids = self._keep(context.framebuffer([numbers]))
+            pictures.append(numbers)
         if samples:
             smooth = self._keep(context.renderbuffer(size, 4, samples=samples, dtype="f2"))
             depth = self._keep(context.depth_renderbuffer(size, samples=samples))
@@ -37,6 +40,13 @@ class FrameTarget:
     def _keep(self, thing):  # type: ignore[no-untyped-def]
         self._owned.append(thing)
         return thing
+
+    def clear(self, background: tuple[float, float, float]) -> None:
+        """Bind the picture and fill it with the background, alpha 1 and the farthest depth."""
+        self.framebuffer.clear(*background, 1.0, depth=1.0)
+        if self._ids is not None:
+            self._ids.clear()  # the line above filled all pictures with the background
+        self.framebuffer.use()
 
     def resolve(self) -> None:
         """Average the samples into `color`."""

@@ -1,0 +1,45 @@
+"""Small scenes in which the paper's order by centres is right, and which show every case."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from renderer import geometry, transforms
+from renderer.camera import Camera, look_at
+from renderer.scene import Object, Scene
+
+SHAPES = (
+    geometry.sphere(1.0, 1),
+    geometry.cone(0.9, 1.6, 20),
+    geometry.box(1.3, 1.3, 1.3),
+    geometry.torus(0.75, 0.25, 16, 10),
+)
+
+
+def column(seed: int, count: int = 14, targets: float = 0.4, impenetrable: float = 0.0) -> Scene:
+    """Objects one behind the other, each in its own slab of depth, so that no order is in doubt."""
+    rng = np.random.default_rng(seed)
+    objects = []
+    for i in range(count):
+        target = bool(rng.random() < targets)
+        position = (*rng.uniform(-1.3, 1.3, 2), -2.5 * i)
+        objects.append(
+            Object(
+                SHAPES[rng.integers(len(SHAPES))],
+                transforms.placed(
+                    position, transforms.random_rotation(rng), rng.uniform(0.6, 1.1, 3)
+                ),
+                tuple(rng.uniform(0.1, 1.0, 3)),
+                target=target,
+                impenetrable=bool(not target and rng.random() < impenetrable),
+            )
+        )
+    shuffled = rng.permutation(count)
+    return Scene(tuple(objects[k] for k in shuffled))
+
+
+def before_column(seed: int = 0) -> Camera:
+    """In front of a column, looking along it."""
+    rng = np.random.default_rng(1000 + seed)
+    eye = np.array([*rng.uniform(-1, 1, 2), 9.0])
+    return look_at(eye, eye - np.array([0.0, 0.0, 1.0]), fov_y=0.55, near=0.5, far=200.0)
