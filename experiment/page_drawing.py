@@ -20,7 +20,7 @@ class Form:
 
     page: Page
     answers: Answers = field(default_factory=dict)
-    fresh: bool = True
+    was_complete: bool = False  # when it was drawn last
 
     @property
     def complete(self) -> bool:
@@ -64,7 +64,7 @@ class PageDrawing:
         pressed = self._buttons(form)
         imgui.end()
         imgui.pop_font()
-        form.fresh = False
+        form.was_complete = form.complete
         return pressed
 
     def _block(self, block: object, form: Form, column: float, height: int) -> None:
@@ -111,18 +111,28 @@ class PageDrawing:
         form.answers[field_.name] = text
 
     def _buttons(self, form: Form) -> bool:
-        pressed = False
+        """The page's buttons; Enter presses the focused one, or else the first."""
+        chosen = focused = None
         imgui.begin_disabled(not form.complete)
         imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(1, 1, 1, 1))
         for number, text in enumerate(form.page.buttons):
             if number:
                 imgui.same_line()
             if imgui.button(f"{self.texts.get(text)}##button{number}"):
-                form.answers["button"] = str(number)
-                pressed = True
-            if number == 0 and not form.page.required:
-                # Enter goes on at once where there is nothing to fill in.
-                imgui.set_item_default_focus()
+                chosen = number
+            focused = number if imgui.is_item_focused() else focused
         imgui.pop_style_color()
         imgui.end_disabled()
-        return pressed
+        if chosen is None and self._enter(form):
+            chosen = focused or 0
+        if chosen is not None:
+            form.answers["button"] = str(chosen)
+        return chosen is not None
+
+    def _enter(self, form: Form) -> bool:
+        """Whether Enter was pressed for the page as a whole, not typed into a text field.
+
+        The form must have been complete before: Enter on the last open scale only answers it.
+        """
+        pressed = imgui.is_key_pressed(imgui.Key.enter, False)
+        return pressed and form.was_complete and not self.interface.io.want_text_input

@@ -1,0 +1,46 @@
+"""`seethrough report`: from a data folder to the statistics report."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+HELP = "make the statistics report from a data folder"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The command's arguments."""
+    parser.add_argument("data", metavar="DATA", type=Path, help="the study's data folder")
+    parser.add_argument("--out", type=Path, required=True, help="folder for the report")
+    parser.add_argument("--source", help="human, simulated or pilot, where there are several")
+    parser.add_argument("--alpha", type=float, help="instead of the study's own (a deviation)")
+    parser.add_argument(
+        "--exclude",
+        action="append",
+        metavar="RULE",
+        help="instead of the study's own rules (a deviation): timed_out, focus_lost, "
+        "frames_missed, participant:ID; may be repeated",
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Make the report; returns 0, or 2 with one line for each thing wrong with the data."""
+    # analysis imports pandas and scipy, which takes a second: only when the command runs
+    from analysis.errors import DataError
+    from analysis.report import Options, check_out, make_report, write_report
+
+    try:
+        check_out(args.out)
+        options = Options(args.source, args.alpha, args.exclude)
+        report, facts = make_report(args.data, options)
+        page = write_report(report, facts, args.out)
+    except DataError as error:
+        for line in error.shown():
+            print(f"seethrough: {line}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"seethrough: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    print(page)
+    return 0
