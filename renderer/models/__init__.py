@@ -11,8 +11,9 @@ from functools import cache
 
 from renderer.geometry import Mesh
 from renderer.models import animals, cars, craft, cycles, furniture, seats
+from renderer.models.shapes import Shape, shade
 
-_BUILDERS: tuple[Callable[[], Mesh], ...] = (
+BUILDERS: tuple[Callable[[], Shape], ...] = (
     animals.cat,
     animals.dog,
     animals.horse,
@@ -35,4 +36,9 @@ _BUILDERS: tuple[Callable[[], Mesh], ...] = (
     furniture.television,
 )
 
-MODELS: dict[str, Callable[[], Mesh]] = {build.__name__: cache(build) for build in _BUILDERS}
+
+def _shaded(build: Callable[[], Shape]) -> Callable[[], Mesh]:
+    return cache(lambda: shade(build()))
+
+
+MODELS: dict[str, Callable[[], Mesh]] = {build.__name__: _shaded(build) for build in BUILDERS}

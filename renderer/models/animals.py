@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.geometry import Mesh
 from renderer.models.blend import Limb, Point, body, chain
 from renderer.models.shapes import Array, Color, Shape, assemble, join
 from renderer.models.surfaces import ball, curve, sweep
@@ -40,7 +39,7 @@ def _stripes(places: Array) -> Array:
     return np.clip(1.6 * wave, 0, 1) * np.clip((y - 0.27) * 9, 0, 1)
 
 
-def cat() -> Mesh:
+def cat() -> Shape:
     """A ginger tabby, tail up."""
     fur, light, pink = (0.88, 0.52, 0.20), (0.97, 0.90, 0.80), (0.93, 0.60, 0.58)
     dark = (0.55, 0.25, 0.07)
@@ -107,7 +106,7 @@ def cat() -> Mesh:
     return assemble(coat, inner, nose, eyes, *whiskers, size=1.3)
 
 
-def dog() -> Mesh:
+def dog() -> Shape:
     """A beagle: hanging ears, long muzzle, three colours."""
     tan, saddle, white = (0.70, 0.42, 0.18), (0.16, 0.12, 0.10), WHITE
     limbs = [
@@ -170,9 +169,9 @@ def curve_ring(center: Point, axis: Point, radius: float, n: int = 24) -> Array:
     return np.array(center) + radius * (np.cos(angle) * across + np.sin(angle) * third)
 
 
-def horse() -> Mesh:
+def horse() -> Shape:
     """A bay horse in walk, black mane and tail, white blaze."""
-    bay, black = (0.50, 0.25, 0.10), (0.09, 0.07, 0.06)
+    bay, black, muzzle = (0.50, 0.25, 0.10), (0.09, 0.07, 0.06), (0.22, 0.13, 0.10)
     limbs = [
         *chain([(0, 1.30, 0.52), (0, 1.24, 0.15), (0, 1.24, -0.15), (0, 1.27, -0.46)],
                [0.26, 0.27, 0.28, 0.25], bay, soft=0.12, flat=(0.88, 1, 1)),
@@ -181,7 +180,7 @@ def horse() -> Mesh:
                soft=0.1, flat=(0.72, 1, 1)),
         *chain([(0, 1.93, -0.97), (0, 1.80, -1.12), (0, 1.62, -1.32)], [0.125, 0.105, 0.078], bay,
                soft=0.06, flat=(0.8, 1, 1)),
-        Limb((0, 1.60, -1.33), (0, 1.57, -1.36), 0.078, 0.07, (0.22, 0.13, 0.10), (0.85, 1, 1), 0.03),
+        Limb((0, 1.60, -1.33), (0, 1.57, -1.36), 0.078, 0.07, muzzle, (0.85, 1, 1), 0.03),
     ]  # fmt: skip
     for side, fore, hind in ((1, -0.20, 0.12), (-1, 0.13, -0.18)):
         x = 0.16 * side
@@ -235,27 +234,26 @@ def horse() -> Mesh:
         soft=0.03,
         flat=(0.55, 1, 1),
     )
-    coat = body(limbs, 0.04).painted(WHITE, _blaze)
+    coat = body(limbs, 0.04).tinted(WHITE, _blaze)
     eyes = _eyes(0.098, 1.91, -1.06, 0.025)
     nostrils = ball((0.014, 0.022, 0.022), BLACK, 8).at(0.052, 1.60, -1.395).both()
     return assemble(coat, eyes, nostrils, size=1.9)
 
 
 def _blaze(p: Array) -> Array:
-    return (
-        (np.abs(p[:, 0]) < 0.042)
-        & (p[:, 2] < -1.0)
-        & (p[:, 1] + 0.95 * p[:, 2] > 0.66)
-        & (p[:, 1] > 1.55)
-    )
+    """How white a horse's face is at (n, 3) places."""
+    x, y, z = p.T
+    ridge = np.minimum(1.3 - np.abs(x) / 0.04, (y + 0.95 * z - 0.62) / 0.05)
+    return 6 * ridge * (z < -0.97) * (y > 1.58)
 
 
-def bird() -> Mesh:
+def bird() -> Shape:
     """A blue songbird on its feet."""
     blue, breast, wing = (0.16, 0.42, 0.80), (0.93, 0.48, 0.18), (0.08, 0.22, 0.52)
     beak, leg = (0.95, 0.72, 0.10), (0.45, 0.28, 0.15)
     limbs = [
-        *chain([(0, 0.52, 0.18), (0, 0.55, 0.0), (0, 0.62, -0.16)], [0.15, 0.215, 0.19], blue, 0.08),
+        *chain([(0, 0.52, 0.18), (0, 0.55, 0.0), (0, 0.62, -0.16)], [0.15, 0.215, 0.19], blue,
+               soft=0.08),
         Limb((0, 0.47, 0.02), (0, 0.56, -0.17), 0.19, 0.19, breast, soft=0.05),
         Limb((0, 0.42, 0.14), (0, 0.44, 0.24), 0.13, 0.09, WHITE, soft=0.06),
         Limb((0, 0.86, -0.25), (0, 0.84, -0.25), 0.165, 0.165, blue, soft=0.08),

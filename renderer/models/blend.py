@@ -121,15 +121,18 @@ def _surface_net(field: Field) -> tuple[Array, NDArray[np.int64], NDArray[np.int
     """
     strides = np.array([field.shape[1] * field.shape[2], field.shape[2], 1])
     offsets = CORNERS @ strides
-    inside = (field < 0).ravel()
+    flat = field.ravel()
+    _close_diagonals(flat, strides)
+    inside = flat < 0
     nearby = np.zeros(field.size - offsets[-1], np.int8)
     for offset in offsets:
         nearby += inside[offset : offset + len(nearby)]
     cells = np.flatnonzero(nearby & 7)  # neither none nor all of the eight corners
-    value = field.ravel()[cells[:, None] + offsets].astype(float)
+    value = flat[cells[:, None] + offsets].astype(float)
     one, two = value[:, EDGES[:, 0]], value[:, EDGES[:, 1]]
     crossed = (one < 0) != (two < 0)
-    t = crossed * one / np.where(crossed, one - two, 1)
+    # Crossings close to a corner would make slivers.
+    t = crossed * np.clip(one / np.where(crossed, one - two, 1), 0.05, 0.95)
     start = CORNERS[EDGES[:, 0]].astype(float)
     step = CORNERS[EDGES[:, 1]] - start
     mean = (crossed @ start + t @ step) / (crossed @ np.ones(12))[:, None]
@@ -137,6 +140,28 @@ def _surface_net(field: Field) -> tuple[Array, NDArray[np.int64], NDArray[np.int
     number = np.empty(field.size, np.int64)
     number[cells] = np.arange(len(cells))
     return vertices, _net_faces(inside, number, strides), cells
+
+
+def _close_diagonals(flat: Field, strides: NDArray[np.int64]) -> None:
+    """Fill a corner of each grid square whose diagonals lie inside and outside.
+
+    Two sheets of the surface would meet in one edge there, which then had four triangles.
+    """
+    depth = np.float32(-0.1) * flat.max()
+    for _ in range(8):
+        inside = flat < 0
+        open_corners = []
+        for axis in range(3):
+            u, v = strides[(axis + 1) % 3], strides[(axis + 2) % 3]
+            a, b, c, d = (inside[s : len(inside) - u - v + s] for s in (0, u, v, u + v))
+            at = np.flatnonzero((a == d) & (b == c) & (a != b))
+            first = np.where(inside[at], at + u, at)
+            second = np.where(inside[at], at + v, at + u + v)
+            open_corners.append(np.where(flat[first] < flat[second], first, second))
+        chosen = np.concatenate(open_corners)
+        if not len(chosen):
+            return
+        flat[chosen] = depth
 
 
 def _net_faces(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.geometry import Mesh
 from renderer.models.shapes import Color, Shape, assemble, join
 from renderer.models.surfaces import box, copies, disc, pillow, rod, rounded, tube
 from renderer.models.wheels import (
@@ -64,7 +63,7 @@ def wheels(x: float, y: float, places: list[float], one: Shape) -> Shape:
     return join(*(one.at(x, y, z) for z in places)).both()
 
 
-def car() -> Mesh:
+def car() -> Shape:
     """A yellow saloon."""
     paint = (0.95, 0.70, 0.08)
     axles, r = [-1.32, 1.28], 0.33
@@ -103,7 +102,7 @@ def car() -> Mesh:
     return assemble(body, floor, top_part, *trim, side, rolling, size=1.95)
 
 
-def truck() -> Mesh:
+def truck() -> Shape:
     """A red lorry with a closed box."""
     red, cream = (0.78, 0.10, 0.09), (0.90, 0.88, 0.80)
     r, axles = 0.48, [-2.35, 1.35, 2.45]

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.geometry import Mesh
-from renderer.models.shapes import Array, Color, assemble, join
+from renderer.models.shapes import Array, Color, Shape, assemble, join
 from renderer.models.surfaces import (
-    ball,
     box,
     circle,
     copies,
-    curve,
     disc,
     lathe,
     pillow,
@@ -20,7 +17,7 @@ from renderer.models.surfaces import (
     sweep,
     tube,
 )
-from renderer.models.wheels import GLASS, STEEL, road_wheel, tyre, wing
+from renderer.models.wheels import GLASS, STEEL, tyre, wing
 
 WHITE: Color = (0.94, 0.94, 0.95)
 DARK: Color = (0.12, 0.12, 0.13)
@@ -36,7 +33,7 @@ def _round_hull(z: Array, radius: Array, y: Array, color: Color, sides: int = 32
     return tube(rings, color)
 
 
-def plane() -> Mesh:
+def plane() -> Shape:
     """A passenger jet on its wheels."""
     blue = (0.10, 0.28, 0.62)
     z = np.array(
@@ -63,12 +60,14 @@ def plane() -> Mesh:
     )
     y = 0.75 + np.interp(z, [-2.2, -1.75, -1.2, 0.9, 2.3], [-0.07, -0.02, 0, 0, 0.16])
     fuselage = _round_hull(z, r, y, WHITE)
-    fuselage = fuselage.painted((0.78, 0.80, 0.83), lambda p: p[:, 1] < 0.58)
-    stripe = _round_hull(z[3:-2], r[3:-2] + 0.004, y[3:-2], WHITE)
-    belt = stripe.bent(
-        lambda p: np.column_stack([p[:, 0], 0.70 + 0.18 * (p[:, 1] - 0.70), p[:, 2]])
-    )
-    belt = stripe.painted(blue, lambda p: np.full(len(p), True)).bent(_band)
+
+    def steep(p: Array) -> Array:
+        """Sine of the angle about the fuselage's middle line, so that borders follow its rings."""
+        up = p[:, 1] - np.interp(p[:, 2], z, y)
+        return up / np.hypot(p[:, 0], up)
+
+    fuselage = fuselage.painted((0.78, 0.80, 0.83), lambda p: steep(p) < -0.4)
+    fuselage = fuselage.painted(blue, lambda p: np.abs(steep(p) + 0.2) < 0.2)
     nose = box((0.34, 0.085, 0.16), GLASS, 0.02).turned("x", -38).at(y=0.885, z=-1.93)
     panes = [(0.285, 0.82, v) for v in np.linspace(-1.4, 1.1, 26)]
     windows = copies(pillow((0.045, 0.075, 0.045), GLASS, 0.6, 8), panes).both()
@@ -80,9 +79,11 @@ def plane() -> Mesh:
     fin = wing((0, 0, 1.45), 0.75, (0.95, 0, 2.1), 0.38, 0.09, blue, 8, 20)
     fin = fin.turned("z", 90).at(y=0.9)
     engine = join(
-        ring([(0.15, -0.3), (0.17, 0.0), (0.16, 0.2), (0.13, 0.21), (0.11, -0.05), (0.11, -0.3)], blue, 28, sharp=60),
+        ring([(0.15, -0.3), (0.17, 0.0), (0.16, 0.2), (0.13, 0.21), (0.11, -0.05), (0.11, -0.3)],
+             blue, 28, sharp=60),
         disc(0.115, 0.02, DARK, 24).at(y=0.1),
-        lathe([(0, -0.42), (0.06, -0.32), (0.10, -0.2), (0.10, 0.09), (0.02, 0.16), (0, 0.165)], STEEL, 20),
+        lathe([(0, -0.42), (0.06, -0.32), (0.10, -0.2), (0.10, 0.09), (0.02, 0.16), (0, 0.165)],
+              STEEL, 20),
     ).turned("x", -90).at(0.82, 0.43, -0.18)  # fmt: skip
     pylon = box((0.03, 0.16, 0.4), WHITE, 0.01).at(0.82, 0.58, -0.02)
     leg = join(tyre(0.12, 0.08, 0.06, 20, 2), disc(0.065, 0.09, STEEL, 16).turned("z", 90))
@@ -93,17 +94,10 @@ def plane() -> Mesh:
     )
     front = join(leg.at(0.05, 0.12, -1.5), rod((0.0, 0.12, -1.5), (0, 0.55, -1.5), 0.025, STEEL))
     both = join(windows, join(main, tip, tail, engine, pylon, gear).both())
-    return assemble(fuselage, belt, nose, both, fin, front, size=2.0)
+    return assemble(fuselage, nose, both, fin, front, size=2.0)
 
 
-def _band(p: Array) -> Array:
-    """Squeezes a hull to a band below its windows, just outside the hull it came from."""
-    middle = 0.66
-    y = np.clip(p[:, 1], middle - 0.035, middle + 0.035)
-    return np.column_stack([p[:, 0], y, p[:, 2]])
-
-
-def boat() -> Mesh:
+def boat() -> Shape:
     """A sailing boat with two sails."""
     navy, wood, sail = (0.10, 0.20, 0.45), (0.66, 0.44, 0.22), (0.96, 0.94, 0.88)
     z = np.linspace(-1.5, 1.3, 30)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.geometry import Mesh
 from renderer.models.shapes import Color, Shape, assemble, join
 from renderer.models.surfaces import (
     ball,
@@ -12,7 +11,6 @@ from renderer.models.surfaces import (
     copies,
     curve,
     disc,
-    lathe,
     pillow,
     ring,
     rod,
@@ -20,12 +18,12 @@ from renderer.models.surfaces import (
     spun,
     sweep,
 )
-from renderer.models.wheels import RUBBER, STEEL, road_wheel, spoked_wheel, tyre
+from renderer.models.wheels import STEEL, road_wheel, spoked_wheel, tyre
 
 BLACK: Color = (0.10, 0.10, 0.11)
 
 
-def bike() -> Mesh:
+def bike() -> Shape:
     """A bicycle: diamond frame, spoked wheels, chain, straight bars, saddle."""
     paint = (0.05, 0.52, 0.50)
     r, front, rear = 0.34, (0.0, 0.34, -0.53), (0.0, 0.34, 0.50)
@@ -39,7 +37,8 @@ def bike() -> Mesh:
         join(
             rod((0.02, 0.29, 0.06), (0.06, 0.34, 0.50), thin, paint),
             rod((0.015, 0.77, 0.21), (0.06, 0.34, 0.50), thin, paint),
-            sweep(curve([(0.03, 0.70, -0.395), (0.055, 0.66, -0.41), (0.055, 0.5, -0.465), (0.055, 0.34, -0.53)], 10), 0.015, paint),
+            sweep(curve([(0.03, 0.70, -0.395), (0.055, 0.66, -0.41), (0.055, 0.5, -0.465),
+                         (0.055, 0.34, -0.53)], 10), 0.015, paint),
         ).both(),
         rod((-0.05, 0.70, -0.397), (0.05, 0.70, -0.397), 0.018, paint),
     ]  # fmt: skip
@@ -115,7 +114,7 @@ def _drive(crank: tuple, rear: tuple) -> Shape:
     return join(join(join(wheel, arms).at(x), right, left, shaft).at(*crank), sprocket, chain)
 
 
-def motorbike() -> Mesh:
+def motorbike() -> Shape:
     """A red motorcycle: tank, twin engine, exhausts, round lamp."""
     red, r = (0.72, 0.07, 0.08), 0.31
     front, rear = (0, r, -0.74), (0, r, 0.68)
@@ -136,8 +135,9 @@ def motorbike() -> Mesh:
         rod((0.09, 0.28, -0.755), (0.09, 0.55, -0.64), 0.035, BLACK, 12),
     ).both()
     yokes = copies(box((0.24, 0.035, 0.08), BLACK, 0.01), [(0, 0.72, -0.575), (0, 0.93, -0.485)])
-    bars = sweep(curve([(-0.38, 1.06, -0.25), (-0.26, 1.08, -0.34), (-0.1, 0.99, -0.46), (0.1, 0.99, -0.46),
-                        (0.26, 1.08, -0.34), (0.38, 1.06, -0.25)], 24), 0.014, STEEL, 10)  # fmt: skip
+    bars = sweep(curve([(-0.38, 1.06, -0.25), (-0.26, 1.08, -0.34), (-0.1, 0.99, -0.46),
+                        (0.1, 0.99, -0.46), (0.26, 1.08, -0.34), (0.38, 1.06, -0.25)], 24),
+                 0.014, STEEL, 10)  # fmt: skip
     grips = join(
         rod((0.29, 1.078, -0.315), (0.40, 1.055, -0.235), 0.024, BLACK, 12),
         rod((0.24, 1.07, -0.36), (0.28, 1.22, -0.38), 0.008, STEEL),
@@ -167,8 +167,8 @@ def motorbike() -> Mesh:
     ]
     guards = [_guard(front, r + 0.03, 20, 150, red), _guard(rear, r + 0.035, 10, 110, red)]
     light = pillow((0.1, 0.06, 0.05), (0.85, 0.05, 0.05), 0.5, 14).at(0, 0.79, 0.87)
-    return assemble(tread.at(*front), tread.at(*rear), tank, seat, tail, lamp, fork, yokes, bars, grips, *frame,
-                    *guards, light, _engine(), size=1.8)  # fmt: skip
+    return assemble(tread.at(*front), tread.at(*rear), tank, seat, tail, lamp, fork, yokes, bars,
+                    grips, *frame, *guards, light, _engine(), size=1.8)  # fmt: skip
 
 
 def _guard(axle: tuple, radius: float, start: float, end: float, color: Color) -> Shape:
@@ -193,9 +193,13 @@ def _engine() -> Shape:
     )
     pipes = []
     for dy, start in ((0, -0.24), (0.09, 0.05)):
-        path = curve([(0.06, 0.58 + dy, start - 0.06), (0.15, 0.5 + dy, start - 0.10), (0.17, 0.30 + dy, start + 0.04),
-                      (0.17, 0.24 + dy, 0.3), (0.18, 0.27 + dy, 0.95)], 30)  # fmt: skip
+        path = curve([(0.06, 0.58 + dy, start - 0.06), (0.15, 0.5 + dy, start - 0.10),
+                      (0.17, 0.30 + dy, start + 0.04), (0.17, 0.24 + dy, 0.3),
+                      (0.18, 0.27 + dy, 0.95)], 30)  # fmt: skip
         pipes.append(sweep(path, np.interp(path[:, 2], [0.25, 0.36], [0.024, 0.045]), STEEL, 14))
     filters = disc(0.09, 0.1, STEEL, 20, 0.02).turned("z", 90).at(0.14, 0.62, -0.02)
-    return join(block, cover, barrel.turned("x", -24).at(0, 0.42, -0.07), barrel.turned("x", 24).at(0, 0.42, 0.08),
-                *pipes, filters, box((0.04, 0.04, 0.12), BLACK, 0.01).at(0.2, 0.28, -0.12).both())  # fmt: skip
+    pair = join(
+        barrel.turned("x", -24).at(0, 0.42, -0.07), barrel.turned("x", 24).at(0, 0.42, 0.08)
+    )
+    rests = box((0.04, 0.04, 0.12), BLACK, 0.01).at(0.2, 0.28, -0.12).both()
+    return join(block, cover, pair, *pipes, filters, rests)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.geometry import Mesh
 from renderer.models.seats import OAK, WALNUT, turned_leg
 from renderer.models.shapes import Array, Color, Shape, assemble, join
 from renderer.models.surfaces import (
@@ -26,7 +25,7 @@ BRASS: Color = (0.80, 0.62, 0.25)
 BLACK: Color = (0.07, 0.07, 0.08)
 
 
-def table() -> Mesh:
+def table() -> Shape:
     """A white kitchen table on four turned legs."""
     white, apron = (0.95, 0.94, 0.90), (0.80, 0.79, 0.75)
     top = box((1.7, 0.06, 0.95), white, 0.025, 4).at(y=0.80)
@@ -41,7 +40,7 @@ def table() -> Mesh:
     return assemble(top, rails, legs, size=1.7)
 
 
-def lamp() -> Mesh:
+def lamp() -> Shape:
     """A table lamp: ceramic foot, pleated shade."""
     blue, cream = (0.12, 0.36, 0.46), (0.98, 0.86, 0.56)
     foot = curve(
@@ -79,7 +78,7 @@ def _pleated(p: np.ndarray) -> np.ndarray:
     return p * np.stack([wave, np.ones_like(wave), wave], axis=1)
 
 
-def television() -> Mesh:
+def television() -> Shape:
     """A tube television: wooden case on splayed legs, antenna, round screen, knobs."""
     case = box((1.3, 0.86, 0.5), (0.55, 0.33, 0.16), 0.07, 4)
     hump = box((0.8, 0.55, 0.25), (0.25, 0.22, 0.20), 0.09, 4).at(-0.1, 0, 0.3)
@@ -113,7 +112,7 @@ def television() -> Mesh:
     return assemble(case, hump, bezel, screen, shine, knobs, slots, leg, feet, ears, dome, size=1.6)
 
 
-def bookshelf() -> Mesh:
+def bookshelf() -> Shape:
     """A tall case with four shelves of books."""
     w, h, d, t = 0.95, 1.75, 0.32, 0.035
     case = join(
@@ -150,12 +149,12 @@ def _books(width: float, floors: Array, count: int = 17) -> Shape:
     return join(books, boxes(band, place + cover * (0, 0.3, 0), gold, 0.003))
 
 
-def piano() -> Mesh:
+def piano() -> Shape:
     """A grand piano with its lid up; the keys face −z."""
     black, gold = BLACK, (0.72, 0.50, 0.16)
     # Seen from above, y forward: straight bass side on the left, the bent side on the right.
-    right = curve([(0.75, 0.25), (0.74, 0.0), (0.62, -0.3), (0.32, -0.55), (0.2, -0.85), (0.05, -1.1),
-                   (-0.25, -1.25), (-0.6, -1.2), (-0.75, -1.0)], 40)[::-1]  # fmt: skip
+    right = curve([(0.75, 0.25), (0.74, 0.0), (0.62, -0.3), (0.32, -0.55), (0.2, -0.85),
+                   (0.05, -1.1), (-0.25, -1.25), (-0.6, -1.2), (-0.75, -1.0)], 40)[::-1]  # fmt: skip
     outline = np.array([*right, (0.75, 0.42), (-0.75, 0.42)])
     rim = slab(outline, 0.26, black, 0.02).turned("x", -90).at(y=0.80)
     inset = (outline - outline.mean(axis=0)) * 0.93 + outline.mean(axis=0)
@@ -179,8 +178,8 @@ def piano() -> Mesh:
         box((0.3, 0.08, 0.1), black, 0.02).at(y=0.1),
         box((0.06, 0.6, 0.05), black).at(0.09, 0.4).both(),
     )
-    return assemble(rim, plate, lid, prop, legs, keybed, cheeks, desk, pedals, lyre.at(z=-0.2), _keys(1.34),
-                    size=1.9)  # fmt: skip
+    return assemble(rim, plate, lid, prop, legs, keybed, cheeks, desk, pedals, lyre.at(z=-0.2),
+                    _keys(1.34), size=1.9)  # fmt: skip
 
 
 def _keys(width: float):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.geometry import Mesh
 from renderer.models.shapes import Color, Shape, assemble, join
 from renderer.models.surfaces import (
     box,
@@ -33,7 +32,7 @@ def turned_leg(height: float, radius: float, color: Color, sides: int = 20) -> S
     return lathe(steps, color, sides, sharp=60)
 
 
-def chair() -> Mesh:
+def chair() -> Shape:
     """A wooden dining chair: turned legs, spindle back."""
     seat = slab(
         [(-0.24, -0.24), (0.24, -0.24), (0.27, 0.0), (0.29, 0.24), (-0.29, 0.24), (-0.27, 0.0)],
@@ -64,7 +63,7 @@ def rounded_bar(width: float, height: float) -> np.ndarray:
     return rounded(2 * width, 2 * height, 0.8 * height, 3)
 
 
-def directors_chair() -> Mesh:
+def directors_chair() -> Shape:
     """A folding film set chair: crossed legs, canvas seat and back."""
     canvas = (0.13, 0.16, 0.20)
     bar = rounded_bar(1.0, 0.65)
@@ -122,14 +121,14 @@ def _upholstered(width: float, seats: int, color: Color, trim: Color) -> list[Sh
     ]
 
 
-def sofa() -> Mesh:
+def sofa() -> Shape:
     """A red sofa for three."""
     parts = _upholstered(1.6, 3, (0.70, 0.13, 0.13), WALNUT)
     throw = pillow((0.34, 0.34, 0.14), (0.92, 0.80, 0.45), 0.5, 20).turned("z", 20).turned("x", 18)
     return assemble(*parts, throw.turned("y", -10).at(0.58, 0.66, 0.10), size=2.0)
 
 
-def armchair() -> Mesh:
+def armchair() -> Shape:
     """A green easy chair with a high back and wings."""
     green, dark = (0.16, 0.40, 0.26), (0.12, 0.31, 0.20)
     parts = _upholstered(0.58, 1, green, WALNUT)
@@ -141,7 +140,7 @@ def armchair() -> Mesh:
     return assemble(*parts, back, wing.both(), buttons, size=1.35)
 
 
-def bed() -> Mesh:
+def bed() -> Shape:
     """A double bed: headboard at the far end, duvet turned down, two pillows."""
     blue = (0.25, 0.42, 0.70)
     head = slab(

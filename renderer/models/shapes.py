@@ -1,7 +1,7 @@
 """What models are put together from: closed surfaces with a colour on every corner.
 
-Shapes stay unshaded until `assemble` makes one Mesh of them: only then are vertices split where an
-edge is sharp or the colour changes, all parts at once.
+Shapes stay unshaded until `shade` makes one Mesh of a whole model: only then are vertices split
+where an edge is sharp or the colour changes, all parts at once.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Shape:
 
     def at(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Shape:
         """Moved by (x, y, z)."""
-        return replace(self, vertices=self.vertices + (x, y, z))
+        return replace(self, vertices=np.add(self.vertices, (x, y, z)))
 
     def scaled(self, x: float, y: float | None = None, z: float | None = None) -> Shape:
         """Scaled by positive factors about the origin; by one factor where only one is given."""
@@ -100,8 +100,8 @@ def join(*shapes: Shape) -> Shape:
     )
 
 
-def assemble(*shapes: Shape, size: float | None = None) -> Mesh:
-    """One Mesh of all shapes, standing on y = 0, its bounds centred at x = z = 0.
+def assemble(*shapes: Shape, size: float | None = None) -> Shape:
+    """All shapes as one, standing on y = 0, its bounds centred at x = z = 0.
 
     Its longest side becomes `size` world units where that is given.
     """
@@ -109,7 +109,7 @@ def assemble(*shapes: Shape, size: float | None = None) -> Mesh:
     low, high = whole.vertices.min(axis=0), whole.vertices.max(axis=0)
     scale = 1.0 if size is None else size / (high - low).max()
     middle = np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2])
-    return shade(replace(whole, vertices=(whole.vertices - middle) * scale))
+    return replace(whole, vertices=(whole.vertices - middle) * scale)
 
 
 def shade(whole: Shape) -> Mesh:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from renderer.models.shapes import SHARP, Array, Shape, shape
 
@@ -20,28 +21,42 @@ def tube(rings: ArrayLike, color: ArrayLike, sharp: float = SHARP, closed: bool 
     """
     rings = np.asarray(rings, float)
     n, m = rings.shape[:2]
+    same = np.abs(rings - rings[:, np.arange(m) - 1]).max(axis=2) < 1e-9
+    triangles = _tube_faces(n, m, closed)
+    vertices = rings.reshape(-1, 3)
+    if not closed:
+        vertices = np.concatenate([vertices, rings[[0, -1]].mean(axis=1)])
+    if not same.any():
+        return shape(vertices, triangles, color, sharp)
+    ids = np.append(_weld(np.arange(n * m).reshape(n, m), same), [n * m, n * m + 1])
+    triangles = ids[triangles]
+    x, y, z = triangles.T
+    kept = (x != y) & (y != z) & (z != x)
+    # A cap over a ring that shrank to a point is no surface, though its corners differ.
+    caps = np.repeat([0, n - 1], m) if not closed else np.zeros(0, int)
+    kept[len(kept) - len(caps) :] &= ~same.all(axis=1)[caps]
+    return _compact(vertices, triangles[kept], color, sharp)
+
+
+@lru_cache(maxsize=256)
+def _tube_faces(n: int, m: int, closed: bool) -> NDArray[np.int64]:
+    """Triangles over n rings of m vertices, then the centres of the two caps."""
     ids = np.arange(n * m).reshape(n, m)
-    same = np.abs(rings - np.roll(rings, 1, axis=1)).max(axis=2) < 1e-9
-    if same.any():
-        ids = _weld(ids, same)
     right = np.roll(ids, -1, axis=1)
     if closed:
         a, b, c, d = ids, right, np.roll(right, -1, axis=0), np.roll(ids, -1, axis=0)
     else:
         a, b, c, d = ids[:-1], right[:-1], right[1:], ids[1:]
-    quads = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
-    vertices = rings.reshape(-1, 3)
-    if not closed:
-        low, high = np.full(m, n * m), np.full(m, n * m + 1)
-        bottom = np.stack([right[0], ids[0], low], axis=-1)
-        top = np.stack([ids[-1], right[-1], high], axis=-1)
-        quads = np.concatenate([quads, bottom, top])
-        vertices = np.concatenate([vertices, rings[[0, -1]].mean(axis=1)])
-    x, y, z = quads.T
-    return _compact(vertices, quads[(x != y) & (y != z) & (z != x)], color, sharp)
+    sides = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
+    if closed:
+        return sides
+    low, high = np.full(m, n * m), np.full(m, n * m + 1)
+    bottom = np.stack([right[0], ids[0], low], axis=-1)
+    top = np.stack([ids[-1], right[-1], high], axis=-1)
+    return np.concatenate([sides, bottom, top])
 
 
-def _weld(ids: Array, same: Array) -> Array:
+def _weld(ids: NDArray[np.int64], same: NDArray[np.bool_]) -> NDArray[np.int64]:
     """Ids in which each vertex that is the `same` as its predecessor takes the predecessor's."""
     m = ids.shape[1]
     source = np.maximum.accumulate(np.where(same, -1, np.arange(m)), axis=1)
@@ -50,7 +65,9 @@ def _weld(ids: Array, same: Array) -> Array:
     return np.take_along_axis(ids, source, axis=1)
 
 
-def _compact(vertices: Array, triangles: Array, color: ArrayLike, sharp: float) -> Shape:
+def _compact(
+    vertices: Array, triangles: NDArray[np.int64], color: ArrayLike, sharp: float
+) -> Shape:
     """A Shape without the vertices no triangle uses."""
     used = np.zeros(len(vertices), bool)
     used[triangles] = True
@@ -76,9 +93,10 @@ def curve(points: ArrayLike, n: int) -> Array:
     )
 
 
-def circle(n: int, start: float = 0.0) -> Array:
+@lru_cache(maxsize=64)
+def circle(n: int) -> Array:
     """(n, 2) points of the unit circle, counter-clockwise."""
-    angle = 2 * np.pi * np.arange(n) / n + start
+    angle = 2 * np.pi * np.arange(n) / n
     return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
@@ -125,11 +143,16 @@ def disc(radius: float, height: float, color: ArrayLike, sides: int = 24, edge: 
 
 def ball(size: Sequence[float] | float, color: ArrayLike, sides: int = 16) -> Shape:
     """An ellipsoid about the origin with semi-axes `size`."""
+    one = _unit_ball(sides)
+    return shape(one.vertices * np.asarray(size), one.triangles, color, sharp=180)
+
+
+@lru_cache(maxsize=32)
+def _unit_ball(sides: int) -> Shape:
     angle = np.linspace(-np.pi / 2, np.pi / 2, sides // 2 + 1)
     radius = np.cos(angle)
     radius[[0, -1]] = 0
-    sphere = lathe(np.stack([radius, np.sin(angle)], axis=1), color, sides, sharp=180)
-    return sphere.scaled(*np.broadcast_to(size, 3))
+    return lathe(np.stack([radius, np.sin(angle)], axis=1), (0, 0, 0), sides)
 
 
 def box(size: Sequence[float], color: ArrayLike, edge: float = 0.0, steps: int = 2) -> Shape:
@@ -197,9 +220,18 @@ def _plane_normal(path: Array) -> Array:
     return across / np.linalg.norm(across)
 
 
-def rod(a: Sequence[float], b: Sequence[float], radius: float, color: ArrayLike, sides: int = 8):
+def rod(
+    a: Sequence[float], b: Sequence[float], radius: float, color: ArrayLike, sides: int = 8
+) -> Shape:
     """A straight round bar from a to b."""
-    return sweep([a, b], radius, color, sides)
+    start, along = np.asarray(a, float), np.subtract(b, a)
+    x, y, z = along
+    across = np.array([-y, x, 0.0] if abs(z) < 0.9 * np.sqrt(along @ along) else [0.0, -z, y])
+    across *= radius / np.sqrt(across @ across)
+    third = np.cross(along, across) / np.sqrt(along @ along)
+    flat = circle(sides)
+    ring = start + flat[:, :1] * across + flat[:, 1:] * third
+    return tube(np.stack([ring, ring + along]), color)
 
 
 def slab(

@@ -29,7 +29,7 @@ GLASS: Color = (0.20, 0.30, 0.38)
 def tyre(radius: float, width: float, depth: float, sides: int = 32, steps: int = 3) -> Shape:
     """A tyre about the x axis, its tread `depth` above the rim."""
     flat = rounded(depth, width, 0.42 * min(depth, width), steps)
-    return ring(flat + (radius - depth / 2, 0), RUBBER, sides).turned("z", 90)
+    return ring(np.add(flat, (radius - depth / 2, 0)), RUBBER, sides).turned("z", 90)
 
 
 def road_wheel(radius: float, width: float, rim: Color = STEEL, spokes: int = 5) -> Shape:
@@ -65,7 +65,7 @@ def hull(
     for zi, w, low, high in np.broadcast(z, half_width, bottom, top):
         flat = rounded(2 * w, high - low, min(radius, 0.48 * (high - low), 0.48 * 2 * w), steps)
         flat[:, 0] *= 1 - flare * (flat[:, 1] / (high - low)) - flare / 2
-        rings.append(np.column_stack([flat + (0, (low + high) / 2), np.full(len(flat), zi)]))
+        rings.append(np.column_stack([np.add(flat, (0, (low + high) / 2)), np.full(len(flat), zi)]))
     return tube(rings, color)
 
 
@@ -115,9 +115,8 @@ def spoked_wheel(radius: float, depth: float, width: float, spokes: int, hub: fl
     """A bicycle's wheel about the x axis: tyre, rim and thin spokes crossed to both hub flanges."""
     tread = tyre(radius, width, depth, 40, 2)
     inner = radius - depth
-    rim = ring(rounded(0.5 * depth, width * 0.8, 0.1 * depth, 1) + (inner, 0), STEEL, 40).turned(
-        "z", 90
-    )
+    flat = rounded(0.5 * depth, width * 0.8, 0.1 * depth, 1)
+    rim = ring(np.add(flat, (inner, 0)), STEEL, 40).turned("z", 90)
     wires = [_spoke(2 * np.pi * i / spokes, i, hub, radius, inner) for i in range(4)]
     axle = disc(0.05 * radius, 2.6 * hub, STEEL, 12).turned("z", 90)
     flange = disc(0.075 * radius, 0.3 * hub, STEEL, 12).turned("z", 90)
