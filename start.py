@@ -38,7 +38,6 @@ STAMP = os.path.join(VENV, "installed.txt")
 UNFINISHED = os.path.join(VENV, "unfinished.txt")
 LOG = os.path.join(VENV, "install.log")
 CONSTRAINTS = os.path.join(ROOT, "constraints.txt")
-TEST_PROGRAMS = os.path.join(ROOT, "tests", "system-packages.txt")
 
 # What each package manager runs first, and how it installs.
 MANAGERS = {
@@ -224,7 +223,7 @@ def need_test_programs() -> None:
     if sys.platform != "linux":
         return
     wanted = {name: [] for name in MANAGERS}
-    with open(TEST_PROGRAMS, encoding="utf-8") as file:
+    with open(os.path.join(ROOT, "tests", "system-packages.txt"), encoding="utf-8") as file:
         for line in file:
             words = line.partition("#")[0].split()
             if words and not shutil.which(words[0]):
@@ -351,12 +350,6 @@ def run_program(words: list[str]) -> int:
     os.execv(PYTHON, [PYTHON, os.path.join(SCRIPTS, "seethrough"), *words])
 
 
-def adopt_orphans() -> None:
-    """Become the parent of what our descendants leave behind, so that it can be ended (Linux)."""
-    set_child_subreaper = 36
-    importlib.import_module("ctypes").CDLL(None).prctl(set_child_subreaper, 1, 0, 0, 0)
-
-
 def children() -> list[int]:
     """Process ids of our children (Linux)."""
     with open(f"/proc/self/task/{os.getpid()}/children", encoding="ascii") as file:
@@ -368,7 +361,8 @@ def run_tests(words: list[str]) -> int:
     command = [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadscope", *words]
     if sys.platform != "linux":
         return subprocess.call(command, cwd=ROOT)
-    adopt_orphans()
+    set_child_subreaper = 36  # what our descendants leave behind becomes our child
+    importlib.import_module("ctypes").CDLL(None).prctl(set_child_subreaper, 1, 0, 0, 0)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         return subprocess.call(command, cwd=ROOT)
