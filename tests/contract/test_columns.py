@@ -46,9 +46,7 @@ def test_the_dictionary_names_every_column() -> None:
     for table, columns in TABLES.items():
         rows = text.partition(f"`…_{table}_data.csv`")[2].partition("## ")[0].splitlines()
         for column in columns:
-            line = next(
-                row for row in section.splitlines() if row.startswith(f"| `{column.name}` ")
-            )
+            line = next(row for row in rows if row.startswith(f"| `{column.name}` "))
             assert f"| {column.type} | {column.unit} |" in line
             assert all(f"`{level}`" in line for level in column.levels)
 
