@@ -164,4 +164,4 @@ def _sail(tack: tuple, head: tuple, clew: tuple, belly: float, color: Color, n: 
     rings[:, n:, 0] += fill[:, ::-1] - 0.02
     if (np.cross(clew - tack, head - tack))[0] < 0:
         rings = rings[:, ::-1]
-    return tube(rings, color, sharp=60)
+    return tube(rings, color, sharp=60, strips=True)

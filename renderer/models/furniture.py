@@ -152,14 +152,18 @@ def _books(width: float, floors: Array, count: int = 17) -> Shape:
 def piano() -> Shape:
     """A grand piano with its lid up; the keys face −z."""
     black, gold = BLACK, (0.72, 0.50, 0.16)
-    # Seen from above, y forward: straight bass side on the left, the bent side on the right.
-    right = curve([(0.75, 0.25), (0.74, 0.0), (0.62, -0.3), (0.32, -0.55), (0.2, -0.85),
-                   (0.05, -1.1), (-0.25, -1.25), (-0.6, -1.2), (-0.75, -1.0)], 40)[::-1]  # fmt: skip
-    outline = np.array([*right, (0.75, 0.42), (-0.75, 0.42)])
-    rim = slab(outline, 0.26, black, 0.02).turned("x", -90).at(y=0.80)
-    inset = (outline - outline.mean(axis=0)) * 0.93 + outline.mean(axis=0)
-    plate = slab(inset[:-2], 0.02, gold).turned("x", -90).at(y=0.925)
-    lid = slab(outline[:-2], 0.03, (0.13, 0.13, 0.15), 0.01).turned("x", -90)
+    bent = curve([(0.75, 0.25), (0.74, 0.0), (0.62, -0.3), (0.32, -0.55), (0.2, -0.85),
+                  (0.05, -1.1), (-0.25, -1.25), (-0.6, -1.2), (-0.75, -1.0)], 32)[::-1]  # fmt: skip
+
+    def outline(front: float) -> Array:
+        """Seen from above, y forward; enough corners on the straight sides to balance the bend."""
+        before = [(x, front) for x in np.linspace(0.75, -0.75, 10)[front == 0.25 :]]
+        bass = [(-0.75, y) for y in np.linspace(front, -1.0, 12)[1:-1]]
+        return np.array([*bent, *before, *bass])
+
+    rim = slab(outline(0.42), 0.26, black, 0.02).turned("x", -90).at(y=0.80)
+    plate = slab(outline(0.26) * 0.95, 0.02, gold).turned("x", -90).at(y=0.925)
+    lid = slab(outline(0.25), 0.03, (0.13, 0.13, 0.15), 0.01).turned("x", -90)
     lid = lid.at(x=0.75).turned("z", 38).at(x=-0.75, y=0.96)
     prop = rod((0.45, 0.92, 0.25), (0.28, 1.72, 0.25), 0.014, (0.2, 0.2, 0.22))
     leg = lathe(

@@ -12,19 +12,26 @@ from numpy.typing import ArrayLike, NDArray
 from renderer.models.shapes import SHARP, Array, Shape, shape
 
 
-def tube(rings: ArrayLike, color: ArrayLike, sharp: float = SHARP, closed: bool = False) -> Shape:
+def tube(
+    rings: ArrayLike,
+    color: ArrayLike,
+    sharp: float = SHARP,
+    closed: bool = False,
+    strips: bool = False,
+) -> Shape:
     """The surface through rings (n, m, 3), with caps, or joined end to start where `closed`.
 
     A ring runs counter-clockwise seen from the end of the tube, the side the rings advance to.
     Neighbours that coincide are one vertex, so a ring may shrink to a point. Caps are fans about
-    the ring's mean: end rings must be star-shaped about it.
+    the ring's mean, about which end rings must be star-shaped; or `strips` from each vertex of a
+    ring's first half to the opposite one of its second half, for thin curved ends.
     """
     rings = np.asarray(rings, float)
     n, m = rings.shape[:2]
     same = np.abs(rings - rings[:, np.arange(m) - 1]).max(axis=2) < 1e-9
-    triangles = _tube_faces(n, m, closed)
+    triangles = _tube_faces(n, m, closed, strips)
     vertices = rings.reshape(-1, 3)
-    if not closed:
+    if not (closed or strips):
         vertices = np.concatenate([vertices, rings[[0, -1]].mean(axis=1)])
     if not same.any():
         return shape(vertices, triangles, color, sharp)
@@ -33,13 +40,13 @@ def tube(rings: ArrayLike, color: ArrayLike, sharp: float = SHARP, closed: bool 
     x, y, z = triangles.T
     kept = (x != y) & (y != z) & (z != x)
     # A cap over a ring that shrank to a point is no surface, though its corners differ.
-    caps = np.repeat([0, n - 1], m) if not closed else np.zeros(0, int)
+    caps = np.repeat([0, n - 1], m) if not (closed or strips) else np.zeros(0, int)
     kept[len(kept) - len(caps) :] &= ~same.all(axis=1)[caps]
     return _compact(vertices, triangles[kept], color, sharp)
 
 
 @lru_cache(maxsize=256)
-def _tube_faces(n: int, m: int, closed: bool) -> NDArray[np.int64]:
+def _tube_faces(n: int, m: int, closed: bool, strips: bool) -> NDArray[np.int64]:
     """Triangles over n rings of m vertices, then the centres of the two caps."""
     ids = np.arange(n * m).reshape(n, m)
     right = np.roll(ids, -1, axis=1)
@@ -50,6 +57,12 @@ def _tube_faces(n: int, m: int, closed: bool) -> NDArray[np.int64]:
     sides = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
     if closed:
         return sides
+    if strips:
+        i = np.arange(m // 2 - 1)
+        cap = np.concatenate(
+            [np.stack([i, m - 1 - i, i + 1], 1), np.stack([i + 1, m - 1 - i, m - 2 - i], 1)]
+        )
+        return np.concatenate([sides, cap, cap[:, ::-1] + (n - 1) * m])
     low, high = np.full(m, n * m), np.full(m, n * m + 1)
     bottom = np.stack([right[0], ids[0], low], axis=-1)
     top = np.stack([ids[-1], right[-1], high], axis=-1)
@@ -294,7 +307,8 @@ def spun(one: Shape, count: int) -> Shape:
 def boxes(sizes: ArrayLike, centers: ArrayLike, colors: ArrayLike, edge: float) -> Shape:
     """Boxes (k, 3) of colours (k, 3), their edges bevelled by `edge`."""
     one = box((1, 1, 1), (0, 0, 0), edge, 1)
-    grown = np.sign(one.vertices) * (np.asarray(sizes, float)[:, None] - 1) / 2
+    side = np.sign(one.vertices.round(9))
+    grown = side * (np.asarray(sizes, float)[:, None] - 1) / 2
     many = _repeated(one, one.vertices + grown + np.asarray(centers, float)[:, None])
     rgb = np.repeat(np.asarray(colors, float), len(one.triangles), axis=0)
     return replace(many, colors=np.broadcast_to(rgb[:, None], many.colors.shape))
