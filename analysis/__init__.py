@@ -1,1 +1,1 @@
-"""A data folder in, a report out. Imports none of our other packages: the files are the interface."""
+"""A data folder in, a report out. It imports none of ours: the files are the interface."""

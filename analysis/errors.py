@@ -1,0 +1,20 @@
+"""What the owner of the data can mend: each problem is one line (CONVENTIONS.md, bad input)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+SHOWN = 20
+
+
+class DataError(Exception):
+    """Data that cannot be analysed. `lines` name file, row, column, value and what was expected."""
+
+    def __init__(self, lines: str | Iterable[str]) -> None:
+        self.lines = (lines,) if isinstance(lines, str) else tuple(lines)
+        super().__init__("\n".join(self.lines))
+
+    def shown(self) -> tuple[str, ...]:
+        """At most `SHOWN` lines; the last one counts the rest."""
+        more = len(self.lines) - SHOWN
+        return self.lines if more <= 0 else (*self.lines[:SHOWN], f"and {more} more like these")

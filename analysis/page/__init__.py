@@ -1,0 +1,1 @@
+"""The report as values (blocks), and as HTML, Markdown, CSV, SVG, PNG and PDF."""

@@ -1,0 +1,142 @@
+"""What a report is made of. Every number in a sentence is cited from a table that is also a CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from analysis.page.numbers import show
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A table's column: its name in the CSV, its heading, and how its numbers are shown."""
+
+    name: str
+    label: str
+    style: str = "text"
+    about: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows keyed by their first column. `shown` picks columns for the page; the CSV has all."""
+
+    key: str
+    title: str
+    columns: tuple[Column, ...]
+    rows: tuple[Mapping[str, Any], ...]
+    shown: tuple[str, ...] = ()
+    note: str = ""
+
+    def column(self, name: str) -> Column:
+        return next(c for c in self.columns if c.name == name)
+
+    def row(self, key: str) -> Mapping[str, Any]:
+        """The row whose first column is `key`."""
+        return next(r for r in self.rows if r[self.columns[0].name] == key)
+
+    def visible(self) -> tuple[Column, ...]:
+        """The columns on the page."""
+        return tuple(self.column(n) for n in self.shown) if self.shown else self.columns
+
+    def cite(self, key: str, column: str, style: str = "") -> Cited:
+        """A number of this table, for a sentence."""
+        value = self.row(key)[column]
+        return Cited(value, show(value, style or self.column(column).style), self.key, key, column)
+
+
+@dataclass(frozen=True, slots=True)
+class Cited:
+    """A shown number and where it comes from."""
+
+    value: Any
+    text: str
+    table: str
+    row: str
+    column: str
+
+
+@dataclass(frozen=True, slots=True)
+class Prose:
+    """A paragraph; `kind` is text, answer (a prediction's), warning or note."""
+
+    runs: tuple[str | Cited, ...]
+    kind: str = "text"
+
+
+def say(template: str, *values: str | Cited | Sequence[str | Cited], kind: str = "text") -> Prose:
+    """A paragraph from a template with a `{}` for each value; a value may be several runs."""
+    parts = template.split("{}")
+    if len(parts) != len(values) + 1:
+        raise ValueError(f"{len(values)} values for {len(parts) - 1} places in: {template}")
+    runs: list[str | Cited] = [parts[0]]
+    for value, text in zip(values, parts[1:], strict=True):
+        runs.extend([value] if isinstance(value, str | Cited) else value)
+        runs.append(text)
+    return Prose(tuple(r for r in runs if r != ""), kind)
+
+
+@dataclass(slots=True)
+class Tips:
+    """Collects what a mark says when pointed at: `mark` an artist while drawing."""
+
+    texts: dict[str, str] = field(default_factory=dict)
+
+    def mark(self, artist: Any, text: str) -> None:
+        """Let `artist` (matplotlib) say `text`."""
+        name = f"tip{len(self.texts)}"
+        artist.set_gid(name)
+        self.texts[name] = text
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A picture: `draw` fills a matplotlib figure of `size` inches; `alt` tells what it shows."""
+
+    key: str
+    title: str
+    alt: str
+    draw: Callable[[Any, Tips], None] = field(repr=False)
+    size: tuple[float, float] = (7.2, 3.4)
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """Details behind a summary line."""
+
+    summary: str
+    blocks: tuple[Block, ...]
+
+
+Block = Prose | Table | Figure | Fold
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A part of the report with its line in the contents."""
+
+    key: str
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """`banner` warns on every copy, e.g. that participants were simulated."""
+
+    title: str
+    subtitle: str
+    banner: str
+    sections: tuple[Section, ...]
+
+
+def walk(blocks: Sequence[Block]) -> list[Block]:
+    """All blocks, those inside folds too."""
+    found: list[Block] = []
+    for block in blocks:
+        found.append(block)
+        if isinstance(block, Fold):
+            found.extend(walk(block.blocks))
+    return found

@@ -1,0 +1,112 @@
+"""What the study decided before collecting data, and where this report departs from it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from analysis.errors import DataError
+from analysis.load.study import Study
+
+TESTS = ("time", "accuracy", "ratings", "tradeoff", "validity", "mixed")
+MARGIN = 0.20
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The analysis as it runs. `frozen` is the study's [analysis] table, None if it has none."""
+
+    alpha: float
+    exclude: tuple[str, ...]
+    tests: tuple[str, ...]
+    margin: float
+    frozen: Mapping[str, Any] | None
+    deviations: tuple[str, ...]
+    participants: int | None
+    trials: int | None
+
+
+def config_of(sidecar: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The resolved config in a sidecar; empty if there is none."""
+    for place in (sidecar, sidecar.get("provenance", {})):
+        if isinstance(place, Mapping) and isinstance(place.get("config"), Mapping):
+            return place["config"]
+    return {}
+
+
+def digest(value: Any) -> str:
+    """A short hash that does not depend on the order of keys."""
+    text = json.dumps(value, sort_keys=True, ensure_ascii=False)
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def make_plan(
+    study: Study, alpha: float | None = None, exclude: Sequence[str] | None = None
+) -> Plan:
+    """The frozen plan, with what was asked on the command line instead, listed as deviations."""
+    configs = [config_of(sidecar) for sidecar in study.sidecars.values()]
+    frozen = next((c["analysis"] for c in configs if isinstance(c.get("analysis"), Mapping)), None)
+    table = frozen or {}
+    planned_alpha, planned_out = table.get("alpha", 0.05), tuple(table.get("exclude", ()))
+    used_alpha = planned_alpha if alpha is None else alpha
+    used_out = planned_out if exclude is None else tuple(exclude)
+    if not 0 < used_alpha < 1:
+        raise DataError(f"alpha = {used_alpha}: expected a number between 0 and 1")
+    tests = tuple(table.get("tests", ()))
+    unknown = [t for t in tests if t not in TESTS]
+    if unknown:
+        raise DataError(f"analysis.tests = {unknown[0]!r}: expected among {', '.join(TESTS)}")
+    design = next((c["design"] for c in configs if isinstance(c.get("design"), Mapping)), {})
+    about = next((c["study"] for c in configs if isinstance(c.get("study"), Mapping)), {})
+    deviations = [
+        *_choices(frozen, (planned_alpha, used_alpha), (planned_out, used_out)),
+        *_collection(study, configs, design, about),
+    ]
+    return Plan(
+        used_alpha,
+        used_out,
+        tests or TESTS,
+        float(table.get("margin", MARGIN)),
+        frozen,
+        tuple(deviations),
+        about.get("participants"),
+        design.get("trials"),
+    )
+
+
+def _choices(
+    frozen: Mapping[str, Any] | None,
+    alpha: tuple[float, float],
+    exclude: tuple[tuple[str, ...], tuple[str, ...]],
+) -> list[str]:
+    """Departures chosen for this report."""
+    if frozen is None:
+        return []
+    lines = []
+    if alpha[0] != alpha[1]:
+        lines.append(f"alpha is {alpha[1]:g}, planned was {alpha[0]:g}.")
+    if exclude[0] != exclude[1]:
+        used, planned = (", ".join(x) or "none" for x in (exclude[1], exclude[0]))
+        lines.append(f"Exclusion rules are: {used}; planned were: {planned}.")
+    return lines
+
+
+def _collection(
+    study: Study,
+    configs: Sequence[Mapping[str, Any]],
+    design: Mapping[str, Any],
+    about: Mapping[str, Any],
+) -> list[str]:
+    """Departures that happened while data were collected."""
+    lines = []
+    kinds = {digest({k: v for k, v in c.items() if k != "texts"}) for c in configs if c}
+    if len(kinds) > 1:
+        lines.append(f"Participants ran with {len(kinds)} different configs.")
+    count = study.trials["participant"].nunique()
+    planned = about.get("participants")
+    if isinstance(planned, int) and planned != count:
+        lines.append(f"{count} participants have data, planned were {planned}.")
+    return lines

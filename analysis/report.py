@@ -1,0 +1,90 @@
+"""From a data folder to a report folder: the order of things, and the only place that writes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from analysis.errors import DataError
+from analysis.exclude import apply_rules
+from analysis.load.study import load_study
+from analysis.page.blocks import Figure, Report, Table, walk
+from analysis.page.html import as_html
+from analysis.page.markdown import as_markdown
+from analysis.page.tables_csv import as_csv
+from analysis.plan import make_plan
+from analysis.sections.accuracy import accuracy_section
+from analysis.sections.context import Context
+from analysis.sections.participants import participants_section
+from analysis.sections.ratings import ratings_section
+from analysis.sections.time import time_section
+
+SIMULATED = "Simulated participants: for planning only, never evidence about people."
+PILOT = "Pilot data: not part of the study."
+FIGURE_FORMATS = ("svg", "png", "pdf")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What may be chosen on the command line; None leaves the study's own plan in force."""
+
+    source: str | None = None
+    alpha: float | None = None
+    exclude: Sequence[str] | None = None
+    seed: int = 1
+
+
+def make_report(data: Path, options: Options) -> tuple[Report, Mapping[str, Any]]:
+    """Load, analyse, and put into words; nothing is written. Raises DataError."""
+    study = load_study(data, options.source)
+    plan = make_plan(study, options.alpha, options.exclude)
+    trials, excluded = apply_rules(study.trials, plan.exclude)
+    context = Context(study, plan, trials, excluded, options.seed)
+    time, _ = time_section(context)
+    accuracy, _ = accuracy_section(context)
+    ratings = ratings_section(context)
+    people = participants_section(context)
+    sections = [s for s in (people, time, accuracy, ratings) if s is not None]
+    banner = {"simulated": SIMULATED, "pilot": PILOT}.get(study.source, "")
+    subtitle = f"Source: {study.source}. {study.description}"
+    report = Report(f"Study “{study.name}”: report", subtitle, banner, tuple(sections))
+    return report, {"version": _version()}
+
+
+def _version() -> str:
+    from importlib.metadata import version
+
+    return version("seethrough")
+
+
+def check_out(out: Path) -> None:
+    """The report's folder must be new, empty, or an earlier report: nothing else is touched."""
+    if not out.exists():
+        return
+    if not out.is_dir():
+        raise DataError(f"--out = {out}: expected a folder, this is a file")
+    page = out / "report.html"
+    if any(out.iterdir()) and not (page.is_file() and b"seethrough report" in page.read_bytes()):
+        raise DataError(f"--out = {out}: not empty and no earlier report: expected a new folder")
+
+
+def write_report(report: Report, facts: Mapping[str, Any], out: Path) -> Path:
+    """Write report.html, report.md, tables/*.csv and figures/*; returns the page's path."""
+    blocks = [b for section in report.sections for b in walk(section.blocks)]
+    (out / "tables").mkdir(parents=True, exist_ok=True)
+    (out / "figures").mkdir(exist_ok=True)
+    for table in (b for b in blocks if isinstance(b, Table)):
+        (out / "tables" / f"{table.key}.csv").write_text(as_csv(table), encoding="utf-8")
+    pictures = {}
+    figures = [b for b in blocks if isinstance(b, Figure)]
+    if figures:
+        from analysis.page.pictures import write_files
+
+        for figure in figures:
+            pictures[figure.key] = write_files(figure, out / "figures", FIGURE_FORMATS)
+    (out / "report.md").write_text(as_markdown(report), encoding="utf-8")
+    page = out / "report.html"
+    page.write_text(as_html(report, pictures, facts), encoding="utf-8")
+    return page

@@ -1,0 +1,33 @@
+"""What every section is given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+from numpy.random import Generator
+
+from analysis.cells import Missing
+from analysis.exclude import Excluded
+from analysis.load.study import Study
+from analysis.plan import Plan
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """A loaded study, its plan, the trials that count, and a place to note who is missing where.
+
+    `missing` maps an analysis to the participants it had to leave out.
+    """
+
+    study: Study
+    plan: Plan
+    trials: pd.DataFrame
+    excluded: tuple[Excluded, ...]
+    seed: int
+    missing: dict[str, tuple[Missing, ...]] = field(default_factory=dict)
+
+    def rng(self, purpose: int) -> Generator:
+        """A stream of its own for each purpose: analysis streams are (3, …)."""
+        return np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=(3, purpose)))

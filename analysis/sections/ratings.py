@@ -1,0 +1,100 @@
+"""The questionnaire: ratings per condition, preference, depth perception."""
+
+from __future__ import annotations
+
+from analysis.cells import Cells
+from analysis.comparison import Measure, measure
+from analysis.figures import ratings_figure
+from analysis.measures import answers, rating
+from analysis.page.blocks import Block, Column, Section, Table, say
+from analysis.sections.accuracy import FRIEDMAN, friedman_row
+from analysis.sections.context import Context
+from analysis.sections.tables import keep, missing_note
+from analysis.stats.ranks import share_interval, sign_test
+
+SINGLE = (
+    Column("item", "item"),
+    Column("n", "n", "int"),
+    Column("mean", "mean", "fixed2"),
+    Column("sd", "s.d.", "fixed2"),
+    Column("low", "from", "bound2", "95 % interval of the share"),
+    Column("high", "to", "bound2", "95 % interval of the share"),
+    Column("p", "p (sign test)", "p"),
+)
+
+
+def ratings_section(context: Context) -> Section | None:
+    """None if the study asked nothing."""
+    table = context.study.questionnaire
+    if not len(table):
+        return None
+    blocks: list[Block] = []
+    cells = rating(table)
+    context.missing["ratings"] = cells.missing
+    if cells.factors["item"] and len(cells.values):
+        blocks += _ratings(context, cells)
+    blocks += [*missing_note(cells.missing), *_single(context)]
+    return Section("ratings", "Ratings and preference", tuple(blocks)) if blocks else None
+
+
+def _ratings(context: Context, cells: Cells) -> list[Block]:
+    each: list[Measure] = []
+    for scenario in cells.factors["scenario"]:
+        for item in cells.factors["item"]:
+            at = {"item": item, "scenario": scenario}
+            found = measure(
+                f"{item}_{scenario}", f"{item}, {scenario}", "", 2, cells, "ratings", **at
+            )
+            each += keep([found])
+    overall = keep([measure("rating_overall", "overall", "", 2, cells)])
+    rows = [friedman_row(m, context, 30 + i) for i, m in enumerate([*overall, *each])]
+    if not rows:
+        return []
+    tests = Table("friedman_ratings", "Ratings (0–4): Friedman tests", FRIEDMAN, tuple(rows))
+    sentence = say(
+        "Overall rating (0–4): M = {} standard, {} dynamic, χ²({}) = {}, exact p {}.",
+        tests.cite("rating_overall", "mean_standard", "fixed2"),
+        tests.cite("rating_overall", "mean_dynamic", "fixed2"),
+        tests.cite("rating_overall", "df"),
+        tests.cite("rating_overall", "chi2"),
+        tests.cite("rating_overall", "p_exact"),
+    )
+    return [sentence, ratings_figure("ratings", each, cells.factors["scenario"]), tests]
+
+
+def _single(context: Context) -> list[Block]:
+    """Items that were asked once."""
+    import numpy as np
+
+    from analysis.stats.undefined import ONE_PARTICIPANT, Undefined
+
+    rows = []
+    for item in ("preference", "depth_self_report", "depth_test"):
+        values = answers(context.study.questionnaire, item)
+        if not len(values):
+            continue
+        n, hits = len(values), int(np.sum(values == 1))
+        share = item == "preference"
+        ends = share_interval(hits, n) if share else (None, None)
+        rows.append(
+            {
+                "item": item,
+                "n": n,
+                "mean": float(values.mean()),
+                "sd": float(np.std(values, ddof=1)) if n > 1 else Undefined(ONE_PARTICIPANT),
+                "low": ends[0],
+                "high": ends[1],
+                "p": sign_test(hits, n - hits) if share else None,
+            }
+        )
+    if not rows:
+        return []
+    return [
+        Table(
+            "single_items",
+            "Preference and depth perception",
+            SINGLE,
+            tuple(rows),
+            note="Preference: 1 dynamic, 0 standard or neutral.",
+        )
+    ]

@@ -1,0 +1,184 @@
+"""Tables that several sections make."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from analysis.cells import Cells, Missing
+from analysis.comparison import Measure
+from analysis.load.schema import TASK_CODES
+from analysis.page.blocks import Cited, Column, Prose, Table, say
+from analysis.stats.anova import Effect, repeated_measures
+from analysis.stats.undefined import ONE_PARTICIPANT, Undefined, is_defined
+
+EFFECTS = (
+    Column("effect", "effect"),
+    Column("n", "n", "int"),
+    Column("df1", "df₁", "int"),
+    Column("df2", "df₂", "int"),
+    Column("F", "F", "fixed2"),
+    Column("p", "p", "p"),
+    Column("eps", "ε", "bound3", "Greenhouse–Geisser"),
+    Column("p_gg", "p (ε)", "p", "corrected"),
+    Column("mauchly_w", "Mauchly W", "bound3"),
+    Column("mauchly_p", "Mauchly p", "p"),
+    Column("ges", "η²G", "bound3", "generalised η²"),
+    Column("pes", "η²p", "bound3", "partial η²"),
+    Column("pes_low", "from", "bound3", "90 % interval"),
+    Column("pes_high", "to", "bound3", "90 % interval"),
+    Column("ss_effect", "SS", "sig4"),
+    Column("ss_error", "SS error", "sig4"),
+)
+EFFECTS_SHOWN = (
+    "effect",
+    "df1",
+    "df2",
+    "F",
+    "p",
+    "eps",
+    "p_gg",
+    "ges",
+    "pes",
+    "pes_low",
+    "pes_high",
+)
+
+
+SHORT = {
+    "count": "count",
+    "pattern": "pattern",
+    "unique": "unique",
+    "count_in_building": "in building",
+}
+
+
+def name_of(task: str) -> str:
+    """`T1 count`, as the paper numbers its tasks."""
+    return f"{TASK_CODES[task]} {SHORT[task]}" if task in TASK_CODES else task
+
+
+def effect_row(effect: Effect) -> dict[str, Any]:
+    return {
+        "effect": effect.name,
+        "n": effect.n,
+        "df1": effect.df1,
+        "df2": effect.df2,
+        "F": effect.f,
+        "p": effect.p,
+        "eps": effect.eps,
+        "p_gg": effect.p_gg,
+        "mauchly_w": effect.mauchly_w,
+        "mauchly_p": effect.mauchly_p,
+        "ges": effect.ges,
+        "pes": effect.pes,
+        "pes_low": effect.pes_interval[0],
+        "pes_high": effect.pes_interval[1],
+        "ss_effect": effect.ss_effect,
+        "ss_error": effect.ss_error,
+    }
+
+
+def anova_table(key: str, title: str, cells: Cells, log: bool = False, note: str = "") -> Table:
+    """The repeated-measures ANOVA of all the cells' factors."""
+    values = np.log(cells.values) if log else cells.values
+    effects = repeated_measures(values, tuple(cells.factors))
+    return Table(
+        key, title, EFFECTS, tuple(effect_row(e) for e in effects.values()), EFFECTS_SHOWN, note
+    )
+
+
+def testable(cells: Cells) -> bool:
+    """Whether an ANOVA has anything to compare: someone complete, two levels of each factor."""
+    return len(cells.values) > 0 and min(cells.values.shape[1:]) > 1
+
+
+def effect_sentence(table: Table, effect: str, words: str) -> Prose:
+    """A factorial effect in APA style, Greenhouse–Geisser's correction where ε < 1."""
+    row = table.row(effect)
+    if not is_defined(row["F"]):
+        return say("{}: {}.", words, table.cite(effect, "F"))
+    p = table.cite(effect, "p_gg")
+    runs: list[str | Cited] = [
+        "F(",
+        table.cite(effect, "df1"),
+        ", ",
+        table.cite(effect, "df2"),
+        ") = ",
+        table.cite(effect, "F"),
+        ", p " if p.text.startswith("<") else ", p = ",
+        p,
+    ]
+    if row["df1"] > 1:
+        runs += [" (Greenhouse–Geisser, ε = ", table.cite(effect, "eps", "bound2"), ")"]
+    runs += [", η²G = ", table.cite(effect, "ges")]
+    return say("{}: {}.", words, runs)
+
+
+CELL_COLUMNS = (
+    Column("cell", "cell"),
+    Column("task", "task"),
+    Column("transparency", "transparency"),
+    Column("n", "n", "int"),
+    Column("trials", "trials", "int"),
+    Column("mean", "mean", "sig4"),
+    Column("sd", "s.d.", "sig4"),
+    Column("geometric", "geometric mean", "sig4"),
+    Column("median", "median", "sig4"),
+    Column("minimum", "min", "sig4"),
+    Column("maximum", "max", "sig4"),
+)
+
+
+def cell_table(key: str, title: str, cells: Cells, shown: Sequence[str], note: str = "") -> Table:
+    """Mean and s.d. over participants of each task × transparency cell."""
+    rows = []
+    for i, task in enumerate(cells.factors["task"]):
+        for j, level in enumerate(cells.factors["transparency"]):
+            values = cells.values[:, i, j]
+            rows.append(
+                {
+                    "cell": f"{task}/{level}",
+                    "task": name_of(task),
+                    "transparency": level,
+                    "n": len(values),
+                    "trials": int(cells.counts[:, i, j].sum()),
+                    **_spread(values),
+                }
+            )
+    return Table(key, title, CELL_COLUMNS, tuple(rows), tuple(shown), note)
+
+
+def _spread(values: Any) -> Mapping[str, Any]:
+    n = len(values)
+    if n == 0:
+        gone = Undefined("no complete participant")
+        return dict.fromkeys(("mean", "sd", "geometric", "median", "minimum", "maximum"), gone)
+    positive = bool(np.all(values > 0))
+    return {
+        "mean": float(values.mean()),
+        "sd": float(np.std(values, ddof=1)) if n > 1 else Undefined(ONE_PARTICIPANT),
+        "geometric": float(np.exp(np.log(values).mean()))
+        if positive
+        else Undefined("not all values are positive"),
+        "median": float(np.median(values)),
+        "minimum": float(values.min()),
+        "maximum": float(values.max()),
+    }
+
+
+def missing_note(missing: Sequence[Missing]) -> list[Prose]:
+    """Who is not in this analysis, by name, and which cells they lack."""
+    if not missing:
+        return []
+    named = "; ".join(f"{m.participant} ({', '.join(m.cells)})" for m in missing[:20])
+    more = f"; and {len(missing) - 20} more, see missing.csv" if len(missing) > 20 else ""
+    what = "participant lacks" if len(missing) == 1 else "participants lack"
+    return [say(f"{len(missing)} {what} a cell and is left out here: {named}{more}.", kind="note")]
+
+
+def keep(measures: Sequence[Measure | None]) -> list[Measure]:
+    """Those that exist."""
+    return [m for m in measures if m is not None]

@@ -1,0 +1,198 @@
+"""Repeated-measures analysis of variance by contrast scores.
+
+Every effect becomes one score per participant (or df₁ scores, on orthogonal contrasts), formed
+after subtracting within the participant, and is tested against the scores' own spread. Nothing is
+ever squared before the participant's level is gone, so an offset of 10¹⁵ costs no digit, and a
+missing cell cannot slip in: the input is a full array.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analysis.stats.distributions import chi2_tail, f_tail, noncentral_f_interval
+from analysis.stats.undefined import (
+    ALL_EQUAL,
+    ONE_PARTICIPANT,
+    Interval,
+    Number,
+    Undefined,
+    is_defined,
+    no_interval,
+    spread_is_noise,
+)
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """One row of an ANOVA table; `p_gg` uses Greenhouse–Geisser's ε (1 for one-df effects).
+
+    `ges` is generalised η² (Olejnik & Algina 2003, all factors within), `pes` partial η² with its
+    90 % interval λ/(λ + df₂) from the noncentral F.
+    """
+
+    name: str
+    n: int
+    df1: int
+    df2: int
+    ss_effect: float
+    ss_error: float
+    f: Number
+    p: Number
+    eps: Number
+    p_gg: Number
+    mauchly_w: Number
+    mauchly_p: Number
+    ges: Number
+    pes: Number
+    pes_interval: Interval
+
+
+def helmert(k: int) -> tuple[Array, Array]:
+    """Orthogonal integer contrasts of k levels, (k, k − 1), and their squared lengths (k − 1,).
+
+    Integers, because then sums of exactly representable data stay exact; lengths are divided out
+    at the end.
+    """
+    contrasts = np.zeros((k, k - 1))
+    for j in range(1, k):
+        contrasts[:j, j - 1] = -1
+        contrasts[j, j - 1] = j
+    return contrasts, np.array([j * (j + 1.0) for j in range(1, k)])
+
+
+def contrast_scores(y: Array, inside: Sequence[int]) -> tuple[Array, Array]:
+    """Scores (n, q) of the effect of the factors `inside`, and their contrasts' squared lengths.
+
+    `y`: (n, k₁, …, k_m). Factors not `inside` are summed over.
+    """
+    n, levels = y.shape[0], y.shape[1:]
+    flat = y.reshape(n, -1)
+    matrix, lengths = np.ones((1, 1)), np.ones(1)
+    for factor, k in enumerate(levels):
+        own = helmert(k) if factor in inside else (np.ones((k, 1)), np.array([float(k)]))
+        matrix, lengths = np.kron(matrix, own[0]), np.kron(lengths, own[1])
+    return (flat - flat[:, :1]) @ matrix, lengths
+
+
+def repeated_measures(y: Array, factors: Sequence[str]) -> dict[str, Effect]:
+    """All main effects and interactions of a fully within-participant design.
+
+    `y`: (n, k₁, …, k_m), one finite value per participant and cell; names like `a × b`.
+    Raises ValueError for missing or non-finite values.
+    """
+    if y.ndim != len(factors) + 1 or not np.all(np.isfinite(y)):
+        raise ValueError("y must be finite with one axis per factor after the participants")
+    names = [
+        inside
+        for size in range(1, len(factors) + 1)
+        for inside in itertools.combinations(range(len(factors)), size)
+    ]
+    scale = float(np.max(np.abs(y), initial=0.0))
+    raw = {inside: _sums(*contrast_scores(y, inside)) for inside in names}
+    within_error = sum(error for _, error, _ in raw.values())
+    residual = _between(y) + within_error
+    return {
+        (name := " × ".join(factors[f] for f in inside)): _effect(
+            name, raw[inside], len(y), scale, residual
+        )
+        for inside in names
+    }
+
+
+def _sums(scores: Array, lengths: Array) -> tuple[float, float, Array]:
+    """Sums of squares of effect and error, and the scores on unit contrasts."""
+    n = len(scores)
+    mean = scores.mean(axis=0)
+    mean = mean + (scores - mean).mean(axis=0)
+    effect = float(np.sum(n * mean**2 / lengths))
+    centred = (scores - mean) / np.sqrt(lengths)
+    return effect, float(np.sum(centred**2)), centred
+
+
+def _between(y: Array) -> float:
+    """Sum of squares between participants, on the scale of the cells."""
+    flat = y.reshape(len(y), -1)
+    means = (flat - flat[0, 0]).mean(axis=1)
+    return float(flat.shape[1] * np.sum((means - means.mean()) ** 2))
+
+
+def _effect(
+    name: str, sums: tuple[float, float, Array], n: int, scale: float, residual: float
+) -> Effect:
+    """Test one effect from its sums of squares and centred unit scores (n, q)."""
+    ss_effect, ss_error, centred = sums
+    df1, df2 = centred.shape[1], centred.shape[1] * (n - 1)
+    total = ss_effect + residual
+    ges: Number = ss_effect / total if total > 0 else Undefined("nothing varies")
+    reason = ONE_PARTICIPANT if n < 2 else ALL_EQUAL if spread_is_noise(centred, scale) else ""
+    if reason:
+        gone = Undefined(reason)
+        ges = ges if n >= 2 else gone
+        return Effect(
+            name, n, df1, df2, ss_effect, ss_error, *([gone] * 6), ges, gone, no_interval(reason)
+        )
+    f = (ss_effect / df1) / (ss_error / df2)
+    eps = _greenhouse_geisser(centred)
+    w, w_p = _mauchly(centred)
+    ends = noncentral_f_interval(f, df1, df2)
+    interval = tuple(e / (e + df2) if is_defined(e) else e for e in ends)
+    return Effect(
+        name,
+        n,
+        df1,
+        df2,
+        ss_effect,
+        ss_error,
+        f,
+        f_tail(f, df1, df2),
+        eps,
+        f_tail(f, df1 * eps, df2 * eps),
+        w,
+        w_p,
+        ges,
+        ss_effect / (ss_effect + ss_error),
+        (interval[0], interval[1]),
+    )
+
+
+def _greenhouse_geisser(centred: Array) -> float:
+    """ε = tr(Σ)² / (q · tr(Σ²)); 1 for one contrast."""
+    q = centred.shape[1]
+    if q == 1:
+        return 1.0
+    cov = centred.T @ centred
+    return float(np.trace(cov) ** 2 / (q * np.sum(cov**2)))
+
+
+def _mauchly(centred: Array) -> tuple[Number, Number]:
+    """Mauchly's W and its p, with Box's second-order term as in R's mauchly.test."""
+    n, q = len(centred), centred.shape[1]
+    if q == 1:
+        return Undefined("one contrast is always spherical"), Undefined(
+            "one contrast is always spherical"
+        )
+    df = n - 1
+    if df < q:
+        few = Undefined("fewer participants than contrasts")
+        return few, few
+    cov = centred.T @ centred / df
+    sign, log_det = np.linalg.slogdet(cov)
+    if sign <= 0:
+        flat = Undefined("the contrasts' covariance is singular")
+        return flat, flat
+    log_w = float(log_det - q * np.log(np.trace(cov) / q))
+    rho = 1 - (2 * q**2 + q + 2) / (6 * q * df)
+    chi2 = -df * rho * log_w
+    dof = q * (q + 1) / 2 - 1
+    w2 = (q + 2) * (q - 1) * (q - 2) * (2 * q**3 + 6 * q**2 + 3 * q + 2)
+    w2 /= 288 * (df * q * rho) ** 2
+    first, second = chi2_tail(chi2, dof), chi2_tail(chi2, dof + 4)
+    return float(np.exp(log_w)), float(np.clip(first + w2 * (second - first), 0.0, 1.0))

@@ -1,0 +1,167 @@
+"""Two conditions, one value each per participant: the test of their difference, and its size.
+
+Differences are `first − second`, here standard − dynamic: positive means less (time, error) with
+the technique. Ratios are second / first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analysis.stats.distributions import (
+    bayes_factor_t,
+    noncentral_t_interval,
+    t_quantile,
+    t_two_sided,
+    t_upper,
+)
+from analysis.stats.undefined import (
+    ALL_EQUAL,
+    ONE_PARTICIPANT,
+    Interval,
+    Number,
+    Undefined,
+    no_interval,
+    spread_is_noise,
+)
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Paired:
+    """All that is said about one difference; d_z = mean / s.d. of the differences."""
+
+    n: int
+    difference: float
+    sd: Number
+    interval: Interval
+    t: Number
+    p: Number
+    dz: Number
+    dz_interval: Interval
+    bf10: Number
+    shapiro_w: Number
+    shapiro_p: Number
+
+
+def paired(first: Array, second: Array, level: float = 0.95) -> Paired:
+    """Test `first − second` (n values each, finite) against 0 with Student's t."""
+    scale = float(max(np.max(np.abs(first), initial=0.0), np.max(np.abs(second), initial=0.0)))
+    return one_sample(first - second, scale, level)
+
+
+def one_sample(scores: Array, scale: float | None = None, level: float = 0.95) -> Paired:
+    """Test one contrast score per participant against 0.
+
+    `scale`: the largest absolute value among the data the scores were made from, which bounds
+    their rounding; the scores' own by default.
+    """
+    n = len(scores)
+    if n == 0:
+        raise ValueError("no participants")
+    scale = float(np.max(np.abs(scores))) if scale is None else scale
+    mean = _mean(scores)
+    reason = ONE_PARTICIPANT if n < 2 else ALL_EQUAL if spread_is_noise(scores, scale) else ""
+    if reason:
+        gone, ends = Undefined(reason), no_interval(reason)
+        sd: Number = 0.0 if n >= 2 else gone
+        return Paired(n, mean, sd, ends, gone, gone, gone, ends, gone, gone, gone)
+    sd = float(np.sqrt(np.sum((scores - mean) ** 2) / (n - 1)))
+    half = t_quantile((1 + level) / 2, n - 1) * sd / np.sqrt(n)
+    t = mean / (sd / np.sqrt(n))
+    low, high = noncentral_t_interval(t, n - 1, level)
+    w, w_p = shapiro(scores)
+    return Paired(
+        n,
+        mean,
+        sd,
+        (float(mean - half), float(mean + half)),
+        float(t),
+        t_two_sided(t, n - 1),
+        mean / sd,
+        (float(low / np.sqrt(n)), float(high / np.sqrt(n))),
+        bayes_factor_t(t, n),
+        w,
+        w_p,
+    )
+
+
+def _mean(x: Array) -> float:
+    """The mean, with the rounding of the first pass taken out."""
+    first = x.mean()
+    return float(first + (x - first).mean())
+
+
+def shapiro(scores: Array) -> tuple[Number, Number]:
+    """Shapiro–Wilk's W and p for normality of the differences."""
+    if not 3 <= len(scores) <= 5000:
+        out = Undefined("Shapiro–Wilk is made for 3 to 5000 values")
+        return out, out
+    from scipy.stats import shapiro as shapiro_wilk  # imports slowly, so only where it is needed
+
+    centred = scores - scores.mean()
+    result = shapiro_wilk(centred / np.max(np.abs(centred)))
+    return float(result.statistic), float(result.pvalue)
+
+
+def ratio_of_means(first: Array, second: Array, level: float = 0.95) -> tuple[Number, Interval]:
+    """mean(second) / mean(first) with Fieller's interval for paired data."""
+    n = len(first)
+    a, b = _mean(second), _mean(first)
+    if b == 0:
+        why = "the standard mean is zero"
+        return Undefined(why), no_interval(why)
+    if n < 2:
+        return a / b, no_interval(ONE_PARTICIPANT)
+    t2 = t_quantile((1 + level) / 2, n - 1) ** 2 / n
+    cov = np.cov(second, first)
+    lead = b * b - t2 * cov[1, 1]
+    if lead <= 0:
+        return a / b, no_interval("the standard mean is not clearly different from zero")
+    middle = a * b - t2 * cov[0, 1]
+    root = np.sqrt(max(0.0, middle**2 - lead * (a * a - t2 * cov[0, 0])))
+    return a / b, (float((middle - root) / lead), float((middle + root) / lead))
+
+
+@dataclass(frozen=True, slots=True)
+class Equivalence:
+    """Two one-sided tests: `p` is the larger one; the margin is symmetric about 0."""
+
+    margin: float
+    p_low: Number
+    p_high: Number
+    p: Number
+    interval90: Interval
+
+
+def tost(scores: Array, margin: float, scale: float | None = None) -> Equivalence:
+    """Is the mean difference inside ±margin (> 0)? (Schuirmann 1987.)"""
+    result = one_sample(scores, scale, level=0.90)
+    if isinstance(result.sd, Undefined) or isinstance(result.t, Undefined):
+        reason = result.t.reason if isinstance(result.t, Undefined) else ALL_EQUAL
+        gone = Undefined(reason)
+        return Equivalence(margin, gone, gone, gone, no_interval(reason))
+    error = result.sd / np.sqrt(result.n)
+    low = t_upper((result.difference + margin) / error, result.n - 1)
+    high = t_upper((margin - result.difference) / error, result.n - 1)
+    return Equivalence(margin, low, high, max(low, high), result.interval)
+
+
+def within_halfwidths(y: Array, level: float = 0.95) -> list[Number]:
+    """Half-widths of Cousineau–Morey intervals for the k columns of y, (n, k).
+
+    Cousineau 2005 removes the participants' means; Morey 2008's √(k/(k − 1)) mends the bias.
+    """
+    n, k = y.shape
+    if n < 2:
+        return [Undefined(ONE_PARTICIPANT)] * k
+    if k < 2:
+        return [Undefined("one condition has no within-participant spread")]
+    centred = y - y[:, :1]
+    centred = centred - centred.mean(axis=1, keepdims=True)
+    sd = np.std(centred, axis=0, ddof=1) * np.sqrt(k / (k - 1))
+    return (t_quantile((1 + level) / 2, n - 1) * sd / np.sqrt(n)).tolist()

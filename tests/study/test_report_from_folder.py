@@ -1,0 +1,119 @@
+"""The report of a whole data folder: its tables against numbers computed another way."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_data import Made, make_folder
+from scipy import stats
+
+from experiment.cli import main
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("study")
+    make_folder(folder / "data", Made())
+    assert main(["report", str(folder / "data"), "--out", str(folder / "report")]) == 0
+    return folder / "report"
+
+
+def table(report: Path, name: str) -> list[dict[str, str]]:
+    with open(report / "tables" / f"{name}.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def raw_times(report: Path) -> dict[tuple[str, str], list[float]]:
+    """Per participant and cell, straight from the files, with nothing but csv."""
+    cells: dict[tuple[str, str], dict[str, list[float]]] = {}
+    for path in sorted((report.parent / "data").glob("data/human/*/*_trials_data.csv")):
+        with open(path, newline="") as file:
+            for row in csv.DictReader(file):
+                cell = cells.setdefault((row["task"], row["transparency"]), {})
+                cell.setdefault(row["participant"], []).append(float(row["time"]))
+    return {k: [float(np.mean(v)) for v in people.values()] for k, people in cells.items()}
+
+
+def test_it_counts_every_trial(report):
+    counts = {r["what"]: r["count"] for r in table(report, "totals")}
+    assert (counts["participants"], counts["trials recorded"]) == ("16", "384")
+
+
+def test_times_by_task_are_those_of_the_files(report):
+    raw = raw_times(report)
+    for row in table(report, "tests_time"):
+        task = row["measure"].removeprefix("time_")
+        if task == "overall":
+            first, second = (
+                np.mean([v for (_, level), v in raw.items() if level == wanted], axis=0)
+                for wanted in ("standard", "dynamic")
+            )
+        else:
+            first, second = np.array(raw[task, "standard"]), np.array(raw[task, "dynamic"])
+        test = stats.ttest_rel(first, second)
+        assert float(row["mean_standard"]) == pytest.approx(first.mean(), rel=1e-12)
+        assert float(row["sd_dynamic"]) == pytest.approx(second.std(ddof=1), rel=1e-12)
+        assert float(row["F"]) == pytest.approx(test.statistic**2, rel=1e-10)
+        assert float(row["p"]) == pytest.approx(test.pvalue, rel=1e-9)
+
+
+def test_its_files_are_there(report):
+    for figure in ("time", "ratings"):
+        for kind in ("svg", "png", "pdf"):
+            assert (report / "figures" / f"{figure}.{kind}").stat().st_size > 1000
+    assert "participants were faster" in (report / "report.md").read_text()
+
+
+def test_the_page_is_one_small_file_without_network(report):
+    page = (report / "report.html").read_text()
+    assert len(page.encode()) < 3 * 2**20
+    # xmlns and xlink names look like addresses but are never fetched
+    for mark in (' src="http', ' href="http', "@import", "url(http"):
+        assert mark not in page
+
+
+def test_one_participant_gets_a_report_that_says_undefined(tmp_path):
+    make_folder(tmp_path / "data", Made(participants=1, trials=1))
+    assert main(["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]) == 0
+    rows = table(tmp_path / "out", "tests_time")
+    assert {r["p"] for r in rows} == {"undefined: fewer than two participants"}
+    assert (tmp_path / "out" / "figures" / "time.png").is_file()
+
+
+def test_simulated_data_carry_the_banner(tmp_path):
+    make_folder(tmp_path / "data", Made(participants=2, source="simulated"))
+    assert main(["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]) == 0
+    for name in ("report.html", "report.md"):
+        text = (tmp_path / "out" / name).read_text()
+        assert "Simulated participants: for planning only, never evidence" in text
+
+
+def test_two_sources_are_never_mixed(tmp_path, capsys):
+    make_folder(tmp_path / "data", Made(participants=2))
+    make_folder(tmp_path / "data", Made(participants=2, source="simulated"))
+    assert main(["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]) == 2
+    assert "sources are never mixed: choose with --source" in capsys.readouterr().err
+    words = ["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]
+    assert main([*words, "--source", "human"]) == 0
+
+
+def test_a_frozen_plan_is_followed_and_deviations_are_listed(tmp_path):
+    config = {"analysis": {"alpha": 0.01, "exclude": ["timed_out"], "tests": ["time"]}}
+    make_folder(tmp_path / "data", Made(participants=4, config=config))
+    words = ["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]
+    assert main([*words, "--alpha", "0.05"]) == 0
+    text = (tmp_path / "out" / "report.md").read_text()
+    assert "alpha is 0.05, planned was 0.01" in text
+
+
+def test_an_unrelated_folder_is_not_written_to(tmp_path, capsys):
+    make_folder(tmp_path / "data", Made(participants=2))
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["report", str(tmp_path / "data"), "--out", str(tmp_path / "data")]) == 2
+    assert "expected a new folder" in capsys.readouterr().err
+    assert sorted(tmp_path.rglob("*")) == before
+    assert json.loads((tmp_path / "data" / "dataset_description.json").read_text())
