@@ -17,3 +17,9 @@ def choice(owner: str, name: str, value: object, choices: Sequence[object]) -> N
     if value not in choices:
         wanted = ", ".join(repr(c) for c in choices)
         raise ValueError(f"{owner}: {name} = {value!r}, expected one of {wanted}")
+
+
+def whole(owner: str, name: str, value: int, low: int, high: int) -> None:
+    """Raise ValueError unless `value` is a whole number with low ≤ value ≤ high."""
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        raise ValueError(f"{owner}: {name} = {value!r}, expected a whole number {low} to {high}")

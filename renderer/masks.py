@@ -11,6 +11,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from renderer.camera import Camera
+from renderer.scene import Object
 from renderer.techniques.dynamic import DynamicTransparency
 
 
@@ -21,6 +23,87 @@ def opacity(distance: NDArray[np.float64], technique: DynamicTransparency) -> ND
         return np.where(distance <= 0, t, 1.0)
     gradient = e + (1 - e) * np.minimum(distance / technique.width, 1.0)
     return np.where(distance <= 0, t, gradient)
+
+
+def ring_opacities(technique: DynamicTransparency, size: tuple[int, int]) -> NDArray[np.float64]:
+    """(k,) opacity of each ring of cells, from the target outwards (004 §V-D, algorithm 2).
+
+    As many rings as cells fit into the width of the mask, at least one if it has a width.
+    """
+    if technique.width == 0:
+        return np.zeros(0)
+    count = max(1, round(technique.width * technique.ring_size / max(size)))
+    e = technique.alpha_edge
+    return e + (1 - e) * np.arange(count) / count
+
+
+def light(size: tuple[int, int], technique: DynamicTransparency) -> NDArray[np.float64]:
+    """(h, w) how far masks work at a pixel: 1 everywhere, or the searchlight of active mode."""
+    width, height = size
+    if technique.mode == "passive":
+        return np.ones((height, width))
+    if technique.pointer is None:
+        return np.zeros((height, width))
+    x = (np.arange(width) + 0.5) / height - technique.pointer[0]
+    y = (np.arange(height) + 0.5) / height - technique.pointer[1]
+    distance = np.hypot(x[None], y[:, None])
+    if technique.softness == 0:
+        return (distance <= technique.radius).astype(float)
+    return np.clip(1 - (distance - technique.radius) / technique.softness, 0, 1)
+
+
+def cap(count: NDArray[np.int64], technique: DynamicTransparency) -> NDArray[np.float64]:
+    """The highest opacity of each of `count` layers that together let τ through; 1 for none."""
+    tau, k = technique.min_transmittance, np.maximum(count, 1)
+    share = (1 - tau) / k if technique.model == "additive" else 1 - tau ** (1 / k)
+    return np.where(count > 0, share, 1.0)
+
+
+def long_axis(thing: Object, camera: Camera) -> NDArray[np.float64]:
+    """(2,) unit direction on the screen (y down) of the longest side of an object's box."""
+    low, high = thing.mesh.bounds
+    sides = (thing.transform[:3, :3] * (high - low)).T @ camera.rotation
+    center = thing.transform[:3, :3] @ thing.mesh.center + thing.transform[:3, 3] - camera.eye
+    x, y, z = center @ camera.rotation
+    depth = max(-z, camera.near)
+    # How the projection of the centre moves along each side.
+    flat = np.stack(
+        [sides[:, 0] + x * sides[:, 2] / depth, sides[:, 1] + y * sides[:, 2] / depth], 1
+    )
+    longest = flat[np.argmax(np.hypot(*flat.T))] * [1, -1]
+    length = np.hypot(*longest)
+    return longest / length if length > 0 else np.array([1.0, 0.0])
+
+
+def bounding_ellipse(
+    points: NDArray[np.float64], shape: str, along: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(6,) centre x, y, unit axis x, y and semi-axes of a circle or ellipse about (v, 2) pixels.
+
+    "circle" is about the middle of the points' box; "ellipse" goes through the corners of the
+    upright box, "oriented-ellipse" through those of the box turned so that a side runs `along`.
+    """
+    axis = along if shape == "oriented-ellipse" else np.array([1.0, 0.0])
+    frame = np.array([axis, [-axis[1], axis[0]]])
+    turned = points @ frame.T
+    low, high = turned.min(axis=0), turned.max(axis=0)
+    middle = ((low + high) / 2) @ frame
+    semi = np.maximum((high - low) / 2 * np.sqrt(2), 0.5)
+    if shape == "circle":
+        semi[:] = max(np.hypot(*(points - middle).T).max(), 0.5)
+    return np.array([*middle, *axis, *semi])
+
+
+def ellipse_distance(ellipse: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.float64]:
+    """(h, w) pixels from the ellipse along the ray from its centre, 0 inside (our definition: it
+    is the Euclidean distance for a circle, and needs no iteration for the others)."""
+    width, height = size
+    x = (np.arange(width) + 0.5 - ellipse[0])[None]
+    y = (np.arange(height) + 0.5 - ellipse[1])[:, None]
+    p = x * ellipse[2] + y * ellipse[3]
+    q = y * ellipse[2] - x * ellipse[3]
+    r = np.hypot(p / ellipse[4], q / ellipse[5])
+    return np.where(r > 1, np.hypot(p, q) * (1 - 1 / np.maximum(r, 1)), 0.0)
 
 
 def hulls_with_skirts(

@@ -46,6 +46,15 @@ class FramePlan:
     boxes: Boxes
 
 
+def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> NDArray[np.bool_]:
+    """(n,) what never turns transparent in this frame (004 §III-C.3)."""
+    if technique.penetrable_within is None:
+        return scene.impenetrable
+    low, high = scene.corners.min(axis=1), scene.corners.max(axis=1)
+    gap = np.maximum(np.maximum(low - camera.eye, camera.eye - high), 0.0)
+    return scene.impenetrable | (np.linalg.norm(gap, axis=1) > technique.penetrable_within)
+
+
 def plan(scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]) -> FramePlan:
     """Decide what the frame of `size` (width, height) in pixels needs. Pure."""
     boxes = screen_boxes(scene.corners, camera, size)
@@ -56,7 +65,11 @@ def plan(scene: Scene, camera: Camera, technique: Technique, size: tuple[int, in
     # Farthest group first; a group's objects stay together, in their order in the scene.
     order = drawn[np.lexsort((drawn, scene.group_of[drawn], -depth[drawn]))]
     blended, masked, of_object, of_mask = _levels(
-        order, boxes.extents, scene.targets, scene.impenetrable, float(technique.width)
+        order,
+        boxes.extents,
+        scene.targets,
+        impenetrable(scene, camera, technique),
+        float(technique.width),
     )
     levels = tuple(
         Level(np.nonzero(of_object == k)[0], np.nonzero(of_mask == k)[0])

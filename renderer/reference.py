@@ -1,11 +1,16 @@
 """The exact picture, on the CPU in float64: what every shader is measured against.
 
 One fragment for each object and pixel, its front-most; at each pixel the objects are sorted from
-front to back, i = 1…m. Object i shows with opacity a_i = Π M_s over the targets s behind it (1
-where it is impenetrable), and its share of the pixel is w_i = a_i · Π_{j before i} (1 − a_j).
-M_s is the mask of s: on its silhouette it lies where s lies, beside it at the depth of s's centre.
-Distances are Euclidean, to the union of the target's visible triangles. Nothing here is shared
-with the shaders but the light, the gradient and the projection.
+front to back, i = 1…m. Object i shows with opacity a_i, the product of the masks M_s of the
+targets s behind it (1 where it is impenetrable), and its share of the pixel is
+w_i = a_i · T_i with T_i = Π_{j before i} (1 − a_j), what the objects in front leave. On its
+silhouette a mask lies where its target lies, beside it at the depth of the target's centre.
+
+The options change a_i only (techniques/dynamic.py says what they mean), but for the additive
+model, in which T_i = max(0, 1 − Σ_{j before i} a_j). With a least transmittance τ the mask of t on
+t itself is min(α_T, 1 − τ^(1/k)), with k the penetrable fragments in front of t: other masks only
+lower a_j, so T_t ≥ τ however targets line up. Nothing here is shared with the shaders but the
+light, the gradient and the projection.
 """
 
 from __future__ import annotations
@@ -13,225 +18,206 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from renderer import lighting, projection
+from renderer import masks
 from renderer.camera import Camera
-from renderer.masks import opacity
-from renderer.plan import Technique
-from renderer.scene import Object, Scene
+from renderer.fragments import Fragments, covered, distances, fragments
+from renderer.plan import Technique, impenetrable
+from renderer.scene import Scene
 from renderer.techniques.standard import Standard
-
-EDGE = 1.0 / 256.0
-
-
-@dataclass(frozen=True, eq=False)
-class Fragments:
-    """What each object shows before anything is blended.
-
-    depth (n, h, w): view depth of the front-most surface, inf where there is none; color
-    (n, h, w, 3) lit; distance (n, h, w): pixels from the object's outline, 0 on it (only of
-    targets, inf for others); near_edge (h, w): pixels whose centre lies within 1/256 pixel of a
-    projected edge, where float32 and float64 may disagree.
-    """
-
-    depth: NDArray[np.float64]
-    color: NDArray[np.float64]
-    distance: NDArray[np.float64]
-    near_edge: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
 class ExactPicture:
     """picture (h, w, 3) in [0, 1]; weights (n, h, w): each object's share of the pixel;
-    transmittance (n, h, w): what the objects in front leave, 1 where the object is not."""
+    transmittance (n, h, w): what the objects in front leave, 1 where the object is not; depth
+    (n, h, w) of each object; near_edge (h, w): pixels not to be compared (fragments.py)."""
 
     picture: NDArray[np.float64]
     weights: NDArray[np.float64]
     transmittance: NDArray[np.float64]
+    depth: NDArray[np.float64]
     near_edge: NDArray[np.bool_]
 
 
-def fragments(scene: Scene, camera: Camera, size: tuple[int, int], reach: float = 0.0) -> Fragments:
-    """Rasterise every object. Distances are found up to `reach` pixels."""
-    width, height = size
-    n = len(scene.objects)
-    depth = np.full((n, height, width), np.inf)
-    color = np.zeros((n, height, width, 3))
-    distance = np.full((n, height, width), np.inf)
-    near_edge = np.zeros((height, width), dtype=np.bool_)
-    for i, thing in enumerate(scene.objects):
-        pieces = _visible_triangles(thing, camera, size)
-        if len(pieces):
-            normals = np.zeros((height, width, 3))
-            points = np.zeros((height, width, 3))
-            colors = np.zeros((height, width, 3))
-            _rasterise(pieces, depth[i], normals, points, colors, near_edge)
-            color[i] = _lit(depth[i], normals, points, colors, camera)
-        if thing.target:
-            _distances(pieces[:, :, :2], distance[i], reach)
-            distance[i][np.isfinite(depth[i])] = 0.0
-    return Fragments(depth, color, distance, near_edge)
+@dataclass(frozen=True, eq=False)
+class _Mask:
+    """One target's mask (h, w): opacity, where it has α_T, its depth, and the light on it."""
 
-
-def _lit(depth, normals, points, colors, camera):  # type: ignore[no-untyped-def]
-    """Colours of one object's surface; its normals and points are in camera coordinates."""
-    there = np.isfinite(depth)
-    lit = np.zeros_like(colors)
-    turned = camera.rotation.T
-    factor = lighting.shade(normals[there] @ turned, -points[there] @ turned)
-    lit[there] = np.minimum(colors[there] * factor[:, None], 1.0)
-    return lit
-
-
-def _visible_triangles(thing: Object, camera: Camera, size: tuple[int, int]) -> NDArray[np.float64]:
-    """(k, 3, 12) front-facing triangles beyond the near plane; a vertex is its pixel x, y, 1/depth,
-    then normal, camera point and colour, each divided by the depth."""
-    matrix = thing.transform
-    mesh = thing.mesh
-    world = mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]
-    normals = mesh.normals @ np.linalg.inv(matrix[:3, :3]) @ camera.rotation
-    points = projection.to_camera(world, camera)
-    colors = mesh.colors * np.asarray(thing.color)
-    triangles = mesh.triangles
-    if np.linalg.det(matrix[:3, :3]) < 0:
-        triangles = triangles[:, ::-1]
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    front = (np.cross(b - a, c - a) * -a).sum(axis=1) > 0
-    rows = np.concatenate([points, normals, colors], axis=1)[triangles[front]]
-    rows = _clipped(rows, camera.near, camera.far)
-    depth = -rows[..., 2]
-    flat = projection.to_pixels(rows[..., :3], camera, size)
-    parts = [flat, 1 / depth[..., None]] + [
-        rows[..., k : k + 3] / depth[..., None] for k in (3, 0, 6)
-    ]
-    return np.ascontiguousarray(np.concatenate(parts, axis=-1))
-
-
-def _clipped(rows: NDArray[np.float64], near: float, far: float) -> NDArray[np.float64]:
-    """Triangles (k, 3, 9) cut at the near and far planes (Sutherland and Hodgman)."""
-    for sign, limit in ((1.0, near), (-1.0, far)):
-        above = sign * (-rows[..., 2] - limit)
-        whole = (above >= 0).all(axis=1)
-        pieces = [rows[whole]]
-        for triangle, side in zip(rows[~whole], above[~whole], strict=True):
-            polygon = []
-            for k in range(3):
-                j = (k + 1) % 3
-                if side[k] >= 0:
-                    polygon.append(triangle[k])
-                if (side[k] >= 0) != (side[j] >= 0):
-                    t = side[k] / (side[k] - side[j])
-                    polygon.append(triangle[k] + t * (triangle[j] - triangle[k]))
-            fan = [[polygon[0], polygon[k], polygon[k + 1]] for k in range(1, len(polygon) - 1)]
-            pieces.append(np.array(fan).reshape(-1, 3, rows.shape[2]))
-        rows = np.concatenate(pieces)
-    return rows
-
-
-@njit(cache=True)
-def _rasterise(pieces, depth, normals, points, colors, near_edge):  # type: ignore[no-untyped-def]
-    """Keep the nearest surface of one object at each pixel centre."""
-    height, width = depth.shape
-    for t in range(len(pieces)):
-        p = pieces[t]
-        area = (p[1, 0] - p[0, 0]) * (p[2, 1] - p[0, 1]) - (p[1, 1] - p[0, 1]) * (p[2, 0] - p[0, 0])
-        x0, x1 = min(p[0, 0], p[1, 0], p[2, 0]), max(p[0, 0], p[1, 0], p[2, 0])
-        y0, y1 = min(p[0, 1], p[1, 1], p[2, 1]), max(p[0, 1], p[1, 1], p[2, 1])
-        for r in range(max(0, int(y0) - 1), min(height, int(min(y1, height)) + 2)):
-            for c in range(max(0, int(x0) - 1), min(width, int(min(x1, width)) + 2)):
-                x, y = c + 0.5, r + 0.5
-                if _to_edges(p, x, y) < 1.0 / 256.0:
-                    near_edge[r, c] = True
-                if area == 0:
-                    continue
-                a = ((p[1, 0] - x) * (p[2, 1] - y) - (p[1, 1] - y) * (p[2, 0] - x)) / area
-                b = ((p[2, 0] - x) * (p[0, 1] - y) - (p[2, 1] - y) * (p[0, 0] - x)) / area
-                g = 1.0 - a - b
-                if a < 0 or b < 0 or g < 0:
-                    continue
-                z = 1.0 / (a * p[0, 2] + b * p[1, 2] + g * p[2, 2])
-                if z < depth[r, c]:
-                    depth[r, c] = z
-                    for k in range(3):
-                        m = z * (a * p[0, 3 + k] + b * p[1, 3 + k] + g * p[2, 3 + k])
-                        normals[r, c, k] = m
-                        m = z * (a * p[0, 6 + k] + b * p[1, 6 + k] + g * p[2, 6 + k])
-                        points[r, c, k] = m
-                        m = z * (a * p[0, 9 + k] + b * p[1, 9 + k] + g * p[2, 9 + k])
-                        colors[r, c, k] = m
-
-
-@njit(cache=True)
-def _to_edges(p, x, y):  # type: ignore[no-untyped-def]
-    """Distance from (x, y) to the nearest edge of a triangle."""
-    best = np.inf
-    for k in range(3):
-        j = (k + 1) % 3
-        ex, ey = p[j, 0] - p[k, 0], p[j, 1] - p[k, 1]
-        fx, fy = x - p[k, 0], y - p[k, 1]
-        t = min(max((fx * ex + fy * ey) / max(ex * ex + ey * ey, 1e-300), 0.0), 1.0)
-        best = min(best, (fx - t * ex) ** 2 + (fy - t * ey) ** 2)
-    return np.sqrt(best)
-
-
-@njit(cache=True)
-def _distances(pieces, distance, reach):  # type: ignore[no-untyped-def]
-    """Distance of each pixel centre to the nearest edge of any triangle, where within reach."""
-    height, width = distance.shape
-    for t in range(len(pieces)):
-        p = pieces[t]
-        x0, x1 = min(p[0, 0], p[1, 0], p[2, 0]), max(p[0, 0], p[1, 0], p[2, 0])
-        y0, y1 = min(p[0, 1], p[1, 1], p[2, 1]), max(p[0, 1], p[1, 1], p[2, 1])
-        low = max(0, int(max(y0 - reach, 0.0)) - 1)
-        for r in range(low, min(height, int(min(y1 + reach, height)) + 2)):
-            left = max(0, int(max(x0 - reach, 0.0)) - 1)
-            for c in range(left, min(width, int(min(x1 + reach, width)) + 2)):
-                d = _to_edges(p, c + 0.5, r + 0.5)
-                if d <= reach and d < distance[r, c]:
-                    distance[r, c] = d
+    opacity: NDArray[np.float64]
+    core: NDArray[np.bool_]
+    place: NDArray[np.float64]
+    light: NDArray[np.float64]
 
 
 def exact(
     scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]
 ) -> ExactPicture:
     """The picture of `size` (width, height) as `technique` defines it, without approximation."""
-    plain = isinstance(technique, Standard)
-    seen = fragments(scene, camera, size, 0.0 if plain else technique.width)
-    alpha = np.ones_like(seen.depth)
-    if not plain:
-        alpha = _opacities(scene, camera, technique, seen)
+    seen = fragments(scene, camera, size)
+    if isinstance(technique, Standard):
+        alpha = np.isfinite(seen.depth).astype(float)
+        return _composed(scene, seen, alpha, additive=False)
+    hard = impenetrable(scene, camera, technique)
+    light = masks.light(size, technique)
+    made = {
+        int(s): _mask(scene, camera, technique, seen, int(s), light)
+        for s in np.nonzero(scene.targets)[0]
+    }
+    if technique.granularity == "pixel":
+        alpha = _by_pixel(seen, made, hard, technique)
+    else:
+        alpha = _by_part(scene, seen, made, hard, technique)
+    alpha[hard] = 1.0
     alpha[~np.isfinite(seen.depth)] = 0.0
-    return _composed(scene, seen, alpha)
+    if technique.layers is not None:
+        alpha = _limited(seen, alpha, technique.layers)
+    return _composed(scene, seen, alpha, technique.model == "additive")
 
 
-def _opacities(scene, camera, technique, seen):  # type: ignore[no-untyped-def]
-    """(n, h, w) a_i: the product of the masks behind each fragment."""
+def _mask(scene, camera, technique, seen, s, light):  # type: ignore[no-untyped-def]
+    there = np.isfinite(seen.depth[s])
+    place = np.where(there, seen.depth[s], camera.depth(scene.centers[s]))
+    opacity, core = _shape(scene, camera, technique, seen, s, there)
+    return _Mask(1 - light * (1 - opacity), core, place, light)
+
+
+def _shape(scene, camera, technique, seen, s, there):  # type: ignore[no-untyped-def]
+    """Opacity (h, w) of a target's mask in full light, and where it has alpha_target."""
+    height, width = there.shape
+    outline = seen.outlines[s]
+    if not len(outline):
+        return np.ones((height, width)), np.zeros((height, width), dtype=bool)
+    if technique.mask == "ring":
+        return _ring(outline, there, technique), there
+    if technique.mask == "outline":
+        distance = distances(outline, height, width, technique.width)
+        distance[there] = 0.0
+    elif technique.mask == "hull":
+        hull = masks.convex_hull(np.ascontiguousarray(outline.reshape(-1, 2)))
+        fan = np.array([[hull[0], hull[k], hull[k + 1]] for k in range(1, len(hull) - 1)])
+        rim = np.stack([hull, np.roll(hull, -1, axis=0), hull], axis=1)
+        distance = distances(rim, height, width, technique.width)
+        distance[covered(fan.reshape(-1, 3, 2), height, width)] = 0.0
+    else:
+        along = masks.long_axis(scene.objects[s], camera)
+        ellipse = masks.bounding_ellipse(outline.reshape(-1, 2), technique.mask, along)
+        distance = masks.ellipse_distance(ellipse, (width, height))
+    return masks.opacity(distance, technique), distance <= 0
+
+
+def _ring(outline, there, technique):  # type: ignore[no-untyped-def]
+    """The paper's mask: rings of cells grown on a coarse grid, looked up bilinearly, and the
+    target's own region drawn again at full resolution (004 §V-D, algorithm 2)."""
+    height, width = there.shape
+    n = technique.ring_size
+    cells = covered(outline * [n / width, n / height], n, n)
+    rings = masks.ring_opacities(technique, (width, height))
+    values = np.where(cells, technique.alpha_target, 1.0)
+    grown = cells
+    for value in rings:
+        wider = np.pad(grown, 1)
+        wider = np.any([wider[r : r + n, c : c + n] for r in range(3) for c in range(3)], axis=0)
+        values[wider & ~grown] = value
+        grown = wider
+    y = np.clip((np.arange(height) + 0.5) * n / height - 0.5, 0, n - 1)
+    x = np.clip((np.arange(width) + 0.5) * n / width - 0.5, 0, n - 1)
+    i, j = np.minimum(y.astype(int), n - 2), np.minimum(x.astype(int), n - 2)
+    u, v = (y - i)[:, None], (x - j)[None]
+    i, j = i[:, None], j[None]
+    low = (1 - v) * values[i, j] + v * values[i, j + 1]
+    high = (1 - v) * values[i + 1, j] + v * values[i + 1, j + 1]
+    return np.where(there, technique.alpha_target, (1 - u) * low + u * high)
+
+
+def _in_front(seen: Fragments, hard: NDArray[np.bool_], s: int) -> NDArray[np.int64]:
+    """(h, w) penetrable fragments in front of target s, 0 where s is not."""
+    count = ((seen.depth < seen.depth[s]) & ~hard[:, None, None]).sum(axis=0)
+    return np.where(np.isfinite(seen.depth[s]), count, 0)
+
+
+def _cap(seen, hard, s, technique):  # type: ignore[no-untyped-def]
+    """(h, w) the most opaque an occluder of target s may be, for its least transmittance."""
+    if technique.min_transmittance == 0:
+        return np.ones(seen.near_edge.shape)
+    count = _in_front(seen, hard, s)
+    return masks.cap(count, technique)
+
+
+def _by_pixel(seen, made, hard, technique):  # type: ignore[no-untyped-def]
+    """(n, h, w) the masks behind each fragment, multiplied, or the least of them."""
     alpha = np.ones_like(seen.depth)
-    centers = camera.depth(scene.centers)
-    for s in np.nonzero(scene.targets)[0]:
-        there = np.isfinite(seen.depth[s])
-        place = np.where(there, seen.depth[s], centers[s])
-        mask = np.where(np.isfinite(seen.distance[s]), opacity(seen.distance[s], technique), 1.0)
-        alpha *= np.where(seen.depth < place, mask, 1.0)
-    alpha[scene.impenetrable] = 1.0
+    join = np.multiply if technique.combine == "product" else np.minimum
+    for s, mask in made.items():
+        reduced = np.minimum(mask.opacity, _cap(seen, hard, s, technique))
+        alpha = join(alpha, np.where(seen.depth < mask.place, reduced, 1.0))
     return alpha
 
 
-def _composed(scene: Scene, seen: Fragments, alpha: NDArray[np.float64]) -> ExactPicture:
-    """Sort each pixel from front to back (ties: the later object in front) and add up."""
-    n = len(scene.objects)
-    background = np.broadcast_to(np.array(scene.background), (*seen.near_edge.shape, 3))
-    if n == 0:
-        return ExactPicture(background.copy(), alpha, alpha.copy(), seen.near_edge)
-    order = n - 1 - np.argsort(seen.depth[::-1], axis=0, kind="stable")
+def _by_part(scene, seen, made, hard, technique):  # type: ignore[no-untyped-def]
+    """(n, h, w) alpha_target for whole surfaces, objects or groups in front of a mask's core."""
+    n = len(seen.depth)
+    lit = np.zeros_like(seen.depth)  # light on the masks in front of which a fragment lies
+    cap = np.ones_like(seen.depth)
+    for s, mask in made.items():
+        before = seen.depth < mask.place
+        lit = np.maximum(lit, np.where(before & mask.core, mask.light, 0.0))
+        cap = np.minimum(cap, np.where(before, _cap(seen, hard, s, technique), 1.0))
+    lit[hard] = 0.0
+    strength = np.zeros_like(lit)
+    if technique.granularity == "surface":
+        for i in range(n):
+            best = np.zeros(len(scene.objects[i].mesh.triangles))
+            np.maximum.at(best, seen.surface[i].ravel(), lit[i].ravel())
+            strength[i] = best[seen.surface[i]]
+    else:
+        best = lit.max(axis=(1, 2), initial=0.0)
+        if technique.granularity == "region":
+            groups = np.zeros(int(scene.group_of.max(initial=-1)) + 1)
+            np.maximum.at(groups, scene.group_of, best)
+            best = groups[scene.group_of]
+        strength[:] = best[:, None, None]
+    return np.minimum(1 - (1 - technique.alpha_target) * strength, cap)
+
+
+def _limited(seen: Fragments, alpha: NDArray[np.float64], layers: int) -> NDArray[np.float64]:
+    """Opacities with all but the first `layers` transparent fragments of a pixel opaque."""
+    order = _front_to_back(seen)
     front = np.take_along_axis(alpha, order, axis=0)
-    through = np.cumprod(1 - front, axis=0)
+    there = np.isfinite(np.take_along_axis(seen.depth, order, axis=0))
+    clear = there & (front < 1)
+    rank = np.cumsum(clear, axis=0)
+    front[clear & (rank > layers)] = 1.0
+    limited = np.empty_like(alpha)
+    np.put_along_axis(limited, order, front, axis=0)
+    return limited
+
+
+def _front_to_back(seen: Fragments) -> NDArray[np.int64]:
+    """(n, h, w) objects by depth; of two at the same depth the later one is in front."""
+    n = len(seen.depth)
+    return n - 1 - np.argsort(seen.depth[::-1], axis=0, kind="stable")
+
+
+def _composed(
+    scene: Scene, seen: Fragments, alpha: NDArray[np.float64], additive: bool
+) -> ExactPicture:
+    """Add up each pixel from front to back."""
+    background = np.broadcast_to(np.array(scene.background), (*seen.near_edge.shape, 3))
+    if not len(alpha):
+        empty = alpha.copy()
+        return ExactPicture(background.copy(), alpha, empty, seen.depth, seen.near_edge)
+    order = _front_to_back(seen)
+    front = np.take_along_axis(alpha, order, axis=0)
+    if additive:
+        through = np.maximum(1 - np.cumsum(front, axis=0), 0.0)
+    else:
+        through = np.cumprod(1 - front, axis=0)
     before = np.concatenate([np.ones_like(through[:1]), through[:-1]])
     weights, transmittance = np.empty_like(alpha), np.empty_like(alpha)
-    np.put_along_axis(weights, order, front * before, axis=0)
+    np.put_along_axis(weights, order, before - through, axis=0)
     np.put_along_axis(transmittance, order, before, axis=0)
     transmittance[~np.isfinite(seen.depth)] = 1.0
     picture = np.einsum("nhw,nhwc->hwc", weights, seen.color) + through[-1][..., None] * background
-    return ExactPicture(picture, weights, transmittance, seen.near_edge)
+    return ExactPicture(picture, weights, transmittance, seen.depth, seen.near_edge)
