@@ -50,7 +50,8 @@ class PageDrawing:
         style.frame_padding = imgui.ImVec2(0.022 * height, 0.012 * height)
         imgui.push_font(self.interface.regular, 0.034 * height)
         imgui.begin(
-            "page",
+            # A window of its own for each form: ImGui gives a new one the keyboard.
+            f"page{id(form)}",
             None,
             flags.no_decoration & ~flags.no_scrollbar | flags.no_move | flags.no_saved_settings,
         )

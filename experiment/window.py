@@ -149,6 +149,7 @@ class Window:
     def close(self) -> None:
         """Close the window."""
         self.stage.interface.close()
+        self._window.remove_handlers(self)
         self._window.close()
 
     def _draw_page(self, form: Form) -> bool:
@@ -238,7 +239,9 @@ class Window:
     def on_text(self, text: str) -> None:
         """Characters typed, for text fields."""
         if self._form is not None:
-            self.stage.interface.io.add_input_characters_utf8(text.replace("\r", ""))
+            # Enter and Tab arrive as keys already.
+            printable = "".join(c for c in text if c.isprintable())
+            self.stage.interface.io.add_input_characters_utf8(printable)
 
     def on_resize(self, width: int, height: int) -> bool:
         """The window changed its size. Handled: pyglet would set a viewport of its own."""

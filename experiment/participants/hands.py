@@ -1,0 +1,108 @@
+"""Hands: turns, clicks and keys as the events a person would send, and the time they take."""
+
+from __future__ import annotations
+
+from math import hypot, log2
+
+from experiment.participants.person import Mood
+from tasks.events import (
+    Event,
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerPress,
+    PointerRelease,
+    Tick,
+)
+from tasks.hud import Rect
+
+MOVES = 6  # pointer events of one turn; a mouse sends ten times as many [ours]
+GRIP = (0.5, 0.5)  # where the pointer takes hold of the view: no button lies there
+HOLD = 0.08  # seconds a key or button stays down
+
+
+class Hands:
+    """Collects events at rising times; `take` hands them over."""
+
+    def __init__(self, mood: Mood, now: float) -> None:
+        self.mood = mood
+        self.time = now
+        self.gain = mood.profile.gain
+        self.speed = mood.profile.speed
+        self._events: list[Event] = []
+
+    def take(self) -> list[Event]:
+        """The events since the last call; at least one, so that time goes on."""
+        events, self._events = self._events, []
+        return [*events, Tick(self.time)]
+
+    def wait(self, seconds: float) -> None:
+        """Think: mental times go at the person's pace."""
+        self.time += seconds * self.mood.pace
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass that no pace changes."""
+        self.time += seconds
+
+    def key(self, name: str) -> None:
+        """Type a key."""
+        self.wait(self.mood.profile.key)
+        self._events += [KeyPress(self.time, name), KeyRelease(self.time + HOLD, name)]
+        self.time += HOLD
+
+    def type(self, text: str) -> None:
+        """Bring the hand to the keyboard, type, confirm."""
+        self.wait(self.mood.profile.home + self.mood.profile.prepare)
+        for name in [*text, "enter"]:
+            self.key(name)
+
+    def click(self, rect: Rect) -> None:
+        """Point at the middle of something and click it."""
+        self.click_at(rect.x + rect.width / 2, rect.y + rect.height / 2)
+
+    def click_at(self, x: float, y: float) -> None:
+        """Point and click."""
+        self.wait(self.mood.profile.point)
+        self._events.append(PointerMove(self.time, x, y, 0.0, 0.0))
+        self._events.append(PointerPress(self.time, x, y))
+        self.time += HOLD
+        self._events.append(PointerRelease(self.time, x, y))
+
+    def turn(self, yaw: float, pitch: float = 0.0, drag: bool = False) -> None:
+        """Turn by these angles with the mouse: bits of the turn over bits per second.
+
+        `drag` holds the world (orbit); without, the pointer turns the walker.
+        """
+        p = self.mood.profile
+        angle = hypot(yaw, pitch)
+        if angle < 1e-9:
+            return
+        seconds = log2(angle / p.tolerance + 1) / p.bits_per_second * self.mood.pace
+        factor = 1.0
+        if self.mood.uses("motor_noise"):
+            factor += p.motor_noise * float(self.mood.rng.standard_normal())
+        dx, dy = -yaw * factor / self.gain, (pitch * factor / self.gain if drag else 0.0)
+        x, y = GRIP
+        if drag:
+            self._events.append(PointerPress(self.time, x, y))
+        done = 0.0
+        for step in range(1, MOVES + 1):
+            share = _minimum_jerk(step / MOVES)
+            part, done = share - done, share
+            x, y = x + dx * part, y + dy * part
+            at = self.time + seconds * step / MOVES
+            self._events.append(PointerMove(at, x, y, dx * part, dy * part, drag))
+        self.time += seconds
+        if drag:
+            self._events.append(PointerRelease(self.time, x, y))
+
+    def walk(self, distance: float) -> None:
+        """Walk straight on: hold the key for as long as it should take."""
+        self._events.append(KeyPress(self.time, "up"))
+        self.time += distance / self.speed
+        self._events.append(KeyRelease(self.time, "up"))
+
+
+def _minimum_jerk(s: float) -> float:
+    """Share of a reach done at share s of its time (Flash & Hogan 1985)."""
+    return s**3 * (10 - 15 * s + 6 * s * s)

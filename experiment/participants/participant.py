@@ -1,0 +1,81 @@
+"""A simulated participant: sees what the display shows, answers with the events of a person.
+
+It knows what is on the view: the texts of the HUD, and of the scene only what `look` reports as
+visible strongly enough. It is a tool for planning studies, never evidence about people.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterable
+from typing import Any
+
+from numpy.random import Generator as Random
+
+from experiment.participants.count_red import count_red
+from experiment.participants.count_things import count_things
+from experiment.participants.effects import EffectUse, checked
+from experiment.participants.find_unique import find_unique
+from experiment.participants.forms import Opinions
+from experiment.participants.glance import Glance
+from experiment.participants.name_letter import name_letter
+from experiment.participants.person import Mood, Person, mood_for
+from experiment.participants.profile import AVERAGE, Profile
+from renderer.visibility import Visibility
+from tasks.base import View
+from tasks.events import Event, KeyPress, KeyRelease
+
+STRATEGIES: dict[str, Callable[[Mood, Glance], Generator[list[Event], Glance, None]]] = {
+    "count": count_red,
+    "pattern": name_letter,
+    "unique": find_unique,
+    "count_in_building": count_things,
+}
+
+
+class SimulatedParticipant:
+    """Sits through a session: `begin_trial`, then `events` again and again; `answer` for pages."""
+
+    def __init__(
+        self, rng: Random, profile: Profile = AVERAGE, without: Iterable[str] = ()
+    ) -> None:
+        self.person = Person(rng, profile, checked(without))
+        self.opinions = Opinions(self.person)
+        self.effects: dict[str, EffectUse] = {}
+        self._strategy: Generator[list[Event], Glance, None] | None = None
+        self._task, self._began = "", 0.0
+        self._mood: Mood | None = None
+
+    def begin_trial(self, task: str, now: float) -> None:
+        """Meet a new trial. Raises ValueError for a task nobody has taught it."""
+        if task not in STRATEGIES:
+            raise ValueError(f"task = {task}, expected one of {', '.join(STRATEGIES)}")
+        self._mood = mood_for(self.person, task, now)
+        self.effects = self._mood.effects
+        self._strategy = None
+        self._task, self._began = task, now
+
+    def events(
+        self, view: View, look: Callable[[], Visibility], now: float, task: str
+    ) -> list[Event]:
+        """What it does next, at times from `now` on. It may think first: the times say so."""
+        glance = Glance(view, look, now)
+        if self._strategy is None:
+            self._strategy = STRATEGIES[task](self._begun(task, now), glance)
+            return next(self._strategy)
+        try:
+            events = self._strategy.send(glance)
+        except StopIteration:
+            # The answer did not count (a key lost, a limit changed): press enter again.
+            events = [KeyPress(now + 1.0, "enter"), KeyRelease(now + 1.1, "enter")]
+        self.opinions.spent(self._task, events[-1].time - self._began)
+        return events
+
+    def answer(self, page: Any) -> tuple[dict[str, str], float]:
+        """Read and fill in a page: answers by name, and the seconds it took."""
+        return self.opinions.answer(page)
+
+    def _begun(self, task: str, now: float) -> Mood:
+        if self._mood is None or self._task != task:
+            self.begin_trial(task, now)
+        assert self._mood is not None
+        return self._mood

@@ -1,0 +1,75 @@
+"""One simulated person: drawn once from a profile, and what a trial finds them like."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import exp
+
+from numpy.random import Generator
+
+from experiment.participants.effects import EffectUse, plan_effects
+from experiment.participants.profile import Profile
+
+TASKS = ("count", "pattern", "unique", "count_in_building")
+
+
+@dataclass
+class Person:
+    """Pace and care for a whole session; experience grows with each trial.
+
+    `pace` multiplies mental times at each task, `care` multiplies patience and divides slips.
+    """
+
+    rng: Generator
+    profile: Profile
+    without: frozenset[str] = frozenset()
+    pace: dict[str, float] = field(init=False)
+    care: float = field(init=False)
+    experience: dict[str, int] = field(default_factory=dict)
+    began: float | None = None
+
+    def __post_init__(self) -> None:
+        draws = self.rng.standard_normal(2 + len(TASKS))
+        p = self.profile
+        if "people" in self.without:
+            draws[:] = 0
+        self.care = p.care * exp(p.sd_care * draws[0])
+        # Who is careful is slower as well: half of what makes a person careful costs pace.
+        own = p.sd_person * draws[1]
+        self.pace = {
+            task: p.pace * exp(own + p.sd_task * draw)
+            for task, draw in zip(TASKS, draws[2:], strict=True)
+        }
+
+
+@dataclass(frozen=True)
+class Mood:
+    """What a person is like in one trial."""
+
+    rng: Generator
+    profile: Profile
+    effects: dict[str, EffectUse]
+    pace: float
+    care: float
+
+    def uses(self, effect: str) -> bool:
+        """Whether this trial calls for the effect."""
+        return self.effects[effect].used
+
+
+def mood_for(person: Person, task: str, now: float) -> Mood:
+    """The person at the start of a trial at `now`; counts the trial as experience."""
+    done = person.experience.get(task, 0)
+    person.experience[task] = done + 1
+    if person.began is None:
+        person.began = now
+    p = person.profile
+    effects = plan_effects(task, done, person.without)
+    pace = person.pace.get(task, p.pace)
+    if effects["learning"].used:
+        pace *= 1 + p.learning * exp(-p.learning_rate * done)
+    spread = p.sd_trial if effects["trial_noise"].used else 0.0
+    if effects["fatigue"].used:
+        spread *= 1 + p.fatigue * (now - person.began) / 3600
+    pace *= exp(spread * person.rng.standard_normal())
+    return Mood(person.rng, p, effects, pace, person.care)

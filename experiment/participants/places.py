@@ -1,0 +1,133 @@
+"""The building as one has come to know it: what has been looked at, and which walls hide what.
+
+A person knows from the floor plans how large the building is, sees walls where they are drawn,
+and walls are remembered. Cells of five units, as wide as a step or two, are what is kept in mind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.scene import Scene
+from renderer.transforms import moved
+
+CELL = 5.0
+DIRECTIONS = 8  # headings one looks and walks in: every 45°
+HALF_VIEW = np.arctan(np.tan(np.pi / 6) * 4 / 3)  # half of the horizontal field of view
+
+
+@dataclass(eq=False)
+class Layout:
+    """Cells and walls of a scene. `segments` (n, 2, 2) in (x, z); `owner` (n,) wall of each."""
+
+    centers: NDArray[np.float64]
+    segments: NDArray[np.float64]
+    owner: NDArray[np.int64]
+    size: int
+
+
+@lru_cache(maxsize=64)
+def layout(scene: Scene) -> Layout:
+    """The layout of a scene (scenes are compared by identity)."""
+    return _read(scene)
+
+
+def _read(scene: Scene) -> Layout:
+    floor = next(o for o in scene.objects if o.kind == "floor")
+    half = float(np.abs(moved(floor.mesh.vertices, floor.transform)[:, [0, 2]]).max())
+    size = max(1, int(2 * half // CELL))
+    line = (np.arange(size) + 0.5) * CELL - size * CELL / 2
+    x, z = np.meshgrid(line, line, indexing="ij")
+    segments, owner = [], []
+    for index, thing in enumerate(scene.objects):
+        if thing.kind in ("wall", "outer wall"):
+            for piece in _pieces(thing):
+                segments.append(piece)
+                owner.append(index)
+    return Layout(
+        np.stack([x.ravel(), z.ravel()], axis=1),
+        np.array(segments).reshape(-1, 2, 2),
+        np.array(owner, dtype=np.int64),
+        size,
+    )
+
+
+def _pieces(wall) -> list[NDArray[np.float64]]:  # type: ignore[no-untyped-def]
+    """A wall's middle line in (x, z), open at its doorway."""
+    along = np.unique(wall.mesh.vertices[:, 0])
+    ends = np.zeros((len(along), 3))
+    ends[:, 0] = along
+    if wall.kind == "outer wall":
+        corners = moved(wall.mesh.vertices, wall.transform)[:, [0, 2]]
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        middle = (low + high) / 2
+        long = np.argmax(high - low)
+        a, b = middle.copy(), middle.copy()
+        a[long], b[long] = low[long], high[long]
+        return [np.array([a, b])]
+    line = moved(ends, wall.transform)[:, [0, 2]]
+    return [line[[0, 1]], line[[2, 3]]]
+
+
+@dataclass(eq=False)
+class Known:
+    """What one knows of a building in a trial: arrays over cells, and a set of walls.
+
+    unseen (n,): 1 where nothing has been seen of a cell's things, 0 where they would have been.
+    """
+
+    layout: Layout
+    unseen: NDArray[np.float64] = field(init=False)
+    walls: NDArray[np.bool_] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.unseen = np.ones(len(self.layout.centers))
+        self.walls = np.zeros(len(self.layout.segments), dtype=bool)
+
+    def see_walls(self, visible: NDArray[np.bool_]) -> None:
+        """Remember the walls among the visible objects."""
+        self.walls |= visible[self.layout.owner]
+
+    def hidden(self, eye: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(n,) cells whose middle a known wall hides from `eye` (2,)."""
+        return crossed(eye, self.layout.centers, self.layout.segments[self.walls])
+
+    def inspect(self, quality: NDArray[np.float64]) -> None:
+        """Cells (n,) have been looked at: `quality` is how sure a thing there would be seen."""
+        self.unseen *= 1.0 - quality
+
+    @property
+    def left(self) -> float:
+        """Share of the building not seen yet."""
+        return float(self.unseen.mean())
+
+
+def crossed(
+    eye: NDArray[np.float64], points: NDArray[np.float64], segments: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(n,) whether the way from `eye` to each point (n, 2) crosses one of the segments."""
+    if len(segments) == 0:
+        return np.zeros(len(points), dtype=bool)
+    a, b = segments[:, 0] - eye, segments[:, 1] - eye
+    way = points - eye
+    # The way separates the segment's ends, and the segment separates the way's ends.
+    side_a = way[:, None, 0] * a[:, 1] - way[:, None, 1] * a[:, 0]
+    side_b = way[:, None, 0] * b[:, 1] - way[:, None, 1] * b[:, 0]
+    span = b - a
+    at_eye = span[:, 1] * a[:, 0] - span[:, 0] * a[:, 1]
+    at_point = at_eye + span[:, 0] * way[:, None, 1] - span[:, 1] * way[:, None, 0]
+    return ((side_a * side_b < 0) & (at_eye * at_point < 0)).any(axis=1)
+
+
+def bearing(way: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n,) yaw in which the (x, z) ways lead: 0 along −z, positive to the left."""
+    return np.arctan2(-way[..., 0], -way[..., 1])
+
+
+def apart(a: NDArray[np.float64] | float, b: NDArray[np.float64] | float):  # type: ignore[no-untyped-def]
+    """Angle from b to a, in (−π, π]."""
+    return -((np.asarray(b) - a + np.pi) % (2 * np.pi) - np.pi)

@@ -1,0 +1,125 @@
+"""What a simulated participant is made of: every constant, its unit and its source, per profile.
+
+Sources: KLM = Card, Moran & Newell, keystroke-level model; ACT-R/EMMA = code defaults of the
+cognitive architecture and its eye-movement module; [ours] = chosen by us, a target of calibration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from math import pi
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Constants of a kind of person. Times in seconds, angles in radians, lengths in world units.
+
+    Raises ValueError by name for a value nobody can have.
+    """
+
+    name: str = "average"
+
+    # Eyes. ACT-R: a shift of attention 85 ms; EMMA: a saccade 20 ms + 2 ms per degree.
+    attention_shift: float = 0.085
+    saccade: float = 0.020
+    saccade_per_degree: float = 0.002
+    view_angle: float = 35.0  # degrees the view's height takes at a desk: 0.3 m at 0.5 m [ours]
+    # Guided Search 6: 0 ms an item for pop-out, 25–30 ms and more for conjunctions and letters.
+    search_slope: float = 0.030
+    # A thing is noticed where contrast × √(window pixels) reaches this, half of the time [ours].
+    notice: float = 1.2
+    notice_spread: float = 0.5  # s.d. of the natural logarithm of that
+    # A model's kind is told from 10 × 10 clear pixels half of the time [ours].
+    recognise: float = 100.0
+    recognise_spread: float = 0.7
+    crowding: float = 0.02  # nearer than this, in view heights, things run together (0.7°) [ours]
+    crowded: float = 0.35  # how often one of two crowded things goes unnoticed [ours]
+
+    # Counting. Trick & Pylyshyn 1994: 40–100 ms an item up to 4, then 250–350 ms.
+    subitise: float = 0.070
+    subitising_range: int = 4
+    count: float = 0.300
+    recheck: float = 0.160  # telling a thing as counted already, per item [ours]
+    slip: float = 0.010  # an item lost or counted twice in passing [ours]
+    forget: float = 0.008  # counted things taken for new ones after a view change [ours]
+    mistake_old: float = 0.10  # new things taken for counted ones after a view change [ours]
+
+    # Hands. KLM: keystroke .20–.28, pointing 1.10, homing .40, mental preparation 1.35.
+    key: float = 0.28
+    point: float = 1.10
+    home: float = 0.40
+    prepare: float = 1.35
+    # Turning things with the mouse: 4.09 bit/s (DeLong & MacKenzie 2018).
+    bits_per_second: float = 4.09
+    tolerance: float = pi / 12  # how well a turn must hit its aim [ours]
+    motor_noise: float = 0.04  # s.d. of a turn's end, as a part of the turn [ours]
+    gain: float = pi  # first guess of radians per view height; corrected by what is seen
+    speed: float = 6.0  # first guess of walking speed; corrected by what is seen
+
+    # Strategy [ours].
+    orbit_step: float = pi / 3  # from one view of the abstract world to the next
+    patience: float = 2.0  # views without news before a count is believed
+    diligence: float = 0.06  # share of the building that may stay unseen when counting
+    certainty: float = 0.90  # posterior probability at which a letter is believed
+    letter_looks: int = 8  # after so many looks, the best guess is good enough
+    letter_turning: float = 1.0  # seconds to turn a letter half round in the mind (Cooper 1975)
+    near_enough: float = 18.0  # how near one walks to see where something stands
+
+    # Places. Distances in virtual worlds look short and uncertain (Loomis & Knapp 2003).
+    depth_bias: float = 0.90
+    depth_noise: float = 0.12  # s.d. as a part of the distance
+    through_noise: float = 0.10  # more of it for what shines through something
+    drift: float = 0.10  # s.d. of where one believes to be, per root of the path length
+    same_place: float = 5.0  # nearer than this, a thing is taken for one seen before
+    tracked: int = 4  # things kept in sight as the view moves (ACT-R: 4 FINSTs)
+    plan_noise: float = 3.0  # s.d. of a mark on the plan
+
+    # People. Egan: coefficient of variation of times about .4 between people.
+    sd_person: float = 0.25  # s.d. of the logarithm of a person's pace
+    sd_task: float = 0.20  # and of the same person's pace at each task
+    sd_trial: float = 0.15  # and from trial to trial
+    sd_care: float = 0.30  # s.d. of the logarithm of a person's care
+    pace: float = 1.0  # factor on all mental times
+    care: float = 1.0  # factor on patience; slips and misses fall with it
+    # Heathcote et al. 2000: practice follows an exponential in each person.
+    learning: float = 0.35  # how much slower the first trial of a task is than the last
+    learning_rate: float = 0.35  # per trial
+    # Steinborn et al.: fatigue raises the variability of times, hardly their mean.
+    fatigue: float = 0.25  # growth of sd_trial per hour
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if field.name == "name":
+                continue
+            if not 0 <= value < 1000:
+                raise ValueError(f"{field.name} = {value}, expected a number from 0 to 1000")
+        for name in ("slip", "forget", "mistake_old", "crowded", "diligence", "certainty"):
+            if getattr(self, name) > 1:
+                raise ValueError(f"{name} = {getattr(self, name)}, expected a probability")
+        for name in _POSITIVE:
+            if getattr(self, name) == 0:
+                raise ValueError(f"{name} = 0, expected a number > 0")
+
+
+_POSITIVE = (
+    "notice_spread", "recognise", "recognise_spread", "bits_per_second", "tolerance", "gain",
+    "speed", "orbit_step", "pace", "care", "letter_looks", "subitising_range", "view_angle",
+    "notice",
+)  # fmt: skip
+
+AVERAGE = Profile()
+PROFILES: Mapping[str, Profile] = {
+    "average": AVERAGE,
+    "careful": replace(AVERAGE, name="careful", care=1.6, pace=1.15, diligence=0.02),
+    "hasty": replace(AVERAGE, name="hasty", care=0.6, pace=0.85, diligence=0.15, certainty=0.75),
+    "novice": replace(AVERAGE, name="novice", pace=1.2, learning=0.8, motor_noise=0.12),
+}
+
+
+def profile(name: str) -> Profile:
+    """The profile of that name. Raises ValueError that lists the names there are."""
+    if name not in PROFILES:
+        raise ValueError(f"profile = {name}: expected one of {', '.join(PROFILES)}")
+    return PROFILES[name]

@@ -1,0 +1,198 @@
+"""Getting about in the building: look round where one is, walk to where most is still unseen."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from math import hypot, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiment.participants.counting import saccade
+from experiment.participants.glance import (
+    CLEAR,
+    WINDOW_PIXELS,
+    Glance,
+    heading,
+    likely,
+    noticed,
+    recognised,
+)
+from experiment.participants.hands import Hands
+from experiment.participants.person import Mood
+from experiment.participants.places import (
+    CELL,
+    DIRECTIONS,
+    HALF_VIEW,
+    Known,
+    apart,
+    bearing,
+    crossed,
+    layout,
+)
+from renderer.visibility import Visibility
+from tasks.events import Event
+from tasks.hud import Inset
+
+STEP = 2 * pi / DIRECTIONS
+THING = 1.5  # radius of a usual thing, for how well it would be seen from afar [ours]
+REACH = 3  # cells about a place that count as worth going there for [ours]
+THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
+LOOK = 1.0  # seconds that a look somewhere else is thought to cost when choosing [ours]
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Things of the asked kind recognised in one look."""
+
+    index: NDArray[np.int64]
+    seen: Visibility
+
+
+class Walker:
+    """One trial's walk: what is known, where one believes to be, and the hands."""
+
+    def __init__(self, mood: Mood, glance: Glance) -> None:
+        self.mood = mood
+        self.hands = Hands(mood, glance.now)
+        self.glance = glance
+        self.known = Known(layout(glance.view.scene))
+        self.asked = _asked(glance)
+        self.error = np.zeros(2)  # where one believes to be, less where one is
+        self.through: list[float] = []  # clearness of things seen through walls
+
+    @property
+    def eye(self) -> NDArray[np.float64]:
+        """(2,) where one is, (x, z)."""
+        return self.glance.view.camera.eye[[0, 2]]
+
+    @property
+    def yaw(self) -> float:
+        """Where one looks."""
+        return heading(self.glance.view)[0]
+
+    def look(self) -> Found:
+        """Look, and remember what has been seen; takes the time of the search."""
+        mood, p = self.mood, self.mood.profile
+        seen = self.glance.look()
+        self.known.see_walls(seen.pixels > 0)
+        objects = self.glance.view.scene.objects
+        index = noticed(seen, mood)
+        things = index[[objects[i].target for i in index]]
+        clear = things[recognised(seen, things, mood)]
+        self._see_through(seen, clear)
+        self._inspect()
+        spread = len(things) * (p.search_slope + saccade(0.2, mood))
+        self.hands.wait(p.attention_shift + p.count + spread)
+        return Found(clear[[objects[i].kind == self.asked for i in clear]], seen)
+
+    def _see_through(self, seen: Visibility, things: NDArray[np.int64]) -> None:
+        """Learn whether things shine through walls: was one seen that a known wall is before?"""
+        if len(things) == 0:
+            return
+        places = self.glance.view.scene.transforms[things][:, [0, 2], 3]
+        walls = self.known.layout.segments[self.known.walls]
+        behind = crossed(self.eye, places, walls)
+        through = things[behind & (seen.weight[things] < 0.9)]
+        self.through += np.minimum(seen.contrast[through] / CLEAR, 1.0).tolist()
+
+    def _inspect(self) -> None:
+        way = self.known.layout.centers - self.eye
+        inside = np.abs(apart(bearing(way), self.yaw)) < HALF_VIEW
+        self.known.inspect(np.where(inside, self.quality(way, self.eye), 0.0))
+
+    def quality(self, way: NDArray[np.float64], eye: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n,) how surely a thing would be recognised at the end of each way from `eye`."""
+        p = self.mood.profile
+        distance = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1.0)
+        # The picture is one unit high at distance 1 / (2 tan 30°); a thing fills half its circle.
+        share = 0.5 * pi * (THING / (2 * distance * np.tan(np.pi / 6))) ** 2 * 0.75
+        clearness = np.where(self.known.hidden(eye), self._through_clearness(), 1.0)
+        return likely(share * WINDOW_PIXELS * clearness, p.recognise, p.recognise_spread)
+
+    def _through_clearness(self) -> float:
+        """How clear a thing behind a wall would be: nothing shines through until one did."""
+        if not self.through:
+            return 0.0
+        return (THROUGH + sum(self.through)) / (1 + len(self.through))
+
+    def choose(self) -> tuple[float, NDArray[np.float64] | None]:
+        """The next thing to do: (turn, None) to look round, (turn, cell) to go somewhere.
+
+        What is most worth its time: unseen cells that a look would show, over seconds.
+        """
+        centers = self.known.layout.centers
+        way = centers - self.eye
+        worth = self.known.unseen * self.quality(way, self.eye)
+        toward = bearing(way)
+        best, choice = 0.0, (STEP, None)
+        for k in range(1, DIRECTIONS):
+            turn = float(apart(k * STEP, 0.0))
+            inside = np.abs(apart(toward, self.yaw + turn)) < HALF_VIEW
+            rate = float(worth[inside].sum()) / (LOOK + abs(turn) / STEP * 0.25)
+            if rate > best:
+                best, choice = rate, (turn, None)
+        seconds = np.hypot(way[:, 0], way[:, 1]) / self.hands.speed + 3 * LOOK
+        rates = _nearby(self.known) / seconds
+        rates[np.hypot(way[:, 0], way[:, 1]) < CELL / 2] = 0.0
+        there = int(np.argmax(rates))
+        if rates[there] > best:
+            return float(apart(toward[there], self.yaw)), centers[there]
+        return choice
+
+    def turn(self, angle: float) -> Generator[list[Event], Glance, None]:
+        """Turn, and see where that led."""
+        before = self.yaw
+        self.hands.turn(angle)
+        self.glance = yield self.hands.take()
+        turned = float(apart(self.yaw, before))
+        if turned * angle > 0 and not 0.7 < turned / angle < 1.4:
+            self.hands.gain *= turned / angle
+
+    def hop(self, cell: NDArray[np.float64]) -> Generator[list[Event], Glance, None]:
+        """One cell on towards `cell`: face one of eight directions, walk, see how far it went."""
+        way = cell - self.eye
+        aim = round(float(bearing(way)) / STEP) * STEP
+        yield from self.turn(float(apart(aim, self.yaw)))
+        diagonal = round(aim / STEP) % 2 == 1
+        distance = CELL * (2**0.5 if diagonal else 1.0)
+        before = self.eye
+        self.hands.walk(distance)
+        self.glance = yield self.hands.take()
+        went = hypot(*(self.eye - before))
+        if not 0.7 < went / distance < 1.4 and went > 0:
+            self.hands.speed *= went / distance
+        if self.mood.uses("drift"):
+            spread = self.mood.profile.drift * went**0.5
+            self.error = self.error + spread * self.mood.rng.standard_normal(2)
+
+    def place(self, index: int, seen: Visibility) -> NDArray[np.float64]:
+        """(2,) where one believes a visible thing to stand: direction good, distance uncertain."""
+        mood, p = self.mood, self.mood.profile
+        way = self.glance.view.scene.transforms[index][[0, 2], 3] - self.eye
+        if mood.uses("depth_noise"):
+            through = p.through_noise if seen.weight[index] < 0.9 else 0.0
+            spread = hypot(p.depth_noise, through)
+            # Near things are seen at their distance; far ones look nearer.
+            bias = 1 - (1 - p.depth_bias) * min(1.0, hypot(*way) / 30)
+            way = way * bias * np.exp(spread * mood.rng.standard_normal())
+        return self.eye + self.error + way
+
+
+def _asked(glance: Glance) -> str:
+    """The kind that turns in the corner of the view."""
+    inset = next(e for e in glance.view.hud if isinstance(e, Inset))
+    return inset.scene.objects[0].kind
+
+
+def _nearby(known: Known) -> NDArray[np.float64]:
+    """(n,) unseen cells within `REACH` of each cell, by sums along both axes."""
+    size = known.layout.size
+    total = known.unseen.reshape(size, size)
+    for axis in (0, 1):
+        padded = np.insert(total.cumsum(axis=axis), 0, 0.0, axis=axis)
+        low = np.maximum(np.arange(size) - REACH, 0)
+        high = np.minimum(np.arange(size) + REACH + 1, size)
+        total = padded.take(high, axis=axis) - padded.take(low, axis=axis)
+    return total.ravel()
