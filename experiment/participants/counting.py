@@ -20,7 +20,7 @@ def seconds_to_count(places: NDArray[np.float64], mood: Mood) -> float:
     if len(places) == 0:
         return 0.0
     most = p.subitising_range if mood.uses("subitising") else 1
-    order, steps = _path(places)
+    steps = _steps(places)
     total, in_group = p.attention_shift + p.count, 1
     for step in steps:
         if step < CLUSTER and in_group < most:
@@ -38,19 +38,18 @@ def saccade(distance: float, mood: Mood) -> float:
     return p.saccade + p.saccade_per_degree * distance * p.view_angle
 
 
-def _path(places: NDArray[np.float64]) -> tuple[list[int], list[float]]:
-    """A way through all places, always on to the nearest one left; the steps' lengths."""
+def _steps(places: NDArray[np.float64]) -> list[float]:
+    """Lengths of the steps of a way through all places, always on to the nearest one left."""
     apart = np.hypot(*np.moveaxis(places[:, None] - places[None], -1, 0))
     here = int(np.argmin(places.sum(axis=1)))
-    order, steps = [here], []
+    steps: list[float] = []
     apart[:, here] = np.inf
     for _ in range(len(places) - 1):
         nearest = int(np.argmin(apart[here]))
         steps.append(float(apart[here, nearest]))
         apart[:, nearest] = np.inf
-        order.append(nearest)
         here = nearest
-    return order, steps
+    return steps
 
 
 def slips(count: int, mood: Mood) -> int:

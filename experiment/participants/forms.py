@@ -25,21 +25,15 @@ class Opinions:
     def __init__(self, person: Person) -> None:
         self.person = person
         self._level = ""
-        self._latest: dict[tuple[str, str], list[float]] = {}
-        self._running: tuple[tuple[str, str], int] | None = None
-        self._trial = 0
+        self._times: dict[tuple[str, str], list[float]] = {}
+
+    def begin(self, task: str) -> None:
+        """A trial of `task` begins, under the instruction read last."""
+        self._times.setdefault((self._level, task), []).append(0.0)
 
     def spent(self, task: str, seconds: float) -> None:
         """The running trial has taken so long by now."""
-        key = (self._level, task)
-        trials = self._latest.setdefault(key, [])
-        if self._running != (key, self._trial):
-            trials.append(seconds)
-            self._running = (key, self._trial)
-        elif trials and seconds >= trials[-1]:
-            trials[-1] = seconds
-        else:
-            trials.append(seconds)
+        self._times[self._level, task][-1] = seconds
 
     def answer(self, page: Any) -> tuple[dict[str, str], float]:
         """Answers by name ("button": which one), and the seconds that took."""
@@ -71,15 +65,15 @@ class Opinions:
 
     def _relative(self, level: str, scenario: str) -> float:
         """Time with this level over time with any, within the scenario; 1 where unknown."""
-        own = [fmean(t) for (lv, k), t in self._latest.items()
+        own = [fmean(t) for (lv, k), t in self._times.items()
                if lv == level and SCENARIO.get(k) == scenario]  # fmt: skip
-        every = [fmean(t) for (_, k), t in self._latest.items() if SCENARIO.get(k) == scenario]
+        every = [fmean(t) for (_, k), t in self._times.items() if SCENARIO.get(k) == scenario]
         return fmean(own) / fmean(every) if own and every else 1.0
 
     def _preference(self, options: int) -> int:
-        """0 for see-through, the last for none of it: a matter of the times taken, and of chance."""
+        """0 for see-through, the last for none of it: by the times taken, and by chance."""
         times = {
-            level: [fmean(t) for (lv, _), t in self._latest.items() if lv == level]
+            level: [fmean(t) for (lv, _), t in self._times.items() if lv == level]
             for level in ("dynamic", "standard")
         }
         if not all(times.values()):

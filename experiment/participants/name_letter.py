@@ -1,4 +1,4 @@
-"""T2: which letter do the red cones form? Evidence adds up over looks until one letter is likely."""
+"""T2: which letter do the red cones form? Looks add up until one letter is likely."""
 
 from __future__ import annotations
 

@@ -53,6 +53,7 @@ class SimulatedParticipant:
         self.effects = self._mood.effects
         self._strategy = None
         self._task, self._began = task, now
+        self.opinions.begin(task)
 
     def events(
         self, view: View, look: Callable[[], Visibility], now: float, task: str
