@@ -45,7 +45,8 @@ backend-path = ["."]
 # Stands in for pytest: leaves a process behind, in a session of its own as a window's server is.
 PYTEST = """
 import subprocess, sys
-left = subprocess.Popen(["sleep", "300"], start_new_session=True)
+quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+left = subprocess.Popen(["sleep", "60"], start_new_session=True, **quiet)
 open("left.pid", "w").write(str(left.pid))
 print("1 passed in 0.01s")
 sys.exit(len(sys.argv) > 5)
