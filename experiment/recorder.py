@@ -24,7 +24,6 @@ from tasks.base import View
 from tasks.events import Event, Tick
 
 PARTICIPANT = re.compile(r"[A-Za-z0-9_-]{1,32}")
-SESSION = 1
 
 
 @dataclass(frozen=True)
@@ -36,6 +35,7 @@ class Who:
     source: str
     slot: int
     provenance: Mapping[str, Any]
+    session: int = 1  # one more each time an interrupted session is gone on with
 
 
 def check_participant(participant: str) -> str:
@@ -52,7 +52,7 @@ def folder_of(data: Path, source: str, participant: str) -> Path:
     return data / "data" / source / participant
 
 
-def stem_of(study: str, participant: str, session: int = SESSION) -> str:
+def stem_of(study: str, participant: str, session: int = 1) -> str:
     """Start of a participant's file names. Psych-DS values are letters and digits only."""
     plain = re.sub(r"[^A-Za-z0-9]", "", participant) or "x"
     return f"study-{study}_subject-{plain}_session-{session}"
@@ -66,15 +66,23 @@ def utc_now() -> str:
 class FileRecorder:
     """Writes one participant's session. Raises InputError if there are files of it already."""
 
-    def __init__(self, data: Path, who: Who, now: Callable[[], str] = utc_now) -> None:
+    def __init__(
+        self,
+        data: Path,
+        who: Who,
+        now: Callable[[], str] = utc_now,
+        attempts: Mapping[int, int] | None = None,
+    ) -> None:
+        """`attempts`: how often each trial number was completed before this session."""
         self.who = who
+        self._attempts = attempts or {}
         self._now = now
         self.folder = folder_of(data, who.source, who.participant)
-        self.stem = stem_of(who.study, who.participant)
+        self.stem = stem_of(who.study, who.participant, who.session)
         describe_dataset(data, who.study)
         try:
-            self.folder.mkdir(parents=True)
-            (self.folder / "traces").mkdir()
+            self.folder.mkdir(parents=True, exist_ok=who.session > 1)
+            (self.folder / "traces").mkdir(exist_ok=who.session > 1)
         except FileExistsError:
             raise InputError(
                 f"{self.folder}: participant {who.participant} exists already; "
@@ -94,7 +102,7 @@ class FileRecorder:
             self._traces.close()
         kind = "training" if trial.training else "trial"
         number = trial.task_set * 100 + trial.in_set if trial.training else trial.number
-        name = f"session-{SESSION}_{kind}-{number:03d}"
+        name = f"session-{self.who.session}_{kind}-{number:03d}"
         self._traces = _Traces(self.folder / "traces", name)
         self._started = self._now()
 
@@ -118,7 +126,7 @@ class FileRecorder:
                 **self._identity(f"trial{record.trial.number:03d}"),
                 **_trial_row(record),
                 "slot": self.who.slot,
-                "attempt": 1,
+                "attempt": self._attempts.get(record.trial.number, 0) + 1,
                 "started": self._started,
                 "events_file": f"traces/{self._traces.events_name}",
                 "camera_file": f"traces/{self._traces.camera_name}",
@@ -144,10 +152,10 @@ class FileRecorder:
     def _identity(self, row: str) -> dict[str, Any]:
         who = self.who
         return {
-            "row_id": f"{who.source}-{who.participant}-{SESSION}-{row}",
+            "row_id": f"{who.source}-{who.participant}-{who.session}-{row}",
             "study": who.study,
             "participant": who.participant,
-            "session": SESSION,
+            "session": who.session,
             "source": who.source,
         }
 
