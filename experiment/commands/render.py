@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from experiment.errors import InputError
-from renderer.camera import Camera
+from renderer.camera import Camera, look_at
 from renderer.plan import Technique
 from renderer.scene import Scene
 from renderer.techniques.dynamic import DynamicTransparency
@@ -42,8 +42,24 @@ def walkthrough(seed: int, aspect: float) -> tuple[Scene, Camera]:
     return building.scene, walk(parameters, building.start).camera()
 
 
+def models(seed: int, aspect: float) -> tuple[Scene, Camera]:
+    """Every model of the library once: the contact sheet, the same for every seed."""
+    from renderer.models.sheet import contact_sheet_scene
+
+    return contact_sheet_scene(aspect)
+
+
+def jeep(seed: int, aspect: float) -> tuple[Scene, Camera]:
+    """The jeep with its inner parts as targets, the same for every seed."""
+    from renderer.models.jeep import jeep_scene
+
+    return jeep_scene(), look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.6)
+
+
 SCENES: dict[str, Callable[[int, float], tuple[Scene, Camera]]] = {
     "abstract": abstract,
+    "jeep": jeep,
+    "models": models,
     "walkthrough": walkthrough,
 }
 
