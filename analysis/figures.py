@@ -115,3 +115,29 @@ def _rating_bars(axes: Any, tips: Tips, i: int, m: Measure) -> None:
             axes.errorbar(i + side, mean, yerr=sd, color=INK, capsize=3, linewidth=1)
             text += f", s.d. {significant(sd)}"
         tips.mark(bar, text)
+
+
+def effect_sizes(key: str, title: str, tests: Table) -> Figure:
+    """d_z of every measure with its interval, one line each."""
+    rows = [r for r in tests.rows if is_defined(r["dz"])]
+
+    def draw(canvas: Any, tips: Tips) -> None:
+        axes = canvas.subplots()
+        axes.axvline(0, color=FAINT, linewidth=0.8)
+        for i, row in enumerate(rows):
+            axes.plot([row["dz_low"], row["dz_high"]], [i, i], color=INK, linewidth=1.4)
+            (dot,) = axes.plot(row["dz"], i, "o", color=COLOURS["dynamic"], markersize=6)
+            ends = f"{significant(row['dz_low'])} to {significant(row['dz_high'])}"
+            tips.mark(dot, f"{row['label']}: d_z = {significant(row['dz'])}, 95 % {ends}")
+        axes.set_yticks(range(len(rows)), [r["label"] for r in rows])
+        axes.invert_yaxis()
+        axes.grid(axis="x")
+        axes.grid(visible=False, axis="y")
+        axes.set_xlabel("d_z, positive: less with dynamic transparency")
+
+    said = "; ".join(
+        f"{r['label']} {significant(r['dz'])} [{significant(r['dz_low'])}, "
+        f"{significant(r['dz_high'])}]"
+        for r in rows
+    )
+    return Figure(key, title, f"Dots with intervals. {said}.", draw, (7.2, 0.7 + 0.34 * len(rows)))

@@ -53,6 +53,13 @@ def make_report(data: Path, options: Options) -> tuple[Report, Mapping[str, Any]
     return report, {"version": _version()}
 
 
+def make_published() -> tuple[Report, Mapping[str, Any]]:
+    """The report on the paper's own printed numbers."""
+    from analysis.published.report import published_report
+
+    return published_report(), {"version": _version()}
+
+
 def _version() -> str:
     from importlib.metadata import version
 

@@ -11,7 +11,12 @@ HELP = "make the statistics report from a data folder"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The command's arguments."""
-    parser.add_argument("data", metavar="DATA", type=Path, help="the study's data folder")
+    parser.add_argument(
+        "data", metavar="DATA", type=Path, nargs="?", help="the study's data folder"
+    )
+    parser.add_argument(
+        "--published", action="store_true", help="the paper's printed numbers instead of DATA"
+    )
     parser.add_argument("--out", type=Path, required=True, help="folder for the report")
     parser.add_argument("--source", help="human, simulated or pilot, where there are several")
     parser.add_argument("--alpha", type=float, help="instead of the study's own (a deviation)")
@@ -28,12 +33,16 @@ def run(args: argparse.Namespace) -> int:
     """Make the report; returns 0, or 2 with one line for each thing wrong with the data."""
     # analysis imports pandas and scipy, which takes a second: only when the command runs
     from analysis.errors import DataError
-    from analysis.report import Options, check_out, make_report, write_report
+    from analysis.report import Options, check_out, make_published, make_report, write_report
 
     try:
+        if args.published == (args.data is not None):
+            raise DataError("report: expected either DATA or --published")
         check_out(args.out)
-        options = Options(args.source, args.alpha, args.exclude)
-        report, facts = make_report(args.data, options)
+        if args.published:
+            report, facts = make_published()
+        else:
+            report, facts = make_report(args.data, Options(args.source, args.alpha, args.exclude))
         page = write_report(report, facts, args.out)
     except DataError as error:
         for line in error.shown():

@@ -1,0 +1,1 @@
+"""The published study, reconstructed from its printed numbers and checked for consistency."""

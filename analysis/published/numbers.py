@@ -1,0 +1,151 @@
+"""The printed numbers: each knows how far it was rounded."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """A number as printed; the true value lies in [low, high]."""
+
+    text: str
+
+    @property
+    def value(self) -> float:
+        return float(self.text)
+
+    @property
+    def half(self) -> float:
+        """Half a unit of the last printed digit."""
+        _, _, decimals = self.text.partition(".")
+        return 0.5 * 10.0 ** -len(decimals)
+
+    @property
+    def low(self) -> float:
+        return self.value - self.half
+
+    @property
+    def high(self) -> float:
+        return self.value + self.half
+
+    def fits(self, value: float) -> bool:
+        """Whether `value` prints as this; 1e-9 forgives the last bits of a half."""
+        return abs(value - self.value) <= self.half + 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """A printed mean with its s.d.; `assumed`: the s.d. is a reading of a damaged scan."""
+
+    mean: Printed
+    sd: Printed
+    assumed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """A printed p: `< .05` or a number."""
+
+    text: str
+
+    @property
+    def bound(self) -> bool:
+        return self.text.startswith("<")
+
+    def allows(self, low: float, high: float) -> bool:
+        """Whether some p in [low, high] is printed like this."""
+        if self.bound:
+            return low < float(self.text.lstrip("< "))
+        printed = Printed(self.text)
+        return low <= printed.high and high >= printed.low
+
+
+@dataclass(frozen=True, slots=True)
+class PublishedMeasure:
+    """A row of the paper's results with F(1, n − 1)."""
+
+    name: str
+    label: str
+    unit: str
+    standard: Moments
+    dynamic: Moments
+    f: Printed
+    p: Claim
+
+
+@dataclass(frozen=True, slots=True)
+class Single:
+    """An item asked once, on a scale of whole numbers from 0 to `highest`."""
+
+    name: str
+    label: str
+    highest: int
+    moments: Moments
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """Everything that is read from published.toml."""
+
+    participants: int
+    trials: int
+    per_cell: int
+    tasks: tuple[str, ...]
+    measures: tuple[PublishedMeasure, ...]
+    correct: tuple[Moments, Moments]
+    correct_p: Claim
+    rating: tuple[Moments, Moments]
+    rating_p: Claim
+    rating_items: int
+    rating_highest: int
+    single: tuple[Single, ...]
+
+    def measure(self, name: str) -> PublishedMeasure:
+        return next(m for m in self.measures if m.name == name)
+
+
+def published_file() -> Path:
+    """In a checkout data/published/; beside this module in an installed wheel."""
+    here = Path(__file__).parent
+    packed = here / "published.toml"
+    return packed if packed.is_file() else here.parents[1] / "data/published/published.toml"
+
+
+def load_published() -> Published:
+    """Read the numbers."""
+    raw = tomllib.loads(published_file().read_text(encoding="utf-8"))
+    study, correct, rating = raw["study"], raw["correct_T2"], raw["rating"]
+    return Published(
+        study["participants"],
+        study["trials"],
+        study["trials_per_task_and_condition"],
+        tuple(study["tasks"]),
+        tuple(_measure(m) for m in raw["measure"]),
+        (_moments(correct["standard"]), _moments(correct["dynamic"])),
+        Claim(correct["p"]),
+        (_moments(rating["standard"]), _moments(rating["dynamic"])),
+        Claim(rating["p"]),
+        rating["items"],
+        rating["highest"],
+        tuple(Single(s["name"], s["label"], s["highest"], _moments(s)) for s in raw["single"]),
+    )
+
+
+def _moments(raw: dict[str, Any]) -> Moments:
+    return Moments(Printed(raw["mean"]), Printed(raw["sd"]), raw.get("assumed", False))
+
+
+def _measure(raw: dict[str, Any]) -> PublishedMeasure:
+    return PublishedMeasure(
+        raw["name"],
+        raw["label"],
+        raw["unit"],
+        _moments(raw["standard"]),
+        _moments(raw["dynamic"]),
+        Printed(raw["F"]),
+        Claim(raw["p"]),
+    )
