@@ -73,11 +73,19 @@ QUESTIONNAIRE = (
         "item",
         "text",
         "efficiency, ease, enjoy (0–4, per condition), preference (1 dynamic, 0 not), "
-        "depth_self_report (0–4), depth_test (correct of 3), or an item of the study's own",
+        "depth_self_report (0–4), depth_test (correct of 3), consent, age (years), gender, "
+        "color_plate_1 … 4 (1: read), tlx_… (0–20), sus_1 … sus_10 (0–4), sus (0–100), remarks",
     ),
     *_CELL,
     Column("value", "number", "the answer as a number"),
     Column("text", "text", "the answer as text, for free text"),
 )
 
-TABLES = {"trials": TRIALS, "questionnaire": QUESTIONNAIRE}
+NOTES = (
+    *_WHO,
+    Column("trial", "integer", "position of the trial the note was taken in, from 1"),
+    Column("written", "text", "when, UTC, ISO 8601"),
+    Column("text", "text", "the experimenter's note"),
+)
+
+TABLES = {"trials": TRIALS, "questionnaire": QUESTIONNAIRE, "notes": NOTES}

@@ -27,6 +27,20 @@ TASK_SCENARIO: Mapping[str, str] = {
 }
 
 
+QuestionnaireBlock = Literal["ratings", "comparison", "tlx", "sus", "depth_test", "remarks"]
+
+
+def _as_tuple(value: Any) -> Any:
+    """TOML has arrays, frozen tables have tuples."""
+    return tuple(value) if isinstance(value, list) else value
+
+
+def _once(value: tuple[str, ...]) -> tuple[str, ...]:
+    if len(set(value)) < len(value):
+        raise ValueError("each name once")
+    return value
+
+
 class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
@@ -57,17 +71,8 @@ class DesignTable(_Table):
     trials: Annotated[int, Field(ge=1, le=100)] = 3
     training: Annotated[int, Field(ge=0, le=20)] = 1
 
-    @field_validator("transparency", "tasks", mode="before")
-    @classmethod
-    def _from_array(cls, value: Any) -> Any:
-        return tuple(value) if isinstance(value, list) else value
-
-    @field_validator("transparency", "tasks")
-    @classmethod
-    def _once(cls, value: tuple[str, ...]) -> tuple[str, ...]:
-        if len(set(value)) < len(value):
-            raise ValueError("each name once")
-        return value
+    _arrays = field_validator("transparency", "tasks", mode="before")(_as_tuple)
+    _unique = field_validator("transparency", "tasks")(_once)
 
     def factors(self) -> Factors:
         """The design's factors, tasks grouped by scenario in the order of the scenarios."""
@@ -88,12 +93,23 @@ class DisplayTable(_Table):
 
 
 class SessionTable(_Table):
-    """[session]: limits in seconds; 0 is none. Training ends at its limit (004 §VI-G)."""
+    """[session]: limits in seconds, 0 is none (training: 004 §VI-G); pages before and after.
+
+    `consent` is a text file beside the study's; `resume` says where an interrupted session goes
+    on: at the start of the block it broke off in, or at the trial.
+    """
 
     training_limit: Annotated[float, Field(ge=0, strict=False)] = 300.0
     trial_limit: Annotated[float, Field(ge=0, strict=False)] = 0.0
     session_limit: Annotated[float, Field(ge=0, strict=False)] = 4800.0
-    questionnaire: bool = True
+    consent: str = ""
+    demographics: bool = False
+    color_check: bool = False
+    questionnaire: tuple[QuestionnaireBlock, ...] = ("ratings", "comparison", "remarks")
+    resume: Literal["block", "trial"] = "block"
+
+    _arrays = field_validator("questionnaire", mode="before")(_as_tuple)
+    _unique = field_validator("questionnaire")(_once)
 
 
 class AnalysisTable(_Table):
@@ -103,10 +119,7 @@ class AnalysisTable(_Table):
     tests: tuple[str, ...] = ()
     exclude: tuple[str, ...] = ()
 
-    @field_validator("tests", "exclude", mode="before")
-    @classmethod
-    def _from_array(cls, value: Any) -> Any:
-        return tuple(value) if isinstance(value, list) else value
+    _arrays = field_validator("tests", "exclude", mode="before")(_as_tuple)
 
 
 class Study(_Table):
@@ -165,7 +178,23 @@ def load(name: str) -> Study:
         raise InputError(f"{path}: byte {error.start} is not UTF-8") from None
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {_one_line(str(error))}") from None
-    return parse(table, str(path))
+    return _with_consent(parse(table, str(path)), path)
+
+
+def _with_consent(study: Study, path: Path) -> Study:
+    """The study with the text of its consent file among its texts. Raises InputError."""
+    if not study.session.consent:
+        return study
+    file = path.parent / study.session.consent
+    try:
+        text = file.read_bytes().decode("utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = "not UTF-8" if isinstance(error, UnicodeDecodeError) else error.strerror
+        raise InputError(
+            f"{path}: session.consent = {study.session.consent!r}: expected a text file beside "
+            f"the study ({reason})"
+        ) from None
+    return study.model_copy(update={"texts": {**study.texts, "consent.text": text}})
 
 
 def parse(table: Mapping[str, Any], file: str) -> Study:

@@ -17,6 +17,7 @@ def _rgba(red: float, green: float, blue: float, alpha: float = 1.0) -> int:
 
 INK, PAPER, VEIL = (0.08, 0.09, 0.11), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0, 0.82)
 ACCENT, MARK, GREY = (0.16, 0.40, 0.70), (0.85, 0.10, 0.10), (0.55, 0.58, 0.62)
+PILOT = (0.95, 0.55, 0.05)
 
 
 class HudDrawing:
@@ -122,3 +123,14 @@ class HudDrawing:
             center = imgui.ImVec2(plan.mark[0] * s, plan.mark[1] * s)
             self.list.add_circle_filled(center, 0.010 * s, _rgba(*MARK))
             self.list.add_circle(center, 0.018 * s, _rgba(*MARK), 0, 2.0)
+
+
+def draw_progress(size: tuple[int, int], done: float, pilot: bool) -> None:
+    """A thin line along the bottom: how much is done. Orange marks a pilot run."""
+    width, height = size
+    thick = max(3.0, 0.006 * height)
+    lines = imgui.get_foreground_draw_list()
+    low = imgui.ImVec2(0, height - thick)
+    lines.add_rect_filled(low, imgui.ImVec2(width, height), _rgba(*GREY, 0.35))
+    ink = PILOT if pilot else ACCENT
+    lines.add_rect_filled(low, imgui.ImVec2(width * done, height), _rgba(*ink))

@@ -33,6 +33,9 @@ class OffscreenDisplay:
         self.looking.technique = technique
         return self.clock.now()
 
+    def progress(self, fraction: float) -> None:
+        """Nobody sees the progress line."""
+
     def describe(self) -> Mapping[str, str]:
         """Driver and size."""
         return {**describe(self._context), "size": f"{self.size[0]}x{self.size[1]}", "window": "no"}

@@ -8,10 +8,21 @@ from dataclasses import dataclass, field
 from imgui_bundle import imgui
 
 from experiment.interface import Interface
-from experiment.pages import Answers, Choice, Page, Paragraph, Picture, Scale, TextField
+from experiment.pages import (
+    Answers,
+    Choice,
+    Page,
+    Paragraph,
+    Picture,
+    PlatePicture,
+    Scale,
+    TextField,
+)
+from experiment.plates import Plate
 from experiment.texts import Texts
 
 COLUMN = 1.05  # widest text column, in heights of the screen
+MOST_RADIOS = 10  # a scale of more steps is a slider
 
 
 @dataclass
@@ -78,6 +89,8 @@ class PageDrawing:
                 self._choice(block, form)
             case TextField():
                 self._text_field(block, form, column, height)
+            case PlatePicture():
+                _plate(block.plate, 0.42 * height)
             case Picture():
                 wide, high = int(0.45 * height * 4 / 3), int(0.45 * height)
                 reference = imgui.ImTextureRef(self.picture(block, wide, high))
@@ -86,6 +99,9 @@ class PageDrawing:
 
     def _scale(self, scale: Scale, form: Form) -> None:
         imgui.text_wrapped(self.texts.fill(scale.text, scale.values))
+        if scale.steps > MOST_RADIOS:
+            self._slider(scale, form)
+            return
         imgui.align_text_to_frame_padding()
         imgui.text_disabled(self.texts.get(scale.low))
         for step in range(scale.steps):
@@ -93,6 +109,22 @@ class PageDrawing:
             chosen = form.answers.get(scale.name) == str(step)
             if imgui.radio_button(f"{step}##{scale.name}", chosen):
                 form.answers[scale.name] = str(step)
+        imgui.same_line()
+        imgui.text_disabled(self.texts.get(scale.high))
+
+    def _slider(self, scale: Scale, form: Form) -> None:
+        """A scale of many steps: unanswered until it was touched."""
+        imgui.align_text_to_frame_padding()
+        imgui.text_disabled(self.texts.get(scale.low))
+        imgui.same_line()
+        imgui.set_next_item_width(0.5 * imgui.get_content_region_avail().x)
+        answered = scale.name in form.answers
+        value = int(form.answers.get(scale.name, (scale.steps - 1) // 2))
+        changed, value = imgui.slider_int(
+            f"##{scale.name}", value, 0, scale.steps - 1, "%d" if answered else "?"
+        )
+        if changed or imgui.is_item_activated():
+            form.answers[scale.name] = str(value)
         imgui.same_line()
         imgui.text_disabled(self.texts.get(scale.high))
 
@@ -105,10 +137,13 @@ class PageDrawing:
 
     def _text_field(self, field_: TextField, form: Form, column: float, height: int) -> None:
         imgui.text_wrapped(self.texts.get(field_.text))
-        size = imgui.ImVec2(column, 0.2 * height)
-        _, text = imgui.input_text_multiline(
-            f"##{field_.name}", form.answers.get(field_.name, ""), size
-        )
+        name, text = f"##{field_.name}", form.answers.get(field_.name, "")
+        if field_.lines == 1:
+            imgui.set_next_item_width(0.3 * column)
+            _, text = imgui.input_text(name, text)
+        else:
+            size = imgui.ImVec2(column, 0.05 * field_.lines * height)
+            _, text = imgui.input_text_multiline(name, text, size)
         form.answers[field_.name] = text
 
     def _buttons(self, form: Form) -> bool:
@@ -137,3 +172,13 @@ class PageDrawing:
         """
         pressed = imgui.is_key_pressed(imgui.Key.enter, False)
         return pressed and form.was_complete and not self.interface.io.want_text_input
+
+
+def _plate(plate: Plate, side: float) -> None:
+    """A plate of dots at the cursor, `side` pixels wide."""
+    corner, dots = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
+    for (x, y), radius, color in zip(plate.places, plate.radii, plate.colors, strict=True):
+        center = imgui.ImVec2(corner.x + x * side, corner.y + y * side)
+        ink = imgui.color_convert_float4_to_u32(imgui.ImVec4(*color, 1.0))
+        dots.add_circle_filled(center, radius * side, ink, 20)
+    imgui.dummy(imgui.ImVec2(side, side))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from experiment.plates import Plate
 from renderer.techniques.standard import Standard
 from tasks.base import View
 
@@ -40,14 +41,16 @@ class Choice:
     name: str
     text: str
     options: tuple[str, ...]
+    optional: bool = False
 
 
 @dataclass(frozen=True)
 class TextField:
-    """Free text, several lines, may stay empty."""
+    """Free text, may stay empty."""
 
     name: str
     text: str
+    lines: int = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +61,14 @@ class Picture:
     technique: object = Standard()
 
 
-Block = Paragraph | Scale | Choice | TextField | Picture
+@dataclass(frozen=True, eq=False)
+class PlatePicture:
+    """A red–green plate."""
+
+    plate: Plate
+
+
+Block = Paragraph | Scale | Choice | TextField | Picture | PlatePicture
 
 
 @dataclass(frozen=True)
@@ -76,4 +86,8 @@ class Page:
     @property
     def required(self) -> tuple[str, ...]:
         """Names that need an answer."""
-        return tuple(b.name for b in self.blocks if isinstance(b, Scale | Choice))
+        return tuple(
+            b.name
+            for b in self.blocks
+            if isinstance(b, Scale) or (isinstance(b, Choice) and not b.optional)
+        )

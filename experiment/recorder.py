@@ -16,7 +16,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, TextIO
 
-from experiment.columns import QUESTIONNAIRE, TABLES, TRIALS, Column
+from experiment.columns import NOTES, QUESTIONNAIRE, TABLES, TRIALS, Column
 from experiment.design import Trial
 from experiment.errors import InputError
 from experiment.trial import TrialRecord
@@ -75,7 +75,7 @@ class FileRecorder:
     ) -> None:
         """`attempts`: how often each trial number was completed before this session."""
         self.who = who
-        self._attempts = attempts or {}
+        self._attempts = dict(attempts or {})
         self._now = now
         self.folder = folder_of(data, who.source, who.participant)
         self.stem = stem_of(who.study, who.participant, who.session)
@@ -92,7 +92,9 @@ class FileRecorder:
             raise InputError(f"{self.folder}: cannot be written: {error.strerror}") from None
         self._json("trials_data.json", {"started": now(), **asdict(who)})
         self._trials = _Table(self.folder / f"{self.stem}_trials_data.csv", TRIALS)
-        self._rows = 0
+        self._questions: _Table | None = None
+        self._notes: _Table | None = None
+        self._rows = self._asked = self._noted = 0
         self._traces: _Traces | None = None
         self._started = ""
 
@@ -103,6 +105,9 @@ class FileRecorder:
         kind = "training" if trial.training else "trial"
         number = trial.task_set * 100 + trial.in_set if trial.training else trial.number
         name = f"session-{self.who.session}_{kind}-{number:03d}"
+        attempt = self._attempts.get(trial.number, 0) + 1
+        if attempt > 1 and not trial.training:
+            name += f"_attempt-{attempt}"
         self._traces = _Traces(self.folder / "traces", name)
         self._started = self._now()
 
@@ -120,13 +125,15 @@ class FileRecorder:
         """Append the trial's row; it is on disk when this returns."""
         assert self._traces is not None
         self._traces.close()
+        number = record.trial.number
         self._rows += 1
+        self._attempts[number] = attempt = self._attempts.get(number, 0) + 1
         self._trials.append(
             {
-                **self._identity(f"trial{record.trial.number:03d}"),
+                **self._identity(f"trial{number:03d}" + (f".{attempt}" if attempt > 1 else "")),
                 **_trial_row(record),
                 "slot": self.who.slot,
-                "attempt": self._attempts.get(record.trial.number, 0) + 1,
+                "attempt": attempt,
                 "started": self._started,
                 "events_file": f"traces/{self._traces.events_name}",
                 "camera_file": f"traces/{self._traces.camera_name}",
@@ -134,19 +141,30 @@ class FileRecorder:
         )
 
     def answers(self, rows: list[Mapping[str, str]]) -> None:
-        """Write the questionnaire's rows."""
-        table = _Table(self.folder / f"{self.stem}_questionnaire_data.csv", QUESTIONNAIRE)
-        try:
-            for number, row in enumerate(rows, start=1):
-                table.append({**self._identity(f"question{number:03d}"), **row})
-        finally:
-            table.close()
+        """Append rows of the questionnaire; they are on disk when this returns."""
+        for row in rows:
+            if self._questions is None:
+                path = self.folder / f"{self.stem}_questionnaire_data.csv"
+                self._questions = _Table(path, QUESTIONNAIRE)
+            self._asked += 1
+            self._questions.append({**self._identity(f"question{self._asked:03d}"), **row})
+
+    def note(self, trial: Trial | None, text: str) -> None:
+        """Append a note of the experimenter's; it is on disk when this returns."""
+        if self._notes is None:
+            self._notes = _Table(self.folder / f"{self.stem}_notes_data.csv", NOTES)
+        self._noted += 1
+        number = trial.number if trial and not trial.training else None
+        row = {"trial": number, "written": self._now(), "text": text}
+        self._notes.append({**self._identity(f"note{self._noted:03d}"), **row})
 
     def close(self, status: str) -> None:
-        """Close the files and note how the session ended: `complete` or `left`."""
+        """Close the files and note how the session ended: `complete`, `left` or `time limit`."""
         if self._traces:
             self._traces.close()
-        self._trials.close()
+        for table in (self._trials, self._questions, self._notes):
+            if table is not None:
+                table.close()
         self._json("end.json", {"ended": self._now(), "status": status, "trials": self._rows})
 
     def _identity(self, row: str) -> dict[str, Any]:

@@ -1,7 +1,8 @@
 """The state machine of a session. Knows Protocols only: the same code runs in the window,
 offscreen, and in tests.
 
-    instructions → for each task set: its instruction, training, trials → questionnaire → end
+    welcome → consent, demographics, colour check → for each task set: its instruction,
+    training, trials (a break between conditions) → questionnaire → thanks
 """
 
 from __future__ import annotations
@@ -38,8 +39,15 @@ class Recorder(Protocol):
     def answers(self, rows: list[Mapping[str, str]]) -> None:
         """Rows of the questionnaire: on disk when this returns."""
 
+    def note(self, trial: Trial | None, text: str) -> None:
+        """A note of the experimenter's: on disk when this returns."""
+
     def close(self, status: str) -> None:
-        """The session ended: `complete` or `left`."""
+        """The session ended: `complete`, `left` or `time limit`."""
+
+
+class TimeIsUp(Leave):
+    """The session's own time limit ended it."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +63,16 @@ class World:
 
 
 def run_session(study: Study, slot: int, world: World, done: frozenset[int] = frozenset()) -> str:
-    """Run a slot's session; returns `complete` or `left`. Trials numbered in `done` are skipped."""
+    """Run a slot's session: `complete`, `left` or `time limit`.
+
+    Trials numbered in `done` are not played again (experiment/resume.py).
+    """
     status = "left"
     try:
         _run(study, slot, world, done)
         status = "complete"
+    except TimeIsUp:
+        status = "time limit"
     except Leave:
         pass  # the caller and the record are told by the status
     finally:
@@ -69,39 +82,62 @@ def run_session(study: Study, slot: int, world: World, done: frozenset[int] = fr
 
 def _run(study: Study, slot: int, world: World, done: frozenset[int]) -> None:
     start = world.clock.now()
-    world.input.ask(Page("welcome", "welcome.title", (Paragraph("welcome.text"),)))
     task_sets = session_for(slot, study.design.factors())
+    total = sum(len(s.trials) for s in task_sets)
+    world.display.progress(len(done) / total)
+    world.input.ask(_page("welcome"))
+    if not done:
+        world.recorder.answers(questionnaire.before(study, slot, world.input))
+    run = TrialRun(study, world)
+    block = None
     for task_set in task_sets:
         remaining = tuple(t for t in task_set.trials if t.number not in done)
-        if remaining:
-            _run_task_set(study, TaskSet(task_set.training, remaining), len(task_sets), world)
+        if not remaining:
+            continue
+        if block not in (None, remaining[0].block):
+            world.input.ask(_page("pause"))
+        block = remaining[0].block
+        _run_task_set(study, TaskSet(task_set.training, remaining), task_sets, run)
         if _over(world.clock.now() - start, study.session.session_limit):
-            world.input.ask(Page("time", "time.title", (Paragraph("time.text"),)))
-            raise Leave
-    if study.session.questionnaire:
-        rows = questionnaire.ask(study, world.input)
-        world.recorder.answers(rows)
-    world.input.ask(Page("thanks", "thanks.title", (Paragraph("thanks.text"),)))
+            world.input.ask(_page("time"))
+            raise TimeIsUp
+    world.recorder.answers(questionnaire.after(study, world.input, world.display.aspect))
+    world.input.ask(_page("thanks"))
 
 
-def _run_task_set(study: Study, task_set: TaskSet, total: int, world: World) -> None:
-    first = task_set.trials[0]
-    run = TrialRun(study, world)
-    world.input.ask(_instruction(first, total, run))
+def _page(name: str) -> Page:
+    return Page(name, f"{name}.title", (Paragraph(f"{name}.text"),))
+
+
+def _run_task_set(
+    study: Study, task_set: TaskSet, task_sets: tuple[TaskSet, ...], run: TrialRun
+) -> None:
+    world = run.world
+    total = sum(len(s.trials) for s in task_sets)
+    world.input.ask(_instruction(task_set.trials[0], len(task_sets), run))
+    _train(study, task_set, run)
+    for trial in task_set.trials:
+        again = True
+        while again:
+            record = run.play(trial, study.session.trial_limit)
+            world.recorder.trial_ends(record)
+            world.progress(record)
+            again = record.repeat
+        world.display.progress(trial.number / total)
+
+
+def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
+    """The training trials, each with feedback, until the study's limit."""
+    world, limit = run.world, study.session.training_limit
     began = world.clock.now()
     for trial in task_set.training:
-        limit = study.session.training_limit
-        left = limit - (world.clock.now() - began) if limit else 0.0
+        left = limit - (world.clock.now() - began)
         if limit and left <= 0:
             break
-        record = run.play(trial, left)
+        record = run.play(trial, left if limit else 0.0)
         world.input.ask(_feedback(record))
     if task_set.training:
-        world.input.ask(Page("ready", "ready.title", (Paragraph("ready.text"),)))
-    for trial in task_set.trials:
-        record = run.play(trial, study.session.trial_limit)
-        world.recorder.trial_ends(record)
-        world.progress(record)
+        world.input.ask(_page("ready"))
 
 
 def _instruction(trial: Trial, total: int, run: TrialRun) -> Page:

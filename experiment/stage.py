@@ -6,7 +6,7 @@ from typing import Any
 
 import moderngl
 
-from experiment.hud_drawing import HudDrawing
+from experiment.hud_drawing import HudDrawing, draw_progress
 from experiment.interface import INSET_TEXTURES, Interface
 from experiment.page_drawing import Form, PageDrawing
 from experiment.pages import Picture
@@ -28,6 +28,8 @@ class Stage:
         self.texts = texts
         self.renderer = Renderer(context, size, samples)
         self.interface = Interface(context)
+        self.done = 0.0  # part of the session
+        self.pilot = False
         self.pointer: tuple[float, float] | None = None
         self._pictures: dict[int, _SmallPicture] = {}
 
@@ -46,13 +48,12 @@ class Stage:
     ) -> None:
         """Draw a task's view with its HUD."""
         self.renderer.draw(view.scene, view.camera, technique, target)
-        if not view.hud and self.pointer is None:
-            return
         self.interface.begin(self.size, passed)
         hud = HudDrawing(self.interface, self.texts, self.size[1], self._inset)
         hud.draw(view.hud)
         if self.pointer is not None and not view.captured:
             hud.draw_pointer(self.pointer)
+        draw_progress(self.size, self.done, self.pilot)
         self.interface.end(target)
 
     def draw_form(self, form: Form, target: moderngl.Framebuffer, passed: float) -> bool:
@@ -61,6 +62,7 @@ class Stage:
         target.clear(0.97, 0.97, 0.98, 1.0)
         self.interface.begin(self.size, passed)
         pressed = PageDrawing(self.interface, self.texts, self._picture).draw(form, *self.size)
+        draw_progress(self.size, self.done, self.pilot)
         self.interface.end(target)
         return pressed
 

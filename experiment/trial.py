@@ -10,17 +10,25 @@ import numpy as np
 from experiment.config import Study
 from experiment.design import Trial
 from experiment.display import Leave
-from experiment.pages import Page, Paragraph
+from experiment.pages import Page, Paragraph, TextField
 from experiment.scenes import StudyScenes
 from renderer.techniques.standard import Standard
 from tasks.base import Outcome, View
-from tasks.events import KeyPress
+from tasks.events import Event, FocusChange, KeyPress
 
 if TYPE_CHECKING:
     from experiment.session import World
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5
+
+LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
+MENU = Page(
+    "menu",
+    "menu.title",
+    (TextField("note", "menu.note"),),
+    ("menu.on", "menu.repeat", "menu.leave"),
+)
 
 
 @dataclass(frozen=True)
@@ -39,6 +47,7 @@ class TrialRecord:
     worst_frame: float
     path_length: float
     turned: float
+    repeat: bool = False
 
     @property
     def time(self) -> float:
@@ -101,46 +110,105 @@ class TrialRun:
 
     def play(self, trial: Trial, limit: float) -> TrialRecord:
         """Run one trial to its confirmed answer or its limit (seconds; 0: none). Raises Leave."""
-        world, task = self.world, self.world.tasks[trial.task]
-        technique = self.technique(trial)
-        state = self.begin(trial)
-        watch = _Watch(1.0 / self.study.display.refresh)
+        world = self.world
+        running = Running(self, trial, self.begin(trial), limit)
         world.recorder.trial_begins(trial)
         world.input.begin_trial(trial.task, trial.training)
-        view = task.view(state)
-        targets = int(view.scene.targets.sum())
-        first = flip = world.display.show(view, technique)
-        watch.frame(flip, view)
-        world.recorder.frame(flip, view)
-        away, timed_out, confirmed = 0.0, False, flip
-        outcome = None
-        while outcome is None and not timed_out:
-            for event in world.input.events(view):
+        running.show()
+        while not running.ended:
+            for event in world.input.events(running.view):
                 world.recorder.event(event)
-                if isinstance(event, KeyPress) and event.key == "escape":
-                    away += self._confirm_leaving()
-                    watch.pause()
-                    break
-                state = task.on_event(state, event)
-                confirmed = event.time
-                outcome = task.outcome(state)
-                timed_out = bool(limit) and event.time - first >= limit
-                if outcome is not None or timed_out:
+                running.take(event)
+                if running.ended or running.interrupted:
                     break
             else:
-                view = task.view(state)
-                flip = world.display.show(view, technique)
-                watch.frame(flip, view)
-                world.recorder.frame(flip, view)
-        return TrialRecord(
-            trial, outcome, targets, first, confirmed, away, timed_out and outcome is None,
-            watch.frames, watch.missed, watch.worst, watch.path, watch.turned,
-        )  # fmt: skip
+                running.show()
+        return running.record()
 
-    def _confirm_leaving(self) -> float:
-        """Ask whether to leave; the seconds the question took. Raises Leave."""
-        before = self.world.clock.now()
-        page = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
-        if self.world.input.ask(page)["button"] == "1":
-            raise Leave
-        return self.world.clock.now() - before
+
+class Running:
+    """A trial while it runs."""
+
+    def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
+        self._world, self._task = run.world, run.world.tasks[trial.task]
+        self._technique = run.technique(trial)
+        self._trial, self._state, self._limit = trial, state, limit
+        self._watch = _Watch(1.0 / run.study.display.refresh)
+        self._first = self._confirmed = 0.0
+        self._away = 0.0
+        self._lost_focus: float | None = None
+        self._outcome: Outcome | None = None
+        self._timed_out = self._repeat = False
+        self.interrupted = False
+        self.view = self._task.view(state)
+
+    @property
+    def ended(self) -> bool:
+        """Whether there is an answer, the time is over, or the trial is to be repeated."""
+        return self._outcome is not None or self._timed_out or self._repeat
+
+    def show(self) -> None:
+        """Show the view as it is now and note the frame."""
+        self.view = self._task.view(self._state)
+        flip = self._world.display.show(self.view, self._technique)
+        if self._watch.frames == 0:
+            self._first = flip
+        self._watch.frame(flip, self.view)
+        self._world.recorder.frame(flip, self.view)
+
+    def take(self, event: Event) -> None:
+        """Let an event change the trial. Raises Leave."""
+        self.interrupted = isinstance(event, KeyPress) and event.key in ("escape", "f1")
+        self._confirmed = event.time
+        if self.interrupted:
+            self._interrupt(event)
+        elif isinstance(event, FocusChange):
+            self._focus(event)
+        else:
+            self._state = self._task.on_event(self._state, event)
+            self._outcome = self._task.outcome(self._state)
+            over = bool(self._limit) and event.time - self._first >= self._limit
+            self._timed_out = over and self._outcome is None
+
+    def _focus(self, event: FocusChange) -> None:
+        if not event.focused:
+            self._lost_focus = event.time
+        elif self._lost_focus is not None:
+            self._away += event.time - self._lost_focus
+            self._lost_focus = None
+
+    def _interrupt(self, event: KeyPress) -> None:
+        """Esc asks whether to leave, F1 opens the experimenter's menu; both stop the clean time."""
+        before = self._world.clock.now()
+        if event.key == "escape":
+            if self._world.input.ask(LEAVE)["button"] == "1":
+                raise Leave
+        else:
+            answers = self._world.input.ask(MENU)
+            if answers.get("note"):
+                self._world.recorder.note(self._trial, answers["note"])
+            if answers["button"] == "2":
+                raise Leave
+            self._repeat = answers["button"] == "1"
+        self._away += self._world.clock.now() - before
+        self._watch.pause()
+
+    def record(self) -> TrialRecord:
+        """What became of the trial."""
+        watch = self._watch
+        lost = 0.0 if self._lost_focus is None else self._confirmed - self._lost_focus
+        return TrialRecord(
+            trial=self._trial,
+            outcome=self._outcome,
+            targets=int(self.view.scene.targets.sum()),
+            first_frame=self._first,
+            confirmed=self._confirmed,
+            away=self._away + lost,
+            timed_out=self._timed_out,
+            frames=watch.frames,
+            frames_missed=watch.missed,
+            worst_frame=watch.worst,
+            path_length=watch.path,
+            turned=watch.turned,
+            repeat=self._repeat,
+        )

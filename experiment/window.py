@@ -16,12 +16,14 @@ from experiment.display import Leave
 from experiment.driver import describe
 from experiment.errors import InputError
 from experiment.page_drawing import Form
-from experiment.pages import Answers, Page, Paragraph
+from experiment.pages import Answers, Page
 from experiment.stage import Stage
 from experiment.texts import Texts
+from experiment.trial import LEAVE
 from tasks.base import View
 from tasks.events import (
     Event,
+    FocusChange,
     KeyPress,
     KeyRelease,
     PointerMove,
@@ -43,6 +45,7 @@ _KEYS = {
     key.DELETE: "delete",
     key.ESCAPE: "escape",
     key.TAB: "tab",
+    key.F1: "f1",
     key.HOME: "home",
     key.END: "end",
     key.PAGEUP: "pageup",
@@ -66,6 +69,7 @@ class Window:
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, table.samples)
         self.technique: Any = None  # what the view shown last was drawn with
         self._events: list[Event] = []
+        self._down: set[str] = set()
         self._form: Form | None = None
         self._closed = False
         self._flipped = time.perf_counter()
@@ -88,6 +92,10 @@ class Window:
         self.stage.draw_view(view, technique, self.context.screen, self._passed)
         self.on_frame()
         return self._flip()
+
+    def progress(self, fraction: float) -> None:
+        """Draw the progress line up to `fraction` from now on."""
+        self.stage.done = fraction
 
     def describe(self) -> Mapping[str, str]:
         """Driver, size and refresh rate."""
@@ -124,9 +132,7 @@ class Window:
             if self._closed:
                 raise Leave
             if page.name != "leave" and self._escape_pressed():
-                text = (Paragraph("leave.text"),)
-                leave = Page("leave", "leave.title", text, ("leave.no", "leave.yes"))
-                if self.ask(leave)["button"] == "1":
+                if self.ask(LEAVE)["button"] == "1":
                     raise Leave
                 self._form = form
         self._form = None
@@ -227,6 +233,7 @@ class Window:
         if name:
             self.stage.interface.key(name, True)
             self._events.append(KeyPress(self.clock.now(), name))
+            self._down.add(name)
         return pyglet.event.EVENT_HANDLED
 
     def on_key_release(self, symbol: int, _: int) -> None:
@@ -235,6 +242,7 @@ class Window:
         if name:
             self.stage.interface.key(name, False)
             self._events.append(KeyRelease(self.clock.now(), name))
+            self._down.discard(name)
 
     def on_text(self, text: str) -> None:
         """Characters typed, for text fields."""
@@ -248,6 +256,17 @@ class Window:
         if hasattr(self, "stage"):
             self.stage.resize(self._window.get_framebuffer_size())
         return pyglet.event.EVENT_HANDLED
+
+    def on_activate(self) -> None:
+        """The window has the desktop's focus."""
+        self._events.append(FocusChange(self.clock.now(), True))
+
+    def on_deactivate(self) -> None:
+        """Another window has the focus now; keys that were down come up unseen."""
+        now = self.clock.now()
+        self._events += [KeyRelease(now, name) for name in sorted(self._down)]
+        self._down.clear()
+        self._events.append(FocusChange(now, False))
 
     def on_close(self) -> bool:
         """The desktop closes the window: the session saves and leaves. Handled by us."""

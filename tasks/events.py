@@ -3,7 +3,7 @@
 Positions are in view units: the origin is the upper left corner of the view, y points down and
 runs from 0 to 1, x from 0 to the aspect ratio. Times are seconds on the session's clock.
 Keys are lower-case names: "a"…"z", "0"…"9", "left", "right", "up", "down", "enter", "space",
-"backspace", "escape", "tab".
+"backspace", "escape", "tab", "f1".
 """
 
 from __future__ import annotations
@@ -58,10 +58,18 @@ class KeyRelease:
 
 
 @dataclass(frozen=True)
+class FocusChange:
+    """The window lost (`focused` false) or regained the desktop's focus. Tasks ignore it."""
+
+    time: float
+    focused: bool
+
+
+@dataclass(frozen=True)
 class Tick:
     """Time went on: sent before each frame, so that held keys move the viewer."""
 
     time: float
 
 
-Event = PointerMove | PointerPress | PointerRelease | KeyPress | KeyRelease | Tick
+Event = PointerMove | PointerPress | PointerRelease | KeyPress | KeyRelease | FocusChange | Tick

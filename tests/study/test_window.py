@@ -35,8 +35,6 @@ grid = 6
 objects = 8
 count = [1, 3]
 types = ["chair", "table", "cat"]
-[session]
-questionnaire = true
 """
 
 START = 60  # s for a cold start on a busy machine: not a bound on speed

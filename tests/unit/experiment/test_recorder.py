@@ -122,3 +122,41 @@ def test_a_folder_that_can_not_be_written_is_one_line(tmp_path):
     (tmp_path / "data").write_text("a file where a folder should be")
     with pytest.raises(InputError, match=r"data/human/P01: cannot be written: Not a directory"):
         recorder(tmp_path)
+
+
+def test_a_repeated_trial_is_another_attempt_with_traces_of_its_own(tmp_path):
+    rec = recorder(tmp_path)
+    play(rec)
+    play(rec)
+    rec.close("complete")
+    folder = tmp_path / "data" / "human" / "P01"
+    table = rows(folder / "study-test_subject-P01_session-1_trials_data.csv")
+    assert [(r["trial"], r["attempt"]) for r in table] == [("5", "1"), ("5", "2")]
+    assert len({r["row_id"] for r in table}) == 2
+    assert len({r["events_file"] for r in table}) == 2
+    assert all((folder / r["events_file"]).exists() for r in table)
+
+
+def test_a_continued_session_has_files_of_its_own_and_counts_attempts_on(tmp_path):
+    play(first := recorder(tmp_path))
+    first.close("left")
+    who = Who("test", "P01", "human", 1, {}, session=2)
+    second = FileRecorder(tmp_path, who, now=lambda: "later", attempts={5: 1})
+    play(second)
+    second.close("complete")
+    folder = tmp_path / "data" / "human" / "P01"
+    (row,) = rows(folder / "study-test_subject-P01_session-2_trials_data.csv")
+    assert (row["session"], row["attempt"]) == ("2", "2")
+
+
+def test_answers_and_notes_are_on_disk_at_once(tmp_path):
+    rec = recorder(tmp_path)
+    rec.answers([{"item": "age", "value": "30"}])
+    rec.note(TRIAL, 'a "phone", rang\nloudly')
+    rec.answers([{"item": "ease", "value": "3", "transparency": "dynamic"}])
+    folder = tmp_path / "data" / "human" / "P01"
+    asked = rows(folder / "study-test_subject-P01_session-1_questionnaire_data.csv")
+    (note,) = rows(folder / "study-test_subject-P01_session-1_notes_data.csv")
+    rec.close("complete")
+    assert [(r["item"], r["value"]) for r in asked] == [("age", "30"), ("ease", "3")]
+    assert (note["trial"], note["text"]) == ("5", 'a "phone", rang\nloudly')

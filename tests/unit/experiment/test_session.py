@@ -11,7 +11,7 @@ from experiment.display import Leave
 from experiment.session import World, run_session
 from tasks.base import View
 from tasks.catalog import TASKS
-from tasks.events import KeyPress, PointerPress, Tick
+from tasks.events import FocusChange, KeyPress, PointerPress, Tick
 
 FRAME = 0.25  # s between the frames of the fake display: a binary fraction, so sums are exact
 
@@ -24,7 +24,7 @@ def study(**tables):
             },
             "design": {"trials": 2, "training": 1, "tasks": ["count", "pattern"]},
             "abstract": {"objects": 100, "target_share": [0.2, 0.3]},
-            "session": {"questionnaire": False},
+            "session": {"questionnaire": []},
             **tables,
         },
         "test",
@@ -40,6 +40,9 @@ class FakeDisplay:
     def show(self, view, technique):
         self.shown.append((view, technique))
         return self.clock.now()
+
+    def progress(self, fraction):
+        self.fraction = fraction
 
     def describe(self):
         return {}
@@ -84,6 +87,8 @@ class MemoryRecorder:
     begun: list = field(default_factory=list)
     ended: list = field(default_factory=list)
     events: list = field(default_factory=list)
+    rows: list = field(default_factory=list)
+    notes: list = field(default_factory=list)
     status: str = ""
 
     def trial_begins(self, trial):
@@ -99,7 +104,10 @@ class MemoryRecorder:
         self.ended.append(record)
 
     def answers(self, rows):
-        pass
+        self.rows.extend(rows)
+
+    def note(self, trial, text):
+        self.notes.append((trial, text))
 
     def close(self, status):
         self.status = status
@@ -127,8 +135,8 @@ def test_every_task_set_has_its_instruction_training_and_trials_in_that_order():
     # One training trial before each of the four task sets; it is shown but leaves no row.
     assert [t.training for t in recorder.begun] == [True, False, False] * 4
     names = [p.name for p in person.pages]
-    one_set = ["instruction", "feedback", "ready"]
-    assert names == ["welcome", *(one_set * 4), "thanks"]
+    block = ["instruction", "feedback", "ready"] * 2
+    assert names == ["welcome", *block, "pause", *block, "thanks"]
 
 
 def test_time_runs_from_the_first_frame_to_the_confirmation():
@@ -159,14 +167,14 @@ def test_the_transparency_level_decides_the_technique():
 
 
 def test_the_trial_limit_ends_a_trial_without_an_answer():
-    config = study(session={"trial_limit": 1.0, "questionnaire": False})
+    config = study(session={"trial_limit": 1.0, "questionnaire": []})
     _, recorder, _, _ = play(config, thinking=100)
     assert len(recorder.ended) == 8
     assert all(r.timed_out and r.outcome is None and r.time == 1.0 for r in recorder.ended)
 
 
 def test_training_ends_at_its_limit():
-    config = study(session={"training_limit": 1.0, "questionnaire": False})
+    config = study(session={"training_limit": 1.0, "questionnaire": []})
     _, _, person, _ = play(config, thinking=40)
     feedback = [p for p in person.pages if p.name == "feedback"]
     assert len(feedback) == 4
@@ -174,9 +182,9 @@ def test_training_ends_at_its_limit():
 
 
 def test_the_session_limit_ends_the_session_after_the_task_set():
-    config = study(session={"session_limit": 5.0, "questionnaire": False})
+    config = study(session={"session_limit": 5.0, "questionnaire": []})
     status, recorder, person, _ = play(config)
-    assert status == recorder.status == "left"
+    assert status == recorder.status == "time limit"
     assert person.pages[-1].name == "time"
     assert len(recorder.ended) == 2
 
@@ -250,3 +258,54 @@ def test_pointer_presses_answer_the_letter_too():
     run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
     patterns = [r for r in recorder.ended if r.trial.task == "pattern"]
     assert {r.outcome.answer for r in patterns} == {"X"}
+
+
+def test_f1_takes_a_note_and_repeats_the_trial_as_another_attempt():
+    class Menu(ScriptedInput):
+        def events(self, view):
+            if self.trials == 2 and not any(p.name == "menu" for p in self.pages):
+                return [KeyPress(self.clock.now(), "f1"), Tick(self.clock.now())]
+            return super().events(view)
+
+        def ask(self, page):
+            answers = super().ask(page)
+            return {"button": "1", "note": "phone rang"} if page.name == "menu" else answers
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    run_session(study(), 1, World(FakeDisplay(clock), Menu(clock, ANSWERS), clock, recorder, TASKS))
+    assert [r.trial.number for r in recorder.ended[:3]] == [1, 1, 2]
+    assert recorder.ended[0].repeat and recorder.ended[0].outcome is None
+    assert recorder.ended[1].outcome is not None
+    assert [text for _, text in recorder.notes] == ["phone rang"]
+
+
+def test_time_without_focus_is_subtracted_from_the_clean_time():
+    class Looks(ScriptedInput):
+        def events(self, view):
+            events = super().events(view)
+            if self.frames == 1:
+                return [FocusChange(events[0].time, False), *events]
+            if self.frames == 3:
+                return [FocusChange(events[0].time, True), *events]
+            return events
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    person = Looks(clock, ANSWERS)
+    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    assert {(r.time, r.away) for r in recorder.ended} == {(4 * FRAME, 2 * FRAME)}
+
+
+def test_refusing_consent_ends_the_session_before_any_trial():
+    class Refuses(ScriptedInput):
+        def ask(self, page):
+            super().ask(page)
+            return {"button": "1" if page.name == "consent" else "0"}
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    config = study(texts={"consent.text": "Please."})
+    world = World(FakeDisplay(clock), Refuses(clock, ANSWERS), clock, recorder, TASKS)
+    assert run_session(config, 1, world) == "left"
+    assert recorder.begun == [] and recorder.rows == []

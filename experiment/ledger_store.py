@@ -1,0 +1,145 @@
+"""The ledger's tables, in SQLite or PostgreSQL. The only SQLAlchemy import.
+
+Every change is one transaction that no other can overlap: SQLite's BEGIN IMMEDIATE, PostgreSQL's
+advisory lock. A unique index besides makes two holders of a slot impossible.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import sqlalchemy as sql
+from sqlalchemy.engine import URL, Connection, Engine, make_url
+from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
+
+from experiment.errors import InputError
+from experiment.ledger_slots import COMPLETE, LIVE
+
+WAIT = 30.0  # s that a station waits for the others' transactions; each takes milliseconds
+LOCK = 0x5EE7  # PostgreSQL's advisory locks have numbers; this one is ours
+
+METADATA = sql.MetaData()
+STUDIES = sql.Table(
+    "seethrough_studies",
+    METADATA,
+    sql.Column("name", sql.String(32), primary_key=True),
+    sql.Column("digest", sql.String(64), nullable=False),
+    sql.Column("resolved", sql.Text, nullable=False),
+    sql.Column("rows", sql.Integer, nullable=False),
+    sql.Column("participants", sql.Integer, nullable=False),
+    sql.Column("stale_after", sql.Float, nullable=False),
+    sql.Column("begun", sql.String(32), nullable=False),
+)
+ENTRIES = sql.Table(
+    "seethrough_entries",
+    METADATA,
+    sql.Column("id", sql.Integer, primary_key=True),
+    sql.Column("study", sql.ForeignKey(STUDIES.c.name), nullable=False),
+    sql.Column("slot", sql.Integer, nullable=False),
+    sql.Column("participant", sql.String(32), nullable=False),
+    sql.Column("status", sql.String(8), nullable=False),
+    sql.Column("reserved", sql.String(32), nullable=False),
+    sql.Column("changed", sql.String(32), nullable=False),
+    sql.Column("why", sql.Text, nullable=False),
+    sql.UniqueConstraint("study", "participant"),
+)
+_HELD = ENTRIES.c.status.in_((LIVE, COMPLETE))
+sql.Index(
+    "seethrough_one_holder",
+    ENTRIES.c.study,
+    ENTRIES.c.slot,
+    unique=True,
+    sqlite_where=_HELD,
+    postgresql_where=_HELD,
+)
+
+
+def sqlite_url(path: Path) -> URL:
+    """The address of a SQLite file."""
+    return URL.create("sqlite+pysqlite", database=str(path))
+
+
+def parse_url(text: str) -> URL:
+    """The address of a PostgreSQL database, with its driver. Raises InputError."""
+    try:
+        url = make_url(text)
+    except (ArgumentError, ValueError):
+        url = None
+    if url is None or url.drivername not in ("postgresql", "postgresql+psycopg"):
+        raise InputError(f"--ledger = {shown(url)}: expected postgresql://USER@HOST/DATABASE")
+    return url.set(drivername="postgresql+psycopg")
+
+
+def shown(url: URL | None) -> str:
+    """An address for messages and files, without its password."""
+    if url is None:
+        return "…"  # what cannot be parsed may hold a password anywhere
+    return url.set(password=None).render_as_string()
+
+
+def connect(url: URL) -> Engine:
+    """An engine whose transactions exclude each other, tables made. Raises InputError."""
+    with errors(url):
+        if url.get_backend_name() == "sqlite":
+            engine = _sqlite(url)
+        else:
+            wait = {"connect_timeout": int(WAIT)}
+            engine = sql.create_engine(url, connect_args=wait, pool_size=1)
+    with exclusive(engine) as connection:
+        METADATA.create_all(connection)
+    return engine
+
+
+def _sqlite(url: URL) -> Engine:
+    assert url.database is not None
+    _make_private(Path(url.database))
+    engine = sql.create_engine(url, connect_args={"timeout": WAIT})
+
+    @sql.event.listens_for(engine, "connect")
+    def _(connection: Any, _: Any) -> None:
+        connection.isolation_level = None  # the driver begins no transactions of its own
+        for pragma in ("journal_mode=WAL", "synchronous=FULL", "foreign_keys=ON"):
+            connection.execute(f"PRAGMA {pragma}")
+
+    @sql.event.listens_for(engine, "begin")
+    def _(connection: Connection) -> None:
+        connection.exec_driver_sql("BEGIN IMMEDIATE")
+
+    return engine
+
+
+def _make_private(path: Path) -> None:
+    """SQLite's other files get the permissions of the first."""
+    try:
+        os.close(os.open(path, os.O_CREAT | os.O_RDWR, 0o600))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+@contextmanager
+def exclusive(engine: Engine) -> Iterator[Connection]:
+    """A transaction that no other overlaps. Raises InputError where the database can't be used."""
+    with errors(engine.url), engine.begin() as connection:
+        if engine.dialect.name == "postgresql":
+            connection.execute(sql.select(sql.func.pg_advisory_xact_lock(LOCK)))
+        yield connection
+
+
+@contextmanager
+def errors(url: URL) -> Iterator[None]:
+    """Turns the database's errors into one line that names the ledger."""
+    where = url.database if url.get_backend_name() == "sqlite" else shown(url)
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"{where}: needs the package {error.name}: pip install 'seethrough[stations]'"
+        ) from None
+    except SQLAlchemyError as error:
+        reason = error.orig if isinstance(error, DBAPIError) else error
+        words = " ".join(str(reason).split()).removeprefix("connection failed: ")
+        raise InputError(f"{where}: the ledger cannot be used: {words}") from None

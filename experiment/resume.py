@@ -1,0 +1,85 @@
+"""Where an interrupted session goes on, read from the participant's files; those stay as is."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from experiment.design import TaskSet
+from experiment.errors import InputError
+from experiment.recorder import folder_of
+
+
+@dataclass(frozen=True)
+class Past:
+    """What a participant's folder says: sessions begun, how often each trial was completed."""
+
+    sessions: int
+    complete: bool
+    attempts: Mapping[int, int]
+    slot: int
+    digest: str
+
+
+def past(data: Path, source: str, participant: str) -> Past | None:
+    """The participant's past in this study, or None if there is none. Raises InputError."""
+    folder = folder_of(data, source, participant)
+    if not folder.exists():
+        return None
+    sidecars = sorted(folder.glob("*_trials_data.json"))
+    if not sidecars:
+        raise InputError(f"{folder}: expected a file …_trials_data.json, found none")
+    said = [_json(path) for path in sidecars]
+    ends = [_json(path) for path in folder.glob("*_end.json")]
+    attempts: Counter[int] = Counter()
+    for table in sorted(folder.glob("*_trials_data.csv")):
+        attempts.update(_completed(table))
+    return Past(
+        sessions=max(int(s.get("session", 1)) for s in said),
+        complete=any(e.get("status") == "complete" for e in ends),
+        attempts=dict(attempts),
+        slot=int(said[0]["slot"]),
+        digest=str(said[0]["provenance"].get("study_sha256", "")),
+    )
+
+
+def already_done(task_sets: tuple[TaskSet, ...], past_: Past, policy: str) -> frozenset[int]:
+    """Numbers of the trials that need not be played again.
+
+    `policy` "trial": every completed trial counts. "block": the block in which the session broke
+    off is played again from its start, so that no condition is torn apart (its trials' `attempt`
+    says so); blocks completed before count.
+    """
+    done = frozenset(past_.attempts)
+    if policy == "trial":
+        return done
+    blocks: dict[int, set[int]] = {}
+    for task_set in task_sets:
+        for trial in task_set.trials:
+            blocks.setdefault(trial.block, set()).add(trial.number)
+    whole = [numbers for numbers in blocks.values() if numbers <= done]
+    return frozenset().union(*whole)
+
+
+def _completed(table: Path) -> list[int]:
+    """Trial numbers of a table's whole rows; a row that a crash cut short does not count."""
+    with open(table, encoding="utf-8", newline="") as file:
+        rows = csv.reader(file.read().rpartition("\n")[0].splitlines())
+        header = next(rows, [])
+        if "trial" not in header:
+            raise InputError(
+                f"{table}: expected a column trial, found {', '.join(header) or 'none'}"
+            )
+        at = header.index("trial")
+        return [int(row[at]) for row in rows if len(row) == len(header)]
+
+
+def _json(path: Path) -> dict:  # type: ignore[type-arg]
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: not readable as JSON: {error}") from None
