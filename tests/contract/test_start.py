@@ -168,11 +168,15 @@ def test_an_interrupted_installation_is_repaired(installed: Path) -> None:
             assert first.poll() is None
             time.sleep(0.05)
         first.kill()
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as second:
-        assert second.stdout is not None
-        assert second.stdout.readline() == "start.py: another call is setting up: waiting for it\n"
+    said = installed / "said.txt"
+    with said.open("w") as output, subprocess.Popen(command, stdout=output) as second:
+        while not said.read_text("utf-8"):
+            assert second.poll() is None
+            time.sleep(0.05)
+        time.sleep(1)  # long enough to say more, were it not waiting
+        assert said.read_text("utf-8") == "start.py: another call is setting up: waiting for it\n"
         (installed / "slow").unlink()
-        said = second.stdout.read().splitlines()
-    assert "unfinished or another Python's: making it again" in said[0]
-    assert said[-1] == "ran demo"
+    lines = said.read_text("utf-8").splitlines()
+    assert "unfinished or another Python's: making it again" in lines[1]
+    assert lines[-1] == "ran demo"
     assert start(installed, "demo").stdout == "ran demo\n"
