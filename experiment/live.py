@@ -12,6 +12,7 @@ from experiment.config import Study
 from experiment.display import Input
 from experiment.provenance import provenance
 from experiment.recorder import FileRecorder, Who
+from experiment.resume import starting_point
 from experiment.session import World, run_session
 from experiment.texts import Texts
 from experiment.trial import TrialRecord
@@ -28,20 +29,23 @@ def play_in_window(
     clock: RealClock,
     watched: Generator | None = None,
 ) -> str:
-    """Play a slot's session in a window: `complete` or `left`. Raises InputError.
+    """Play a slot's session in a window: `complete`, `left` or `time limit`. Raises InputError.
 
-    With `watched`, the stream of a simulated participant, it plays and somebody looks on;
-    without, the window's own events count.
+    An interrupted session of the participant is gone on with, in its own slot. With `watched`,
+    the stream of a simulated participant, it plays and somebody looks on; without, the window's
+    own events count.
     """
+    start = starting_point(study, data, source, participant, slot)
     texts = Texts(study.study.language, study.texts)
     window = Window(study.display, texts, clock, study.study.title)
+    window.stage.pilot = source == "pilot"
     try:
         described = provenance(study, window.describe(), speed=clock.speed)
-        who = Who(study.study.name, participant, source, slot, described)
+        who = Who(study.study.name, participant, source, start.slot, described, start.session)
         person: Input = window if watched is None else _simulated(watched, window)
-        recorder = FileRecorder(data, who)
+        recorder = FileRecorder(data, who, attempts=start.attempts)
         world = World(window, person, clock, recorder, TASKS, say)
-        return run_session(study, slot, world)
+        return run_session(study, start.slot, world, start.done)
     finally:
         window.close()
 

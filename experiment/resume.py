@@ -9,9 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiment.design import TaskSet
+from experiment.config import Study
+from experiment.design import TaskSet, session_for
 from experiment.errors import InputError
-from experiment.recorder import folder_of
+from experiment.recorder import folder_of, next_free
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,40 @@ def past(data: Path, source: str, participant: str) -> Past | None:
         slot=int(said[0]["slot"]),
         digest=str(said[0]["provenance"].get("study_sha256", "")),
     )
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where a session starts: its number, its slot, what need not be played again."""
+
+    session: int
+    slot: int
+    done: frozenset[int]
+    attempts: Mapping[int, int]
+
+
+def starting_point(study: Study, data: Path, source: str, participant: str, slot: int) -> Start:
+    """The start of a new session, or where an interrupted one goes on. Raises InputError.
+
+    A complete participant is refused, and so is one who began another version of the study.
+    """
+    before = past(data, source, participant)
+    if before is None:
+        return Start(1, slot, frozenset(), {})
+    folder = folder_of(data, source, participant)
+    if before.complete:
+        raise InputError(
+            f"{folder}: participant {participant} exists already; "
+            f"the next free one is {next_free(data, source)}"
+        )
+    if before.digest != study.digest():
+        raise InputError(
+            f"{folder}: participant {participant} began another version of this study "
+            f"({before.digest[:12]}, now {study.digest()[:12]}); expected the same"
+        )
+    task_sets = session_for(before.slot, study.design.factors())
+    done = already_done(task_sets, before, study.session.resume)
+    return Start(before.sessions + 1, before.slot, done, before.attempts)
 
 
 def already_done(task_sets: tuple[TaskSet, ...], past_: Past, policy: str) -> frozenset[int]:

@@ -1,0 +1,78 @@
+"""Where an interrupted session goes on."""
+
+import pytest
+
+from experiment.config import load
+from experiment.design import session_for
+from experiment.errors import InputError
+from experiment.recorder import FileRecorder, Who
+from experiment.resume import already_done, past, starting_point
+from experiment.trial import TrialRecord
+from tasks.base import Outcome
+
+STUDY = load("published")
+SLOT = 3
+TRIALS = [t for s in session_for(SLOT, STUDY.design.factors()) for t in s.trials]
+
+
+def played(data, count, status="left", study=STUDY, session=1):
+    """A folder in which the first `count` trials were completed."""
+    provenance = {"study_sha256": study.digest()}
+    who = Who("published", "P01", "human", SLOT, provenance, session)
+    recorder = FileRecorder(data, who)
+    for trial in TRIALS[:count]:
+        recorder.trial_begins(trial)
+        outcome = Outcome("1", "1", True)
+        recorder.trial_ends(
+            TrialRecord(trial, outcome, 1, 0.0, 1.0, 0.0, False, 1, 0, 0.0, 0.0, 0.0)
+        )
+    recorder.close(status)
+
+
+def test_somebody_new_starts_at_the_beginning(tmp_path):
+    start = starting_point(STUDY, tmp_path, "human", "P01", 5)
+    assert (start.session, start.slot, start.done) == (1, 5, frozenset())
+
+
+@pytest.mark.parametrize(("count", "whole"), [(0, 0), (5, 0), (6, 6), (11, 6), (12, 12), (23, 18)])
+def test_an_interrupted_session_goes_on_at_the_start_of_its_block(tmp_path, count, whole):
+    played(tmp_path, count)
+    start = starting_point(STUDY, tmp_path, "human", "P01", 9)
+    assert (start.session, start.slot) == (2, SLOT)  # its own slot, not the one offered
+    assert start.done == frozenset(range(1, whole + 1))
+    assert start.attempts == dict.fromkeys(range(1, count + 1), 1)
+
+
+def test_by_config_it_goes_on_at_the_trial(tmp_path):
+    played(tmp_path, 8)
+    before = past(tmp_path, "human", "P01")
+    task_sets = session_for(SLOT, STUDY.design.factors())
+    assert already_done(task_sets, before, "trial") == frozenset(range(1, 9))
+
+
+def test_a_row_cut_short_by_a_crash_does_not_count(tmp_path):
+    played(tmp_path, 7)
+    (table,) = tmp_path.rglob("*_trials_data.csv")
+    table.write_text(table.read_text()[:-9])
+    assert set(past(tmp_path, "human", "P01").attempts) == set(range(1, 7))
+
+
+def test_a_complete_participant_is_refused_with_the_next_free_number(tmp_path):
+    played(tmp_path, 24, "complete")
+    with pytest.raises(InputError, match=r"P01 exists already; the next free one is P02"):
+        starting_point(STUDY, tmp_path, "human", "P01", 1)
+
+
+def test_another_version_of_the_study_is_refused(tmp_path):
+    played(tmp_path, 4)
+    changed = STUDY.model_copy(update={"design": STUDY.design.model_copy(update={"training": 2})})
+    with pytest.raises(InputError, match=r"P01 began another version of this study"):
+        starting_point(changed, tmp_path, "human", "P01", 1)
+
+
+def test_a_second_interruption_is_the_third_session(tmp_path):
+    played(tmp_path, 7)
+    played(tmp_path, 9, session=2)
+    start = starting_point(STUDY, tmp_path, "human", "P01", 1)
+    assert start.session == 3
+    assert start.attempts[1] == 2 and start.attempts[9] == 1
