@@ -10,7 +10,17 @@ from collections.abc import Callable
 from functools import cache
 
 from renderer.geometry import Mesh
-from renderer.models import animals, cars, craft, cycles, furniture, seats
+from renderer.models import (
+    animals,
+    cars,
+    craft,
+    cycles,
+    furniture,
+    helicopter,
+    plant,
+    seats,
+    wildlife,
+)
 from renderer.models.shapes import Shape, shade
 
 BUILDERS: tuple[Callable[[], Shape], ...] = (
@@ -18,11 +28,14 @@ BUILDERS: tuple[Callable[[], Shape], ...] = (
     animals.dog,
     animals.horse,
     animals.bird,
+    wildlife.elephant,
+    wildlife.rabbit,
     cycles.bike,
     cycles.motorbike,
     cars.car,
     cars.truck,
     craft.plane,
+    helicopter.helicopter,
     craft.boat,
     seats.chair,
     seats.directors_chair,
@@ -34,6 +47,7 @@ BUILDERS: tuple[Callable[[], Shape], ...] = (
     furniture.bookshelf,
     furniture.piano,
     furniture.television,
+    plant.plant,
 )
 
 

@@ -12,7 +12,7 @@ BLACK: Color = (0.06, 0.05, 0.05)
 WHITE: Color = (0.95, 0.94, 0.90)
 
 
-def _mirrored(limbs: list[Limb]) -> list[Limb]:
+def mirrored(limbs: list[Limb]) -> list[Limb]:
     """The same limbs on the other side of x = 0."""
     return [Limb(_flip(p.a), _flip(p.b), p.ra, p.rb, p.color, p.flat, p.soft) for p in limbs]
 
@@ -21,7 +21,7 @@ def _flip(p: Point) -> Point:
     return (-p[0], p[1], p[2])
 
 
-def _eyes(x: float, y: float, z: float, radius: float, iris: Color = BLACK) -> Shape:
+def eye_pair(x: float, y: float, z: float, radius: float, iris: Color = BLACK) -> Shape:
     """Two eyes that look forward and aside, each with a pupil and a glint."""
     out = np.array([0.45, 0.1, -0.9]) * radius
     eye = ball(radius, iris, 10).at(x, y, z)
@@ -102,7 +102,7 @@ def cat() -> Shape:
               [0.004, 0.003, 0.001], WHITE, 4).both()
         for d in (-0.02, 0.01, 0.035)
     ]  # fmt: skip
-    eyes = _eyes(0.066, 0.695, -0.545, 0.033, (0.55, 0.75, 0.20))
+    eyes = eye_pair(0.066, 0.695, -0.545, 0.033, (0.55, 0.75, 0.20))
     return assemble(coat, inner, nose, eyes, *whiskers, size=1.3)
 
 
@@ -156,7 +156,7 @@ def dog() -> Shape:
     nose = ball((0.045, 0.036, 0.035), BLACK, 10).at(0, 0.875, -0.845)
     collar = sweep(curve_ring((0, 0.745, -0.36), (0, 0.62, -0.75), 0.15), 0.022, (0.80, 0.12, 0.10),
                    6, closed=True)  # fmt: skip
-    eyes = _eyes(0.073, 0.955, -0.635, 0.026, (0.25, 0.13, 0.05))
+    eyes = eye_pair(0.073, 0.955, -0.635, 0.026, (0.25, 0.13, 0.05))
     return assemble(coat, nose, collar, eyes, size=1.45)
 
 
@@ -235,7 +235,7 @@ def horse() -> Shape:
         flat=(0.55, 1, 1),
     )
     coat = body(limbs, 0.04).tinted(WHITE, _blaze)
-    eyes = _eyes(0.098, 1.91, -1.06, 0.025)
+    eyes = eye_pair(0.098, 1.91, -1.06, 0.025)
     nostrils = ball((0.014, 0.022, 0.022), BLACK, 8).at(0.052, 1.60, -1.395).both()
     return assemble(coat, eyes, nostrils, size=1.9)
 
@@ -280,5 +280,5 @@ def bird() -> Shape:
         feet.append(
             sweep([(0.09, 0.02, -0.02), (0.09 + dx, 0.014, -0.02 + dz)], [0.018, 0.008], leg, 6)
         )
-    eyes = _eyes(0.115, 0.90, -0.345, 0.034)
+    eyes = eye_pair(0.115, 0.90, -0.345, 0.034)
     return assemble(plumage, bill, eyes, join(*feet).both(), size=1.15)
