@@ -10,7 +10,7 @@ import numpy as np
 from experiment.participants.glance import Glance
 from experiment.participants.hands import Hands
 from experiment.participants.person import Mood
-from experiment.participants.walking import Walker
+from experiment.participants.walking import THERE, Walker
 from tasks.events import Event
 from tasks.hud import Button, FloorPlan
 
@@ -45,7 +45,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
 
 def _go_on(walker: Walker, goal):  # type: ignore[no-untyped-def]
     """One step of the search: on to a goal, or whatever is worth most now; the goal, if any."""
-    if goal is None or hypot(*(goal - walker.eye)) < 5.0:
+    if goal is None or hypot(*(goal - walker.eye)) < THERE:
         turn, goal = walker.choose()
         if goal is None:
             yield from walker.turn(turn)

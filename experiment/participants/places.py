@@ -58,7 +58,7 @@ def _read(scene: Scene) -> Layout:
 
 def _pieces(wall) -> list[NDArray[np.float64]]:  # type: ignore[no-untyped-def]
     """A wall's middle line in (x, z), open at its doorway."""
-    along = np.unique(wall.mesh.vertices[:, 0])
+    along = np.unique(wall.mesh.vertices[:, 0].round(6))  # 0, the doorway, the length
     ends = np.zeros((len(along), 3))
     ends[:, 0] = along
     if wall.kind == "outer wall":
@@ -69,8 +69,10 @@ def _pieces(wall) -> list[NDArray[np.float64]]:  # type: ignore[no-untyped-def]
         a, b = middle.copy(), middle.copy()
         a[long], b[long] = low[long], high[long]
         return [np.array([a, b])]
+    # Walls are as thick as they are: their middle lines must not leave a gap where they meet.
+    ends[[0, -1], 0] += np.array([-1, 1]) * np.ptp(wall.mesh.vertices[:, 2])
     line = moved(ends, wall.transform)[:, [0, 2]]
-    return [line[[0, 1]], line[[2, 3]]]
+    return [line[:2], line[2:]]
 
 
 @dataclass(eq=False)
@@ -109,7 +111,11 @@ class Known:
 def crossed(
     eye: NDArray[np.float64], points: NDArray[np.float64], segments: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """(n,) whether the way from `eye` to each point (n, 2) crosses one of the segments."""
+    """(n,) whether the way from `eye` to each point (n, 2) crosses one of the segments (m, 2, 2).
+
+    A way through a segment's end crosses it: walls meet at their ends, and nobody sees between.
+    A segment that only touches the eye or the point is not crossed.
+    """
     if len(segments) == 0:
         return np.zeros(len(points), dtype=bool)
     a, b = segments[:, 0] - eye, segments[:, 1] - eye
@@ -120,7 +126,7 @@ def crossed(
     span = b - a
     at_eye = span[:, 1] * a[:, 0] - span[:, 0] * a[:, 1]
     at_point = at_eye + span[:, 0] * way[:, None, 1] - span[:, 1] * way[:, None, 0]
-    return ((side_a * side_b < 0) & (at_eye * at_point < 0)).any(axis=1)
+    return ((side_a * side_b <= 0) & (at_eye * at_point < 0)).any(axis=1)
 
 
 def bearing(way: NDArray[np.float64]) -> NDArray[np.float64]:

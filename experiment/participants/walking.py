@@ -39,6 +39,7 @@ STEP = 2 * pi / DIRECTIONS
 THING = 1.5  # radius of a usual thing, for how well it would be seen from afar [ours]
 REACH = 3  # cells about a place that count as worth going there for [ours]
 THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
+THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached it
 LOOK = 1.0  # seconds that a look somewhere else is thought to cost when choosing [ours]
 
 
@@ -60,6 +61,7 @@ class Walker:
         self.known = Known(layout(glance.view.scene))
         self.asked = _asked(glance)
         self.error = np.zeros(2)  # where one believes to be, less where one is
+        self.recognised: set[int] = set()  # what has been made out, and is known again
         self.through: list[float] = []  # clearness of things seen through walls
 
     @property
@@ -80,9 +82,12 @@ class Walker:
         objects = self.glance.view.scene.objects
         index = noticed(seen, mood)
         things = index[[objects[i].target for i in index]]
-        clear = things[recognised(seen, things, mood)]
-        self._see_through(seen, clear)
+        known = recognised(seen, things, mood)
+        clear = things[known]
+        self.recognised.update(clear.tolist())
+        self._see_through(seen, things)
         self._inspect()
+        self._wonder(seen, things[~known])
         spread = len(things) * (p.search_slope + saccade(0.2, mood))
         self.hands.wait(p.attention_shift + p.count + spread)
         return Found(clear[[objects[i].kind == self.asked for i in clear]], seen)
@@ -100,7 +105,16 @@ class Walker:
     def _inspect(self) -> None:
         way = self.known.layout.centers - self.eye
         inside = np.abs(apart(bearing(way), self.yaw)) < HALF_VIEW
-        self.known.inspect(np.where(inside, self.quality(way, self.eye), 0.0))
+        here = np.hypot(way[:, 0], way[:, 1]) < THERE
+        self.known.inspect(np.where(inside, self.quality(way, self.eye), here))
+
+    def _wonder(self, seen: Visibility, things: NDArray[np.int64]) -> None:
+        """Where something was noticed and not made out, one has not really looked yet."""
+        for index in things.tolist():
+            if index not in self.recognised:
+                place = self.place(index, seen) - self.error
+                away = np.hypot(*(self.known.layout.centers - place).T)
+                self.known.unseen[int(np.argmin(away))] = 1.0
 
     def quality(self, way: NDArray[np.float64], eye: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n,) how surely a thing would be recognised at the end of each way from `eye`."""
@@ -134,8 +148,8 @@ class Walker:
             if rate > best:
                 best, choice = rate, (turn, None)
         seconds = np.hypot(way[:, 0], way[:, 1]) / self.hands.speed + 3 * LOOK
-        rates = _nearby(self.known) / seconds
-        rates[np.hypot(way[:, 0], way[:, 1]) < CELL / 2] = 0.0
+        # Only what is unseen is worth going to: there, one will at least have seen that.
+        rates = np.where(self.known.unseen > 0.5, _nearby(self.known) / seconds, 0.0)
         there = int(np.argmax(rates))
         if rates[there] > best:
             return float(apart(toward[there], self.yaw)), centers[there]

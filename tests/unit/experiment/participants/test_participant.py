@@ -1,0 +1,251 @@
+"""Simulated participants at the tasks, with eyes that see what a test lets them see."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from experiment.participants.effects import EFFECTS
+from experiment.participants.participant import SimulatedParticipant
+from experiment.participants.profile import PROFILES, Profile, profile
+from renderer import geometry
+from renderer.visibility import Visibility
+from tasks.building import count_building, unique_building
+from tasks.catalog import TASKS
+from tasks.events import KeyPress, PointerMove, PointerPress, Tick
+from tasks.parameters import AbstractParameters, BuildingParameters
+
+ASPECT = 4 / 3
+_MESHES = {
+    "ball": geometry.sphere(0.8),
+    "block": geometry.box(1, 1.5, 2),
+    "cone": geometry.cone(0.5, 1.5),
+    "drum": geometry.cylinder(0.7, 1),
+}
+MODELS = {name: (lambda mesh=mesh: mesh) for name, mesh in _MESHES.items()}
+
+
+def begun(name, seed):
+    """A trial's first state; buildings are furnished with plain shapes, which are quick to make."""
+    rng = np.random.default_rng(seed)
+    if TASKS[name].scenario == "abstract":
+        return TASKS[name].begin(rng, AbstractParameters(), ASPECT)
+    make = unique_building if name == "unique" else count_building
+    building = make(rng, BuildingParameters(), MODELS)
+    return TASKS[name].begin(rng, building.parameters, ASPECT, building)
+
+
+def sight(view, shown):
+    """All that `shown` (n,) marks and that lies in the view, large and clear; no occlusion."""
+    camera, scene = view.camera, view.scene
+    local = (scene.centers - camera.eye) @ camera.rotation
+    depth = -local[:, 2]
+    half = np.tan(camera.fov_y / 2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x = ASPECT / 2 + local[:, 0] / depth / half / 2
+        y = 0.5 - local[:, 1] / depth / half / 2
+    inside = (depth > 0.5) & (np.abs(x - ASPECT / 2) < ASPECT / 2) & (np.abs(y - 0.5) < 0.5)
+    seen = shown & (inside | np.array([o.kind in ("wall", "outer wall") for o in scene.objects]))
+    pixels = np.where(seen, 400, 0)
+    position = np.where(seen[:, None], np.stack([x, y], axis=1), np.nan)
+    on = seen.astype(float)
+    return Visibility(pixels, on, position, 0.6 * on, 400 / 30_000 * on)
+
+
+def play(name, seed=1, shown=lambda scene: np.ones(len(scene.objects), bool), most=4000, **more):
+    """One trial: (outcome, seconds, events, participant)."""
+    task = TASKS[name]
+    state = begun(name, seed)
+    participant = SimulatedParticipant(np.random.default_rng(seed + 100), **more)
+    participant.begin_trial(name, 0.0)
+    now, events = 0.0, []
+    while task.outcome(state) is None and len(events) < most:
+        view = task.view(state)
+        visible = shown(view.scene)
+        batch = participant.events(view, lambda v=view, s=visible: sight(v, s), now, name)
+        assert batch and all(e.time >= now - 1e-12 for e in batch)
+        for event in batch:
+            state = task.on_event(state, event)
+        now = max(e.time for e in batch)
+        events += batch
+    return task.outcome(state), now, events, participant
+
+
+QUIET = ("slips", "view_changes", "crowding", "people", "trial_noise", "learning", "depth_noise",
+         "drift", "motor_noise", "fatigue")  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_with_nothing_hidden_and_no_noise_the_count_is_right(seed):
+    outcome, seconds, _, _ = play("count", seed, without=QUIET)
+    assert outcome.correct
+    assert 10 < seconds < 120
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_letter_seen_clearly_is_named(seed):
+    outcome, seconds, _, _ = play("pattern", seed, without=QUIET)
+    assert outcome.correct
+    assert 3 < seconds < 60
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_unique_thing_is_found_and_marked(seed):
+    outcome, seconds, _, _ = play("unique", seed, without=QUIET)
+    assert outcome.correct and outcome.distance < 1.0
+    assert 5 < seconds < 120
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_things_in_the_building_are_counted(seed):
+    outcome, seconds, _, _ = play("count_in_building", seed, without=QUIET)
+    assert outcome.correct
+    assert 10 < seconds < 300
+
+
+def test_what_nobody_could_see_is_not_counted():
+    def nothing(scene):
+        return np.zeros(len(scene.objects), bool)
+
+    assert play("count", shown=nothing)[0].answer == "0"
+    assert play("count_in_building", shown=nothing)[0].answer == "0"
+
+    def half(scene):
+        return np.arange(len(scene.objects)) % 2 == 0
+
+    outcome = play("count", shown=half, without=QUIET)[0]
+    scene = TASKS["count"].begin(np.random.default_rng(1), AbstractParameters(), ASPECT).scene
+    assert int(outcome.answer) == int(scene.targets[::2].sum())
+
+
+def test_letters_without_cones_are_guessed():
+    def no_cones(scene):
+        return np.array([o.kind != "cone" for o in scene.objects])
+
+    right = [play("pattern", s, shown=no_cones)[0].correct for s in range(20)]
+    assert sum(right) < 13  # 20 guesses at 1/5: more has probability below 1e-5
+
+
+def test_invisible_objects_do_not_change_a_thing():
+    """The same events whatever the unseen objects are: nothing is read but what is visible."""
+
+    def odd(scene):
+        return np.arange(len(scene.objects)) % 2 == 1
+
+    task = TASKS["count"]
+    state = task.begin(np.random.default_rng(1), AbstractParameters(), ASPECT)
+    scene = state.scene
+    swapped = tuple(
+        o if i % 2 else type(o)(o.mesh, o.transform, (1.0, 0.0, 0.0), True)
+        for i, o in enumerate(scene.objects)
+    )
+    runs = []
+    for objects in (scene.objects, swapped):
+        world = task.begin(
+            np.random.default_rng(1), AbstractParameters(), ASPECT, type(scene)(objects)
+        )
+        participant = SimulatedParticipant(np.random.default_rng(9))
+        participant.begin_trial("count", 0.0)
+        now, events, state = 0.0, [], world
+        while task.outcome(state) is None:
+            view = task.view(state)
+            batch = participant.events(view, lambda v=view: sight(v, odd(v.scene)), now, "count")
+            for event in batch:
+                state = task.on_event(state, event)
+            now = batch[-1].time
+            events += batch
+        runs.append(events)
+    assert runs[0] == runs[1]
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_one_seed_one_performance(name):
+    first, again, other = (
+        play(name, 2, profile=PROFILES[p]) for p in ("average",) * 2 + ("hasty",)
+    )
+    assert first[2] == again[2]
+    assert first[2] != other[2]
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_events_come_in_order_and_tell_the_task_enough(name):
+    _, _, events, _ = play(name, 3)
+    times = [e.time for e in events if not isinstance(e, Tick)]
+    assert times == sorted(times)
+    if TASKS[name].scenario == "abstract":
+        assert any(isinstance(e, PointerPress) for e in events)
+        assert all(e.dragging for e in events if isinstance(e, PointerMove))
+    else:
+        assert any(isinstance(e, PointerMove) and not e.dragging for e in events)
+
+
+def test_a_drag_gain_that_surprises_is_learned():
+    task = TASKS["count"]
+    p = AbstractParameters(drag_gain=1.5)
+    state = task.begin(np.random.default_rng(1), p, ASPECT)
+    participant = SimulatedParticipant(np.random.default_rng(4), without=["motor_noise"])
+    participant.begin_trial("count", 0.0)
+    now, yaws = 0.0, [state.orbit.yaw]
+    while task.outcome(state) is None:
+        view = task.view(state)
+        look = sight(view, np.arange(200) % 60 < 10 * len(yaws))
+        for event in participant.events(view, lambda s=look: s, now, "count"):
+            state, now = task.on_event(state, event), event.time
+        if state.orbit.yaw != yaws[-1]:
+            yaws.append(state.orbit.yaw)
+    turns = np.diff(yaws)
+    assert turns[0] < 0.6 * np.pi / 3
+    assert_allclose(turns[1:], np.pi / 3, rtol=1e-6)
+
+
+def test_people_differ_and_practice_helps():
+    slow, fast = [], []
+    for seed in range(30):
+        participant = SimulatedParticipant(np.random.default_rng(seed), without=["trial_noise"])
+        moods = []
+        for _ in range(8):
+            participant.begin_trial("count", 0.0)
+            moods.append(participant._mood.pace)
+        slow.append(moods[0])
+        fast.append(moods[-1])
+    assert (np.array(slow) > np.array(fast)).all()
+    assert 0.2 < np.std(np.log(fast)) < 0.5  # √(.25² + .20²) = .32
+
+
+def test_effects_are_planned_with_reasons():
+    participant = SimulatedParticipant(np.random.default_rng(1), without=["crowding"])
+    participant.begin_trial("count", 0.0)
+    uses = participant.effects
+    assert set(uses) == set(EFFECTS)
+    assert not uses["crowding"].used and uses["crowding"].reason == "left out by --without"
+    assert uses["slips"].used and not uses["drift"].used
+    assert uses["drift"].reason == "no walking"
+    participant.begin_trial("unique", 9.0)
+    assert participant.effects["drift"].used and not participant.effects["slips"].used
+
+
+@pytest.mark.parametrize(
+    "build, message",
+    [
+        (lambda: SimulatedParticipant(np.random.default_rng(), without=["gravity"]),
+         r"--without = gravity: expected some of crowding, "),
+        (lambda: profile("hero"), r"profile = hero: expected one of average, careful"),
+        (lambda: Profile(key=-1), r"key = -1, expected a number from 0 to 1000"),
+        (lambda: Profile(crowded=1.5), r"crowded = 1.5, expected a probability"),
+        (lambda: Profile(speed=0), r"speed = 0, expected a number > 0"),
+        (lambda: SimulatedParticipant(np.random.default_rng()).begin_trial("chess", 0.0),
+         r"task = chess, expected one of count"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_named(build, message):
+    with pytest.raises(ValueError, match=message):
+        build()
+
+
+def test_an_answer_that_did_not_count_is_confirmed_again():
+    outcome, now, _, participant = play("count")
+    view = TASKS["count"].view(
+        TASKS["count"].begin(np.random.default_rng(1), AbstractParameters(), ASPECT)
+    )
+    more = participant.events(view, lambda: None, now, "count")
+    assert outcome is not None
+    assert any(isinstance(e, KeyPress) and e.key == "enter" for e in more)

@@ -1,0 +1,225 @@
+"""The parts of a simulated participant against closed forms and brute force."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from experiment.pages import Choice, Page, Paragraph, Scale, TextField
+from experiment.participants.count_things import Tally
+from experiment.participants.counting import seconds_to_count, slips
+from experiment.participants.effects import plan_effects
+from experiment.participants.forms import Opinions
+from experiment.participants.glance import likely, noticed, uncrowded
+from experiment.participants.hands import Hands
+from experiment.participants.name_letter import letter_chances
+from experiment.participants.person import Mood, Person
+from experiment.participants.places import Known, apart, bearing, crossed, layout
+from experiment.participants.profile import AVERAGE
+from renderer import geometry
+from renderer.visibility import Visibility
+from tasks.building import unique_building
+from tasks.events import PointerMove
+from tasks.letters import LETTERS, letter_points
+from tasks.parameters import BuildingParameters
+
+
+def mood(task="count", seed=1, without=(), care=1.0):
+    effects = plan_effects(task, 0, frozenset(without))
+    return Mood(np.random.default_rng(seed), AVERAGE, effects, 1.0, care)
+
+
+def visibility(pixels, contrast, position=None):
+    n = len(pixels)
+    pixels, contrast = np.array(pixels), np.array(contrast, float)
+    place = np.zeros((n, 2)) if position is None else np.array(position, float)
+    return Visibility(pixels, (pixels > 0) * 1.0, place, contrast, pixels / 30_000)
+
+
+def test_half_of_the_threshold_cases_get_through():
+    assert_allclose(likely(np.array([1.2, 0.0]), 1.2, 0.5), [0.5, 0.0], atol=1e-12)
+    # The logistic is within .01 of the normal integral: one spread above is Φ(1) = .841.
+    assert_allclose(likely(np.array([1.2 * np.exp(0.5)]), 1.2, 0.5), [0.8413], atol=0.01)
+
+
+def test_unseen_things_are_never_noticed_and_strong_ones_always():
+    seen = visibility([0, 900, 1], [0.9, 0.9, 1e-6])
+    for seed in range(50):
+        assert noticed(seen, mood(seed=seed)).tolist() == [1]
+
+
+def test_crowding_hides_the_weaker_of_close_neighbours():
+    close = visibility([50, 80, 50], [0.5] * 3, [(0.5, 0.5), (0.51, 0.5), (0.9, 0.5)])
+    lost = 0
+    for seed in range(400):
+        left, gone = uncrowded(close, np.arange(3), mood(seed=seed))
+        assert {1, 2} <= set(left.tolist())
+        lost += gone
+    assert abs(lost / 400 - AVERAGE.crowded) < 4 * (0.35 * 0.65 / 400) ** 0.5
+    free = mood(without=["crowding"])
+    assert len(uncrowded(close, np.arange(3), free)[0]) == 3
+
+
+def test_counting_times_add_up():
+    p, m = AVERAGE, mood()
+    one = p.attention_shift + p.count
+    assert seconds_to_count(np.zeros((0, 2)), m) == 0
+    assert_allclose(seconds_to_count(np.array([[0.1, 0.1]]), m), one)
+    line = np.array([[0.1 + 0.02 * k, 0.1] for k in range(4)])
+    assert_allclose(seconds_to_count(line, m), one + 3 * p.subitise)
+    five = np.array([[0.1 + 0.02 * k, 0.1] for k in range(5)])
+    step = p.saccade + p.saccade_per_degree * 0.02 * p.view_angle
+    assert_allclose(seconds_to_count(five, m), 2 * one + 3 * p.subitise + step)
+    slow = mood(without=["subitising"])
+    assert_allclose(seconds_to_count(line, slow), 4 * one + 3 * step)
+
+
+def test_slips_have_their_rate():
+    total = [slips(1000, mood(seed=s)) for s in range(200)]
+    # Twice the variance of a binomial of 1000 at 1 %: s.d. 4.45 a run, .31 for the mean.
+    assert abs(np.mean(total)) < 5 * 0.315
+    assert_allclose(np.std(total), 4.45, rtol=0.25)
+    assert slips(1000, mood(without=["slips"])) == 0
+
+
+def test_hands_turn_as_far_and_as_long_as_they_should():
+    m = mood(without=["motor_noise"])
+    hands = Hands(m, 5.0)
+    hands.turn(np.pi / 3, 0.2, drag=True)
+    moves = [e for e in hands.take() if isinstance(e, PointerMove)]
+    assert_allclose(sum(e.dx for e in moves) * np.pi, -np.pi / 3)
+    assert_allclose(sum(e.dy for e in moves) * np.pi, 0.2)
+    bits = np.log2(np.hypot(np.pi / 3, 0.2) / (np.pi / 12) + 1)
+    assert_allclose(hands.time - 5.0, bits / 4.09)
+    assert moves[2].x != moves[0].x
+
+
+@pytest.mark.parametrize("letter", sorted(LETTERS))
+def test_clean_letters_are_told_apart_at_any_angle(letter):
+    for angle in np.linspace(0, 6, 13):
+        chances = letter_chances(letter_points(letter, 12.0, angle)[:, [0, 2]])
+        assert max(chances, key=chances.get) == letter
+        assert_allclose(sum(chances.values()), 1)
+
+
+def test_a_handful_of_cones_says_nothing():
+    assert set(letter_chances(np.zeros((3, 2))).values()) == {0.2}
+
+
+numbers = st.integers(-6, 6)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.tuples(numbers, numbers), st.tuples(numbers, numbers), st.tuples(numbers, numbers),
+       st.tuples(numbers, numbers))  # fmt: skip
+def test_crossing_agrees_with_rational_arithmetic(eye, point, a, b):
+    """Solved exactly: eye + s (point − eye) = a + t (b − a) with 0 < s < 1 and 0 ≤ t ≤ 1."""
+    d = (point[0] - eye[0], point[1] - eye[1])
+    e = (b[0] - a[0], b[1] - a[1])
+    f = (a[0] - eye[0], a[1] - eye[1])
+    det = Fraction(d[0] * e[1] - d[1] * e[0])
+    expected = False
+    if det:
+        s = Fraction(f[0] * e[1] - f[1] * e[0]) / det
+        t = Fraction(f[0] * d[1] - f[1] * d[0]) / det
+        expected = 0 < s < 1 and 0 <= t <= 1
+    found = crossed(np.array(eye, float), np.array([point], float), np.array([[a, b]], float))
+    assert bool(found[0]) == expected
+
+
+def test_bearings_and_angles():
+    ways = np.array([[0.0, -1.0], [-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])
+    assert_allclose(np.abs(bearing(ways)), [0, np.pi / 2, np.pi, np.pi / 2])
+    assert bearing(ways)[1] > 0 > bearing(ways)[3]  # left of −z is −x
+    assert_allclose(apart(3.0, -3.0), 6 - 2 * np.pi)
+    assert_allclose(apart(0.5, 0.2), 0.3)
+
+
+def test_known_walls_hide_cells_and_doorways_do_not():
+    cube = geometry.box()
+    models = {"a": lambda: cube, "b": lambda: cube}
+    b = unique_building(np.random.default_rng(1), BuildingParameters(), models)
+    plan = layout(b.scene)
+    assert plan.size == 16 and len(plan.centers) == 256
+    assert len(plan.segments) == 4 + 2 * len(b.floor.walls)
+    known = Known(plan)
+    eye = np.array(b.start)
+    assert not known.hidden(eye).any()  # no wall seen yet
+    known.see_walls(np.ones(len(b.scene.objects), bool))
+    hidden = known.hidden(eye)
+    # The oracle walks along each way in small steps and asks the floor plan for the walls passed.
+    for cell, found in zip(plan.centers, hidden, strict=True):
+        assert found == _blocked(b, eye, cell), cell
+
+
+def _blocked(b, eye, cell):
+    p = b.parameters
+    steps = eye + np.linspace(0, 1, 4001)[1:-1, None] * (cell - eye)
+    for wall in b.floor.walls:
+        across, along = (1, 0) if wall.axis == 0 else (0, 1)
+        side = steps[:, across] - wall.level
+        for k in np.nonzero(side[:-1] * side[1:] <= 0)[0]:
+            at = steps[k, along]
+            inside = wall.start <= at <= wall.end
+            if inside and not abs(at - wall.door) < p.door_width / 2:
+                return True
+    return False
+
+
+class _Here:
+    """As much of a walker as a tally needs: exact places."""
+
+    def __init__(self, places):
+        self.mood = mood("count_in_building", without=["depth_noise"])
+        self.places, self.eye = places, np.zeros(2)
+
+    def place(self, index, seen):
+        return np.array(self.places[index], float)
+
+
+class _Found:
+    def __init__(self, *index):
+        self.index, self.seen = np.array(index), None
+
+
+def test_things_are_told_by_their_places():
+    tally = Tally()
+    places = {1: (0, 0), 2: (30, 0), 3: (31, 0), 4: (0, 1)}
+    walker = _Here(places)
+    assert tally.add(walker, _Found(1, 2)) == 2
+    assert tally.add(walker, _Found(1, 2)) == 0
+    # Two in one look are two, however close; one that comes later and close is mistaken for it.
+    assert tally.add(walker, _Found(2, 3)) == 1
+    assert tally.add(walker, _Found(4)) == 0
+
+
+def test_pages_are_read_and_filled_in():
+    opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
+    for level, seconds in (("standard", 100.0), ("dynamic", 30.0)):
+        text = Page("instruction", "t", (Paragraph(f"transparency.{level}"),))
+        assert opinions.answer(text)[0] == {"button": "0"}
+        for _ in range(3):
+            opinions.begin("unique")
+            opinions.spent("unique", seconds)
+    ratings = {"standard": [], "dynamic": []}
+    for level in ratings:
+        values = (("transparency", f"name.{level}"), ("scenario", "name.walkthrough"))
+        page = Page("r", "r", (Scale("ease", "rating.ease", "l", "h", values=values),))
+        for _ in range(40):
+            answers, spent = opinions.answer(page)
+            assert spent > 0 and 0 <= int(answers["ease"]) <= 4
+            ratings[level].append(int(answers["ease"]))
+    assert np.mean(ratings["dynamic"]) > np.mean(ratings["standard"]) + 1
+    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c")), TextField("remarks", "t")))
+    chosen = [opinions.answer(page)[0] for _ in range(50)]
+    assert sum(a["preference"] == "0" for a in chosen) > 40
+    assert all(a["remarks"] == "" for a in chosen)
+
+
+def test_opinions_without_experience_are_neutral():
+    opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
+    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c")),))
+    assert opinions.answer(page)[0]["preference"] == "1"
