@@ -106,6 +106,24 @@ def ellipse_distance(ellipse: NDArray[np.float64], size: tuple[int, int]) -> NDA
     return np.where(r > 1, np.hypot(p, q) * (1 - 1 / np.maximum(r, 1)), 0.0)
 
 
+def reach(
+    extents: NDArray[np.float64],
+    technique: DynamicTransparency,
+    width: float,
+    size: tuple[int, int],
+) -> NDArray[np.float64]:
+    """(n, 4) what the masks of objects with these (n, 4) extents can cover, at most."""
+    half = (extents[:, 2:] - extents[:, :2]) / 2
+    grow = np.full(len(extents), width + 1.0)
+    if technique.mask == "ring":
+        cells = len(ring_opacities(technique, size)) + 1.5
+        grow += cells * max(size) / technique.ring_size
+    elif technique.mask not in ("outline", "hull"):
+        # A circle or ellipse about a box reaches no farther than its diagonal on all sides.
+        grow += np.hypot(half[:, 0], half[:, 1])
+    return extents + np.array([-1, -1, 1, 1]) * grow[:, None]
+
+
 def hulls_with_skirts(
     pixels: NDArray[np.float64], starts: NDArray[np.int64], width: float
 ) -> tuple[NDArray[np.float32], NDArray[np.int64]]:

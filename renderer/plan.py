@@ -1,18 +1,20 @@
-"""What a frame needs: which objects blend, in which order, and which targets need a mask.
+"""What a frame needs, with reasons: which effects, for which objects, in which order.
 
 An object in front of no target's mask is drawn opaque with all the others, in one pass. The rest
 is put into levels: objects of one level do not overlap on the screen, so each level is a handful
 of instanced draws, and their number grows with depth complexity instead of with the objects.
+Where no order of objects is right, that part of the picture is sorted pixel by pixel.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Set
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from renderer import masks, order
 from renderer.camera import Camera
 from renderer.projection import Boxes, screen_boxes
 from renderer.scene import Scene
@@ -21,6 +23,21 @@ from renderer.techniques.standard import Standard
 
 Technique = Standard | DynamicTransparency
 Indices = NDArray[np.int64]
+
+SHORTCUTS = {
+    "cull": "objects outside the view are not drawn",
+    "opaque": "only objects in front of a mask are blended and put in order",
+    "masks": "only targets with something penetrable in front get a mask",
+    "levels": "objects that overlap nowhere on the screen are drawn together",
+    "prepass": "only concave objects in front of a mask get a pre-pass for depth",
+    "hulls": "the mask of a convex target is its hull with a skirt, without a picture of its own",
+    "counting": "layers are counted only where they could take more light than is allowed",
+    "parts": "only parts of the picture whose order is in doubt are sorted by pixel",
+    "still": "a frame in which nothing changed is shown again",
+}
+
+# Why an object is drawn as it is (FramePlan.reasons).
+OUTSIDE, OPAQUE, HARD, BLENDED = range(4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,17 +50,30 @@ class Level:
 
 @dataclass(frozen=True, eq=False)
 class FramePlan:
-    """What to draw, in this order: `opaque` with a depth buffer, then each level.
+    """What to draw, in this order: `opaque` with a depth buffer, each level, then `exact`.
 
-    The first level holds masks only. `masked` are all targets that get a mask; `boxes` the
-    extents of all objects on the screen.
+    The first level holds masks only. `masked` are all targets that get a mask, `reach` (n, 4)
+    what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
+    parts of the picture (left, top, right, bottom) to sort by pixel. `boxes` are the extents of
+    all objects. `reasons` (n,) say why each object is drawn as it is, `behind` (n,) which target
+    it is that makes it blend (−1: none).
     """
 
     opaque: Indices
     levels: tuple[Level, ...]
     masked: Indices
-    ordered: int
+    counted: Indices
+    exact: NDArray[np.int64]
     boxes: Boxes
+    reach: NDArray[np.float64]
+    reasons: Indices
+    behind: Indices
+    without: frozenset[str] = field(default_factory=frozenset)
+
+    @property
+    def ordered(self) -> int:
+        """How many objects are put in order."""
+        return sum(len(level.objects) for level in self.levels)
 
 
 def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> NDArray[np.bool_]:
@@ -55,73 +85,152 @@ def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -
     return scene.impenetrable | (np.linalg.norm(gap, axis=1) > technique.penetrable_within)
 
 
-def plan(scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]) -> FramePlan:
-    """Decide what the frame of `size` (width, height) in pixels needs. Pure."""
-    boxes = screen_boxes(scene.corners, camera, size)
-    drawn = np.nonzero(boxes.inside)[0]
-    if isinstance(technique, Standard) or not scene.targets[drawn].any():
-        return FramePlan(drawn, (), drawn[:0], 0, boxes)
-    depth = camera.depth(scene.group_centers)
-    # Farthest group first; a group's objects stay together, in their order in the scene.
-    order = drawn[np.lexsort((drawn, scene.group_of[drawn], -depth[drawn]))]
-    blended, masked, of_object, of_mask = _levels(
-        order,
-        boxes.extents,
-        scene.targets,
-        impenetrable(scene, camera, technique),
-        float(technique.width),
-    )
-    levels = tuple(
-        Level(np.nonzero(of_object == k)[0], np.nonzero(of_mask == k)[0])
-        for k in range(-1, max(of_object.max(initial=-1), of_mask.max(initial=-1)) + 1)
-    )
-    opaque = drawn[~blended[drawn]]
-    return FramePlan(opaque, levels, np.nonzero(masked)[0], int(blended.sum()), boxes)
+def plan(
+    scene: Scene,
+    camera: Camera,
+    technique: Technique,
+    size: tuple[int, int],
+    without: Set[str] = frozenset(),
+    scale: float = 1.0,
+) -> FramePlan:
+    """Decide what the frame of `size` (width, height) in pixels needs. Pure.
 
-
-@njit(cache=True)
-def _overlap(extents, i, j, gap):  # type: ignore[no-untyped-def]
-    """Whether box i comes within `gap` pixels of box j."""
-    return (
-        extents[i, 0] <= extents[j, 2] + gap
-        and extents[i, 2] >= extents[j, 0] - gap
-        and extents[i, 1] <= extents[j, 3] + gap
-        and extents[i, 3] >= extents[j, 1] - gap
-    )
-
-
-@njit(cache=True)
-def _levels(order, extents, targets, impenetrable, width):  # type: ignore[no-untyped-def]
-    """Which objects blend, which targets are masked, and the level of each (−2: none).
-
-    `order` runs from far to near. An object comes after every farther object and mask that it
-    overlaps; a mask comes after its own target and everything farther, and before the rest.
+    `without` names SHORTCUTS not to take; `scale` shrinks the width of masks with the picture.
     """
-    n = len(extents)
-    blended, masked = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
-    for a in range(len(order)):
-        i = order[a]
-        if impenetrable[i]:
-            continue
-        for b in range(a):
-            j = order[b]
-            if targets[j] and _overlap(extents, i, j, width):
-                blended[i] = masked[j] = True
-    of_object, of_mask = np.full(n, -2, np.int64), np.full(n, -2, np.int64)
-    for a in range(len(order)):
-        i = order[a]
-        if blended[i]:
-            of_object[i] = 0
-            for b in range(a):
-                j = order[b]
-                if blended[j] and _overlap(extents, i, j, 0.0):
-                    of_object[i] = max(of_object[i], of_object[j] + 1)
-                if masked[j] and _overlap(extents, i, j, width):
-                    of_object[i] = max(of_object[i], of_mask[j] + 1)
-        if masked[i]:
-            of_mask[i] = of_object[i] if blended[i] else -1
-            for b in range(a):
-                j = order[b]
-                if blended[j] and _overlap(extents, j, i, width):
-                    of_mask[i] = max(of_mask[i], of_object[j])
-    return blended, masked, of_object, of_mask
+    boxes = screen_boxes(scene.corners, camera, size)
+    drawn = np.nonzero(boxes.inside | ("cull" in without))[0]
+    if isinstance(technique, Standard):
+        return _opaque(boxes, drawn, without)
+    reach = masks.reach(boxes.extents, technique, technique.width * scale, size)
+    hard = impenetrable(scene, camera, technique)
+    seen = _far_to_near(scene, camera, _reaching(scene, boxes, reach, size, without))
+    there = np.zeros(len(hard), dtype=bool)
+    there[seen] = True
+    centers = scene.centers - camera.eye
+    geometry = (centers, scene.box_sides, scene.radii, boxes.near, boxes.far)
+    relation, uncertain, blended, masked = order.decide(
+        *(seen, scene.group_of, boxes.extents, reach, *geometry, scene.targets, hard),
+        there & ~hard & ("opaque" in without),
+    )
+    masked |= there & scene.targets & ("masks" in without)
+    base = FramePlan(
+        opaque=drawn,
+        levels=(),
+        masked=np.nonzero(masked)[0],
+        counted=_counted(relation, masked, technique),
+        exact=np.zeros((0, 4), np.int64),
+        boxes=boxes,
+        reach=reach,
+        reasons=_reasons(boxes, hard, blended),
+        behind=_behind(relation, blended, masked),
+        without=frozenset(without),
+    )
+    if not masked.any() and not blended.any():
+        return base
+    if technique.per_pixel_only:
+        return replace(base, exact=_parts(reach[masked], technique, size, without))
+    return _with_levels(base, seen, relation, uncertain, blended, masked, size)
+
+
+def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
+    """Everything with a depth buffer."""
+    none = drawn[:0]
+    reasons = np.where(boxes.inside, OPAQUE, OUTSIDE)
+    return FramePlan(
+        *(drawn, (), none, none, np.zeros((0, 4), np.int64), boxes, boxes.extents, reasons),
+        np.full(len(reasons), -1),
+        frozenset(without),
+    )
+
+
+def _reaching(
+    scene: Scene, boxes: Boxes, reach: NDArray[np.float64], size: tuple[int, int], without: Set[str]
+) -> Indices:
+    """What can change the picture: objects in view, and targets whose mask reaches into it."""
+    near = (reach[:, 2:] > 0).all(axis=1) & (reach[:, :2] < np.array(size)).all(axis=1)
+    near &= scene.targets & boxes.within
+    return np.nonzero(boxes.inside | near | (boxes.within & ("cull" in without)))[0]
+
+
+def _far_to_near(scene: Scene, camera: Camera, objects: Indices) -> Indices:
+    """Farthest group first, by view depth; a group stays together, in its order in the scene."""
+    depth = camera.depth(scene.group_centers[objects])
+    return objects[np.lexsort((objects, scene.group_of[objects], -depth))]
+
+
+def _counted(
+    relation: NDArray[np.int8], masked: NDArray[np.bool_], technique: DynamicTransparency
+) -> Indices:
+    """Targets with more objects in front than may each keep alpha_target (notation: 004 §V-D)."""
+    tau, alpha = technique.min_transmittance, technique.alpha_target
+    if tau == 0:
+        return np.zeros(0, np.int64)
+    allowed = np.inf if alpha == 0 else (0 if alpha == 1 else np.log(tau) / np.log(1 - alpha))
+    in_front = (relation == order.IN_FRONT).sum(axis=0)
+    return np.nonzero(masked & (in_front > np.floor(allowed + 1e-12)))[0]
+
+
+def _reasons(boxes: Boxes, hard: NDArray[np.bool_], blended: NDArray[np.bool_]) -> Indices:
+    reasons = np.where(blended, BLENDED, np.where(hard, HARD, OPAQUE))
+    return np.where(boxes.inside, reasons, OUTSIDE)
+
+
+def _behind(
+    relation: NDArray[np.int8], blended: NDArray[np.bool_], masked: NDArray[np.bool_]
+) -> Indices:
+    """(n,) a masked target behind each blended object, −1 where there is none."""
+    over = (relation == order.IN_FRONT) & masked[None] & blended[:, None]
+    return np.where(over.any(axis=1), over.argmax(axis=1), -1)
+
+
+def _with_levels(
+    base: FramePlan,
+    seen: Indices,
+    relation: NDArray[np.int8],
+    uncertain: NDArray[np.bool_],
+    blended: NDArray[np.bool_],
+    masked: NDArray[np.bool_],
+    size: tuple[int, int],
+) -> FramePlan:
+    """The plan with blended objects and masks in levels, and the parts that no order gets right."""
+    extents, reach = base.boxes.extents, base.reach
+    of_object, of_mask, forced = order.levels(seen, extents, reach, relation, blended, masked)
+    doubtful = order.doubtful(
+        seen, extents, reach, relation, uncertain, blended, masked, forced, np.array(size, float)
+    )
+    if "levels" in base.without:
+        of_object, of_mask = order.one_by_one(seen, of_object, of_mask)
+    last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
+    levels = [
+        Level(np.nonzero(of_object == k)[0], np.nonzero(of_mask == k)[0])
+        for k in range(-1, last + 1)
+    ]
+    parts = merged_parts(doubtful, size)
+    if "parts" in base.without and len(parts):
+        parts = np.array([[0, 0, *size]])
+    keep = np.zeros(len(blended), dtype=bool)
+    keep[base.opaque] = True
+    return replace(base, opaque=np.nonzero(keep & ~blended)[0], levels=tuple(levels), exact=parts)
+
+
+def _parts(
+    reach: NDArray[np.float64],
+    technique: DynamicTransparency,
+    size: tuple[int, int],
+    without: Set[str],
+) -> NDArray[np.int64]:
+    """What to sort by pixel: the reach of the masks, or all where whole objects turn clear."""
+    if technique.granularity != "pixel" or "parts" in without:
+        return np.array([[0, 0, *size]])
+    return merged_parts(reach, size)
+
+
+def merged_parts(boxes: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
+    """(k, 4) whole pixels that hold all boxes and do not overlap; one for all if nearly all."""
+    low = np.maximum(np.floor(boxes[:, :2]) - 1, 0)
+    high = np.minimum(np.ceil(boxes[:, 2:]) + 1, size)
+    rows = np.concatenate([low, high], axis=1)[(low < high).all(axis=1)]
+    parts = order.merge(np.ascontiguousarray(rows)).astype(np.int64)
+    if (parts[:, 2:] - parts[:, :2]).prod(axis=1).sum() > 0.6 * size[0] * size[1]:
+        return np.array([[0, 0, *size]])
+    return parts

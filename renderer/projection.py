@@ -23,14 +23,15 @@ class Boxes:
     """What objects cover on the screen, at most.
 
     extents (n, 4): left, top, right, bottom in pixels; near, far (n,): view depths of the nearest
-    and farthest corner; crosses (n,): whether the near plane cuts the box; inside (n,): whether
-    any of it can be in the picture.
+    and farthest corner; crosses (n,): whether the near plane cuts the box; within (n,): whether
+    any of it lies between the near and far planes; inside (n,): whether it can be in the picture.
     """
 
     extents: NDArray[np.float64]
     near: NDArray[np.float64]
     far: NDArray[np.float64]
     crosses: NDArray[np.bool_]
+    within: NDArray[np.bool_]
     inside: NDArray[np.bool_]
 
 
@@ -68,9 +69,9 @@ def screen_boxes(corners: NDArray[np.float64], camera: Camera, size: tuple[int, 
     if crosses.any():
         _add_cuts(low, high, np.nonzero(crosses)[0], points, depth, camera, size)
     near, far = depth.min(axis=1, initial=np.inf), depth.max(axis=1, initial=-np.inf)
-    inside = (far > camera.near) & (near < camera.far)
-    inside &= (high > 0).all(axis=1) & (low < np.array(size)).all(axis=1)
-    return Boxes(np.concatenate([low, high], axis=1), near, far, crosses, inside)
+    within = (far > camera.near) & (near < camera.far)
+    inside = within & (high > 0).all(axis=1) & (low < np.array(size)).all(axis=1)
+    return Boxes(np.concatenate([low, high], axis=1), near, far, crosses, within, inside)
 
 
 def _add_cuts(

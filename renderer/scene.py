@@ -103,3 +103,17 @@ class Scene:
         np.maximum.at(high, self.group_of, self.corners.max(axis=1))
         alone = np.bincount(self.group_of, minlength=count)[self.group_of] == 1
         return np.where(alone[:, None], self.centers, ((low + high) / 2)[self.group_of])
+
+    @cached_property
+    def box_sides(self) -> NDArray[np.float64]:
+        """(n, 3, 3) half the sides of each object's box, as world vectors in the rows."""
+        bounds = np.array([o.mesh.bounds for o in self.objects]).reshape(-1, 2, 3)
+        half = (bounds[:, 1] - bounds[:, 0]) / 2
+        return np.swapaxes(self.transforms[:, :3, :3] * half[:, None, :], 1, 2).copy()
+
+    @cached_property
+    def radii(self) -> NDArray[np.float64]:
+        """(n,) radius of the sphere about `centers` that holds each object, in world units."""
+        own = np.array([o.mesh.radius for o in self.objects], dtype=float)
+        stretch = np.linalg.svd(self.transforms[:, :3, :3], compute_uv=False)
+        return own * stretch.max(axis=1, initial=0.0)

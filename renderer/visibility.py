@@ -63,8 +63,25 @@ def visibility(
     objects: int,
 ) -> Visibility:
     """Measure n = `objects` objects in a (h, w, 3) picture made of `layers` (see `shares`)."""
+    return _measured(*shares(layers), picture, objects)
+
+
+def visibility_of_shares(
+    layers: Sequence[tuple[NDArray[np.int64], NDArray[np.floating]]],
+    picture: NDArray[np.uint8],
+    objects: int,
+) -> Visibility:
+    """The same from layers of object + 1 and its share of the pixel (h, w), in any order."""
+    found = []
+    for ids, share in layers:
+        where = np.nonzero((ids.ravel() > 0) & (share.ravel() >= SEEN))[0]
+        found.append((ids.ravel()[where] - 1, where, share.ravel()[where].astype(float)))
+    which, pixel, share = (np.concatenate([f[k] for f in found]) for k in range(3))
+    return _measured(which, pixel, share, picture, objects)
+
+
+def _measured(which, pixel, share, picture, objects):  # type: ignore[no-untyped-def]
     height, width = picture.shape[:2]
-    which, pixel, share = shares(layers)
     row, column = np.divmod(pixel, width)
     count = np.bincount(which, minlength=objects)
     total = np.bincount(which, share, objects)

@@ -1,76 +1,137 @@
-"""Masks on the GPU: hull and skirt for convex targets, an exact distance picture for the others.
+"""The geometry of masks, made on the CPU for each frame.
 
-The distance picture has one channel for each set of targets that are too far apart on the screen
-to touch each other's masks; it is drawn before the objects, from the outlines' segments with the
-minimum as blend equation, so no framebuffer is switched between objects.
+Hulls with skirts for convex outlines, quads for circles and ellipses; every other outline is
+drawn into a picture of distances beforehand, and a rectangle looks it up.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import projection
+from renderer import masks, order, projection
 from renderer.camera import Camera
 from renderer.gpu.scene_table import SceneTable
-from renderer.masks import hulls_with_skirts
 from renderer.plan import FramePlan
 from renderer.silhouettes import near_cuts, silhouette
+from renderer.techniques.dynamic import DynamicTransparency
 
 CHANNELS = 4
-FAR = 60000.0
+VERTEX = 7  # place x, y; offset x, y; kind; semi-axes
+
+_CORNERS = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
+_SIGNS = np.array([[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]])
 
 
-def channels_of(
-    targets: NDArray[np.int64], extents: NDArray[np.float64], width: float, count: int
-) -> NDArray[np.float64]:
-    """(n objects,) a channel for each of `targets` so that masks of one channel stay apart.
+@dataclass(frozen=True, eq=False)
+class MaskGeometry:
+    """vertices (k, 7) float32, see shaders/mask.vert; first (m,) and count (m,) for each of the
+    m `targets`; `pictured` are those that need the picture of distances, `channel` (n objects,)
+    theirs."""
 
-    Channel 4 p + c is channel c of picture p. Objects that are no such target have −1.
-    """
-    channel = np.full(count, -1.0)
-    members: list[list[int]] = []
-    for t in targets.tolist():
-        box = extents[t]
-        for k, others in enumerate([*members, []]):
-            o = extents[others].reshape(-1, 4)
-            # Both masks reach out, so twice the width lies between targets of one channel.
-            gap = 2 * width + 2
-            meets = (box[0] <= o[:, 2] + gap) & (box[2] >= o[:, 0] - gap)
-            meets &= (box[1] <= o[:, 3] + gap) & (box[3] >= o[:, 1] - gap)
-            if not meets.any():
-                if k == len(members):
-                    members.append([])
-                members[k].append(t)
-                channel[t] = k
-                break
-    return channel
+    vertices: NDArray[np.float32]
+    targets: NDArray[np.int64]
+    first: NDArray[np.int64]
+    count: NDArray[np.int64]
+    pictured: NDArray[np.int64]
+    channel: NDArray[np.float64]
 
 
-def hull_targets(table: SceneTable, frame: FramePlan) -> NDArray[np.bool_]:
-    """(m,) which masked targets show their hull: closed, convex, not cut by the near plane."""
+def mask_geometry(
+    table: SceneTable,
+    frame: FramePlan,
+    camera: Camera,
+    technique: DynamicTransparency,
+    width: float,
+    size: tuple[int, int],
+) -> MaskGeometry:
+    """The masks of a frame's targets, `width` pixels wide."""
+    hulled = _hulled(table, frame, technique)
+    ellipses = technique.mask in ("circle", "ellipse", "oriented-ellipse")
+    shaped = np.ones_like(hulled) if ellipses else hulled
+    plain, pictured = frame.masked[shaped], frame.masked[~shaped]
+    if ellipses:
+        vertices, firsts = _ellipses(table, plain, frame, camera, technique.mask, width, size)
+    else:
+        vertices, firsts = _hulls(table, plain, frame, camera, width, size)
+    channel = channels_of(pictured, frame.reach, len(table.scene.objects))
+    flat = rectangles(frame.reach[pictured], channel[pictured])
+    targets = np.concatenate([plain, pictured])
+    base = len(vertices) + 6 * np.arange(len(pictured))
+    first = np.concatenate([firsts[:-1], base])
+    count = np.concatenate([np.diff(firsts), np.full(len(pictured), 6)])
+    everything = np.concatenate([vertices, flat.reshape(-1, VERTEX)]).astype(np.float32)
+    return MaskGeometry(everything, targets, first, count, pictured, channel)
+
+
+def _hulled(
+    table: SceneTable, frame: FramePlan, technique: DynamicTransparency
+) -> NDArray[np.bool_]:
+    """(m,) which masked targets show a hull: all if asked for, else closed convex uncut ones."""
+    if technique.mask == "hull":
+        return np.ones(len(frame.masked), dtype=bool)
+    if technique.mask == "ring":
+        return np.zeros(len(frame.masked), dtype=bool)
+    if "hulls" in frame.without:
+        return np.zeros(len(frame.masked), dtype=bool)
     shapes = [table.meshes[table.slot[t]] for t in frame.masked.tolist()]
     convex = [m.mesh.convex and m.topology.closed for m in shapes]
     return np.array(convex, dtype=bool) & ~frame.boxes.crosses[frame.masked]
 
 
-def hull_vertices(
-    table: SceneTable,
-    targets: NDArray[np.int64],
-    camera: Camera,
-    size: tuple[int, int],
-    width: float,
-) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
-    """Hulls with skirts of convex targets: see masks.hulls_with_skirts."""
-    clouds = []
-    for t in targets.tolist():
-        points = table.meshes[table.slot[t]].topology.points
-        matrix = table.scene.transforms[t]
-        clouds.append(points @ matrix[:3, :3].T + matrix[:3, 3])
+def _outline_points(
+    table: SceneTable, target: int, frame: FramePlan, camera: Camera, size: tuple[int, int]
+) -> NDArray[np.float64]:
+    """(v, 2) pixels among which are all corners of the target's hull."""
+    if frame.boxes.crosses[target]:
+        return outline_segments(table, target, camera, size).reshape(-1, 2)
+    points = table.meshes[table.slot[target]].topology.points
+    matrix = table.scene.transforms[target]
+    turn = camera.rotation.T @ matrix[:3, :3]
+    move = camera.rotation.T @ (matrix[:3, 3] - camera.eye)
+    return projection.to_pixels(points @ turn.T + move, camera, size)
+
+
+def _hulls(table, targets, frame, camera, width, size):  # type: ignore[no-untyped-def]
+    clouds = [_outline_points(table, t, frame, camera, size) for t in targets.tolist()]
+    clouds = [c if len(c) else np.full((1, 2), -1e6) for c in clouds]
     starts = np.cumsum([0] + [len(c) for c in clouds])
-    world = np.concatenate([*clouds, np.zeros((0, 3))])
-    pixels = projection.to_pixels(projection.to_camera(world, camera), camera, size)
-    return hulls_with_skirts(pixels, starts, width)
+    pixels = np.concatenate([*clouds, np.zeros((0, 2))])
+    vertices, firsts = masks.hulls_with_skirts(pixels, starts, width)
+    return np.pad(vertices, ((0, 0), (0, VERTEX - vertices.shape[1]))), firsts
+
+
+def _ellipses(table, targets, frame, camera, shape, width, size):  # type: ignore[no-untyped-def]
+    rows = np.zeros((len(targets), 6, VERTEX))
+    for k, t in enumerate(targets.tolist()):
+        points = _outline_points(table, t, frame, camera, size)
+        if not len(points):
+            continue
+        along = masks.long_axis(table.scene.objects[t], camera)
+        x, y, ux, uy, a, b = masks.bounding_ellipse(points, shape, along)
+        offset = _SIGNS * (np.array([a, b]) + width + 1)
+        rows[k, :, 0] = x + offset[:, 0] * ux - offset[:, 1] * uy
+        rows[k, :, 1] = y + offset[:, 0] * uy + offset[:, 1] * ux
+        rows[k, :, 2:4] = offset
+        rows[k, :, 4] = -2
+        rows[k, :, 5:7] = a, b
+    return rows.reshape(-1, VERTEX), 6 * np.arange(len(targets) + 1)
+
+
+def channels_of(
+    targets: NDArray[np.int64], reach: NDArray[np.float64], count: int
+) -> NDArray[np.float64]:
+    """(n objects,) a channel for each of `targets` so that masks of one channel stay apart.
+
+    `reach` (n, 4) are the extents of the masks. Channel 4 p + c is channel c of picture p.
+    Objects that are no such target have −1.
+    """
+    channel = np.full(count, -1.0)
+    if len(targets):
+        channel[targets] = order.apart(np.ascontiguousarray(reach[targets]))
+    return channel
 
 
 def outline_segments(
@@ -79,31 +140,30 @@ def outline_segments(
     """(k, 4) ends of the segments of a target's outline in pixels, cut at the near plane."""
     shape = table.meshes[table.slot[target]].topology
     matrix = table.scene.transforms[target]
-    eye = np.linalg.solve(matrix[:3, :3], camera.eye - matrix[:3, 3])
-    world = shape.points @ matrix[:3, :3].T + matrix[:3, 3]
-    seen = projection.to_camera(world, camera)
-    depth = -seen[:, 2]
+    eye = table.inverse[target] @ (camera.eye - matrix[:3, 3])
+    turn = camera.rotation.T @ matrix[:3, :3]
+    move = camera.rotation.T @ (matrix[:3, 3] - camera.eye)
     ends = silhouette(shape, eye)
+    seen = shape.points @ turn.T + move
+    depth = -seen[:, 2]
+    cut = bool((depth < camera.near).any())
+    if not cut:
+        return projection.to_pixels(seen[ends], camera, size).reshape(-1, 4)
     ends = ends[(depth[ends] >= camera.near).any(axis=1)]
     a, b = seen[ends[:, 0]], seen[ends[:, 1]]
     for here, there in ((a, b), (b, a)):
         behind = -here[:, 2] < camera.near
         t = (camera.near + here[behind, 2]) / (here[behind, 2] - there[behind, 2])
         here[behind] += t[:, None] * (there[behind] - here[behind])
-    segments = np.stack([a, b], axis=1)
-    if (depth < camera.near).any():
-        cuts = near_cuts(shape, eye, depth, camera.near)
-        moved = cuts @ matrix[:3, :3].T + matrix[:3, 3]
-        segments = np.concatenate([segments, projection.to_camera(moved, camera)])
+    cuts = near_cuts(shape, eye, depth, camera.near) @ turn.T + move
+    segments = np.concatenate([np.stack([a, b], axis=1), cuts])
+    segments[..., 2] = np.minimum(segments[..., 2], -camera.near)
     return projection.to_pixels(segments, camera, size).reshape(-1, 4)
 
 
-def rectangles(
-    extents: NDArray[np.float64], channels: NDArray[np.float64], width: float
-) -> NDArray[np.float32]:
-    """(k, 6, 5) two triangles round each extent, `width` larger, that look up a channel."""
-    grown = extents + np.array([-1, -1, 1, 1]) * (width + 1)
-    corners = grown[:, [[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]]]
-    data = np.zeros((len(extents), 6, 3))
-    data[:, :, 2] = channels[:, None]
-    return np.concatenate([corners, data], axis=2).astype(np.float32)
+def rectangles(extents: NDArray[np.float64], channels: NDArray[np.float64]) -> NDArray[np.float32]:
+    """(k, 6, 7) two triangles over each extent that look up a channel."""
+    rows = np.zeros((len(extents), 6, VERTEX))
+    rows[:, :, :2] = extents[:, _CORNERS]
+    rows[:, :, 4] = channels[:, None]
+    return rows.astype(np.float32)

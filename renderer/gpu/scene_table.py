@@ -30,7 +30,9 @@ class SceneTable:
                 slots[id(mesh)] = len(self.meshes)
                 self.meshes.append(mesh)
             self.slot[i] = slots[id(mesh)]
-        self.convex = np.array([o.mesh.convex for o in scene.objects], dtype=bool)
+        self.inverse = np.linalg.inv(linear)
+        sizes = [len(o.mesh.triangles) for o in scene.objects]
+        self.first_triangle = np.cumsum([0, *sizes])
         rows = np.zeros((max(n, 1), 4, 4), dtype="f4")
         rows[:n, :3, :3] = linear
         rows[:n, 3, :3] = np.array([o.color for o in scene.objects]).reshape(n, 3)
@@ -40,17 +42,24 @@ class SceneTable:
         self._sequence = _texture(context, (2, max(n, 1)))
 
     def sequence(
-        self, parts: list[NDArray[np.int64]], camera: Camera, channels: NDArray[np.float64]
+        self,
+        parts: list[NDArray[np.int64]],
+        camera: Camera,
+        numbers: list[NDArray[np.float64]] | None = None,
     ) -> tuple[moderngl.Texture, list[list[Run]]]:
         """Upload the objects of all `parts`, and say which instanced draws make up each part.
 
-        Objects of one part are put together by mesh. `channels` (n,) goes with each object.
+        Objects of one part are put together by mesh. `numbers` has for each part a number to go
+        with every object of the scene (n,).
         """
         number = np.repeat(np.arange(len(parts)), [len(p) for p in parts])
         objects = np.concatenate([*parts, np.zeros(0, np.int64)])
         by_mesh = np.lexsort((objects, self.slot[objects], number))
         objects, number = objects[by_mesh], number[by_mesh]
-        self._upload(objects, camera, channels)
+        extra = np.zeros(len(objects))
+        for k, values in enumerate(numbers or []):
+            extra[number == k] = values[objects[number == k]]
+        self._upload(objects, camera, extra)
         slots = self.slot[objects]
         starts = np.nonzero(np.diff(number, prepend=-1) | np.diff(slots, prepend=-1))[0]
         ends = np.append(starts[1:], len(objects))
@@ -60,7 +69,7 @@ class SceneTable:
         return self._sequence, runs
 
     def _upload(
-        self, objects: NDArray[np.int64], camera: Camera, channels: NDArray[np.float64]
+        self, objects: NDArray[np.int64], camera: Camera, extra: NDArray[np.float64]
     ) -> None:
         if len(objects) > self._sequence.height:
             self._sequence.release()
@@ -68,7 +77,7 @@ class SceneTable:
         rows = np.zeros((len(objects), 2, 4), dtype="f4")
         rows[:, 0, :3] = self.scene.centers[objects] - camera.eye
         rows[:, 0, 3] = objects
-        rows[:, 1, 0] = channels[objects]
+        rows[:, 1, 0] = extra
         if len(objects):
             self._sequence.write(rows.tobytes(), viewport=(0, 0, 2, len(objects)))
 

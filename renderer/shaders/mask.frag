@@ -1,29 +1,74 @@
 // Provides a target's alpha mask, to be multiplied into the frame's alpha (004 §V-D).
+// With CELLS instead a mask's entry for the exact picture: opacity, depth beside the target, the
+// target's number, and 1 where the mask is at its core.
 uniform sampler2D distances;  // Euclidean, in pixels; −1 on the target; one channel each target
+uniform sampler2D rings;      // the paper's masks, channels as above
+uniform sampler2D counts;     // penetrable fragments in front of the farthest target
 uniform float alpha_target;
 uniform float alpha_edge;
 uniform float width;
-uniform int rows;  // of the frame: the pictures of channels 4, 8, … lie above the first
+uniform int rows;        // of the frame: the pictures of channels 4, 8, … lie above the first
+uniform int ring_size;   // 0: no rings
+uniform float tau;       // least transmittance, 0: no guarantee
+uniform vec4 searchlight;  // x, y in pixels (y up), radius, softness; radius < 0: light everywhere
+uniform ivec2 shift;     // from this picture's pixels to the frame's
+#ifdef CELLS
+uniform float beside;
+uniform int target;
+#endif
 
 in vec2 offset;
-flat in int channel;
+flat in int kind;
+flat in vec2 axes;
 
 layout(location = 0) out vec4 picture;
 #ifdef WITH_IDS
 layout(location = 1) out float id;
 #endif
 
+float ring(ivec2 pixel, int channel) {
+    int n = ring_size;
+    vec2 cell = clamp((vec2(pixel) + 0.5) * n / vec2(textureSize(distances, 0).x, rows) - 0.5, 0.0, n - 1.0);
+    ivec2 low = min(ivec2(cell), n - 2);
+    vec2 t = cell - vec2(low);
+    low.y += channel / 4 * n;
+    int c = channel % 4;
+    float a = texelFetch(rings, low, 0)[c], b = texelFetch(rings, low + ivec2(1, 0), 0)[c];
+    float d = texelFetch(rings, low + ivec2(0, 1), 0)[c], e = texelFetch(rings, low + 1, 0)[c];
+    return mix(mix(a, b, t.x), mix(d, e, t.x), t.y);
+}
+
+float light(ivec2 pixel) {
+    if (searchlight.z < 0.0) return 1.0;
+    float beyond = length(vec2(pixel) + 0.5 - searchlight.xy) - searchlight.z;
+    if (searchlight.w == 0.0) return beyond <= 0.0 ? 1.0 : 0.0;
+    return clamp(1.0 - beyond / searchlight.w, 0.0, 1.0);
+}
+
 void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy) + shift;
     float d = length(offset);
-    if (channel >= 0) {
-        ivec2 texel = ivec2(gl_FragCoord.xy) + ivec2(0, channel / 4 * rows);
-        d = texelFetch(distances, texel, 0)[channel % 4];
+    if (kind == -2) {
+        float r = length(offset / axes);
+        d = r > 1.0 ? d * (1.0 - 1.0 / r) : 0.0;
+    } else if (kind >= 0) {
+        d = texelFetch(distances, pixel + ivec2(0, kind / 4 * rows), 0)[kind % 4];
     }
     float alpha = alpha_target;
     if (d > 0.0) {
-        alpha = width > 0.0 ? min(alpha_edge + (1.0 - alpha_edge) * d / width, 1.0) : 1.0;
+        if (ring_size > 0) alpha = ring(pixel, kind);
+        else alpha = width > 0.0 ? min(alpha_edge + (1.0 - alpha_edge) * d / width, 1.0) : 1.0;
+    }
+    alpha = 1.0 - light(pixel) * (1.0 - alpha);
+#ifdef CELLS
+    picture = vec4(alpha, beside, float(target + 1), d > 0.0 ? 0.0 : 1.0);
+#else
+    if (tau > 0.0 && d <= 0.0) {
+        float count = texelFetch(counts, pixel, 0).r;
+        if (count > 0.0) alpha = min(alpha, 1.0 - pow(tau, 1.0 / count));
     }
     picture = vec4(0.0, 0.0, 0.0, alpha);
+#endif
 #ifdef WITH_IDS
     id = 0.0;
 #endif

@@ -2,13 +2,17 @@
 uniform vec2 size;
 
 in vec2 in_place;
-in vec3 in_data;  // offset from the outline (x, y) and −1; or 0, 0 and a channel
+in vec2 in_offset;   // from a hull's outline; or from an ellipse's centre, along its axes
+in float in_kind;    // −1: offset from a hull; −2: an ellipse; from 0: channel of the distances
+in vec2 in_axes;     // of an ellipse
 
 out vec2 offset;
-flat out int channel;
+flat out int kind;
+flat out vec2 axes;
 
 void main() {
-    offset = in_data.xy;
-    channel = int(in_data.z);
+    offset = in_offset;
+    kind = int(in_kind);
+    axes = in_axes;
     gl_Position = vec4(2.0 * in_place.x / size.x - 1.0, 1.0 - 2.0 * in_place.y / size.y, 0.0, 1.0);
 }

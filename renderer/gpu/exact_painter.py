@@ -1,0 +1,333 @@
+"""The exact picture on the GPU, OpenGL 3.3: every pixel sorted by itself.
+
+Objects that overlap nowhere on the screen share a slice: colour and depth of one surface at each
+pixel. So a slice holds the front-most fragment of each of its objects, all slices together the
+list of fragments of every pixel, and the same goes for the masks. One shader sorts them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer import order
+from renderer.camera import Camera
+from renderer.gpu.cells import MOST, Cells
+from renderer.gpu.mask_painter import MaskPainter
+from renderer.gpu.programs import program, set_uniform
+from renderer.gpu.scene_table import SceneTable
+from renderer.plan import FramePlan, impenetrable
+from renderer.techniques.dynamic import DynamicTransparency
+
+TEXELS = 24_000_000  # of all slices of one part: what is larger is drawn in bands
+_COLORS, _DEPTHS, _MASKS, _PARTS, _NUMBERS, _SURFACES = 5, 6, 7, 8, 9, 10
+_PER_ROW, _SURFACES_PER_ROW = 1024, 4096
+
+
+@dataclass(frozen=True, eq=False)
+class ExactJob:
+    """All that one frame's exact parts need: `clip` is clip ← (world − eye) for GLSL."""
+
+    table: SceneTable
+    frame: FramePlan
+    camera: Camera
+    technique: DynamicTransparency
+    width: float
+    size: tuple[int, int]
+    clip: bytes
+
+
+class ExactPainter:
+    """Draws parts of a frame pixel by pixel."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._slice = {
+            flag: program(context, "object.vert", "slice.frag", ["WITH_SURFACES"] * flag)
+            for flag in (False, True)
+        }
+        self._masks = MaskPainter(context, ["CELLS"])
+        self._programs: dict[tuple[str, bool], moderngl.VertexArray] = {}
+        self._slices: Cells | None = None
+        self._entries: Cells | None = None
+        self._textures: dict[str, moderngl.Texture] = {}
+
+    def draw(self, job: ExactJob, target: moderngl.Framebuffer) -> tuple[int, int]:
+        """Draw the plan's exact parts over the frame. Returns passes and draw calls."""
+        passes, draws = self._prepare(job)
+        whole = job.frame.exact
+        self._set_parts(job, None)
+        if job.technique.granularity != "pixel":
+            draws += self._select(job, whole)
+        for part in bands(whole, self._slice_count(job, whole)):
+            draws += self._fill(job, part)
+            target.use()
+            target.scissor = _gl(part, job.size)
+            self._resolve(job, part, "OUTPUT_PICTURE")
+            target.scissor = None
+            passes += 2
+        return passes, draws
+
+    def layers(self, job: ExactJob) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
+        """Objects + 1 and shares (h, w) of the frame, from the front: eight at a time."""
+        self._prepare(job)
+        self._set_parts(job, None)
+        whole = np.array([[0, 0, *job.size]])
+        if job.technique.granularity != "pixel":
+            self._select(job, whole)
+        self._fill(job, whole[0])
+        textures = [self._context.texture(job.size, 4, dtype="f4") for _ in range(4)]
+        framebuffer = self._context.framebuffer(textures)
+        found = []
+        for first in range(0, self._used, 8):
+            framebuffer.use()
+            self._resolve(job, whole[0], "OUTPUT_SHARES", first)
+            for k in range(4):
+                data = framebuffer.read(components=4, attachment=k, dtype="f4", alignment=1)
+                rows = np.frombuffer(data, "f4").reshape(job.size[1], job.size[0], 4)[::-1]
+                for c in (0, 2):
+                    found.append((rows[..., c].astype(np.int64), rows[..., c + 1]))
+        framebuffer.release()
+        for texture in textures:
+            texture.release()
+        return found
+
+    def _prepare(self, job: ExactJob) -> tuple[int, int]:
+        """Mask geometry and the pictures of distances."""
+        covers = self._masks.prepare(
+            job.table, job.frame, job.camera, job.technique, job.width, job.size
+        )
+        if not covers:
+            return 0, 0
+        channel = self._masks.geometry.channel
+        sequence, runs = job.table.sequence(covers, job.camera, [channel] * len(covers))
+        self._use(self._masks.cover, job, sequence)
+        first = self._masks.cover["first"]
+        return 1, self._masks.draw_distances(job.table, runs, job.camera, first)
+
+    def _use(self, shader: moderngl.Program, job: ExactJob, sequence: moderngl.Texture) -> None:
+        job.table.table.use(0)
+        sequence.use(1)
+        shader["clip_from_offset"].write(job.clip)
+        set_uniform(shader, "table", 0)
+        set_uniform(shader, "sequence", 1)
+
+    def _slice_count(self, job: ExactJob, parts: NDArray[np.int64]) -> int:
+        return max(int(_sets(job, part)[1].max(initial=0)) + 1 for part in parts)
+
+    def _fill(self, job: ExactJob, part: NDArray[np.int64]) -> int:
+        """Draw all slices and masks of a part of the picture. Returns the draw calls."""
+        objects, which = _sets(job, part)
+        targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
+        reach = np.ascontiguousarray(job.frame.reach[targets])
+        entries = order.apart(reach) if len(targets) else np.zeros(0, np.int64)
+        self._used = int(which.max(initial=-1)) + 1
+        self._mask_count = int(entries.max(initial=-1)) + 1
+        if max(self._used, self._mask_count) > MOST:
+            raise ValueError(
+                f"exact picture: {max(self._used, self._mask_count)} objects or masks overlap at "
+                f"one place of the picture, expected at most {MOST}"
+            )
+        size = (int(part[2] - part[0]), int(part[3] - part[1]))
+        corner = (int(part[0]), int(job.size[1] - part[3]))
+        draws = self._fill_slices(job, size, corner, objects, which)
+        return draws + self._fill_masks(job, size, corner, targets, entries)
+
+    def _fill_slices(self, job, size, corner, objects, which):  # type: ignore[no-untyped-def]
+        surfaces = job.technique.granularity == "surface"
+        # 16-bit floats hold whole numbers up to 2048.
+        dtype = "f2" if len(job.table.scene.objects) <= 2048 else "f4"
+        if self._slices is None or not self._slices.fits(size, self._used, dtype, surfaces):
+            if self._slices is not None:
+                self._slices.release()
+            self._slices = Cells(self._context, size, self._used, dtype, True, surfaces)
+        self._slices.clear()
+        self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._context.depth_func = "<"
+        parts = [objects[which == k] for k in range(self._used)]
+        base = job.table.first_triangle.astype(float)
+        sequence, runs = job.table.sequence(parts, job.camera, [base] * len(parts))
+        shader = self._slice[surfaces]
+        self._use(shader, job, sequence)
+        first = shader["first"]
+        for k, part in enumerate(runs):
+            self._slices.select(k, corner, job.size)
+            for mesh, start, count in part:
+                first.value = start
+                mesh.array(self._context, shader).render(instances=count)
+        self._slices.framebuffer.scissor = None
+        return sum(len(part) for part in runs)
+
+    def _fill_masks(self, job, size, corner, targets, entries):  # type: ignore[no-untyped-def]
+        count = self._mask_count
+        if self._entries is None or not self._entries.fits(size, count, "f4", False):
+            if self._entries is not None:
+                self._entries.release()
+            self._entries = Cells(self._context, size, count, "f4", False)
+        self._entries.clear()
+        self._context.enable_only(moderngl.NOTHING)
+        shader = self._masks.mask
+        depths = _window_depth(job)
+        for k in range(count):
+            self._entries.select(k, corner, job.size)
+            x, y = self._entries.framebuffer.scissor[:2]
+            self._masks.begin(shift=(corner[0] - x, corner[1] - y))
+            for t in targets[entries == k].tolist():
+                set_uniform(shader, "beside", float(depths[t]))
+                set_uniform(shader, "target", t)
+                self._masks.draw_one(t)
+        self._entries.framebuffer.scissor = None
+        return len(targets)
+
+    def _set_parts(self, job: ExactJob, opacity: NDArray[np.float64] | None) -> None:
+        """Upload for each object whether it is impenetrable, and its opacity as a whole."""
+        n = len(job.table.scene.objects)
+        rows = np.zeros((-(-max(n, 1) // _PER_ROW) * _PER_ROW, 2), dtype="f4")
+        rows[:n, 0] = impenetrable(job.table.scene, job.camera, job.technique)
+        rows[:n, 1] = 1.0 if opacity is None else opacity
+        self._upload("parts", rows, _PER_ROW)
+
+    def _upload(self, name: str, rows: NDArray[np.float32], per_row: int) -> None:
+        size = (per_row, len(rows) // per_row)
+        if name not in self._textures or self._textures[name].size != size:
+            if name in self._textures:
+                self._textures.pop(name).release()
+            texture = self._context.texture(size, rows.shape[1], dtype="f4")
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            self._textures[name] = texture
+        self._textures[name].write(rows.astype("f4").tobytes())
+
+    def _select(self, job: ExactJob, whole: NDArray[np.int64]) -> int:
+        """Find which surfaces, objects or groups lie before the core of a mask; set their opacity.
+
+        Read back from all slices: an object may lie before a mask at a single pixel.
+        """
+        scene = job.table.scene
+        by_surface = job.technique.granularity == "surface"
+        best = np.zeros(job.table.first_triangle[-1] if by_surface else len(scene.objects))
+        draws = 0
+        for part in bands(whole, self._slice_count(job, whole)):
+            draws += self._fill(job, part)
+            light, which = self._lit(job, part)
+            lit = light > 0
+            np.maximum.at(best, which[lit], light[lit])
+        hard = impenetrable(scene, job.camera, job.technique)
+        if by_surface:
+            best[np.repeat(hard, np.diff(job.table.first_triangle))] = 0.0
+            opacity = 1 - (1 - job.technique.alpha_target) * best
+            rows = np.ones((-(-len(best) // _SURFACES_PER_ROW) * _SURFACES_PER_ROW, 1))
+            rows[: len(best), 0] = opacity
+            self._upload("surfaces", rows, _SURFACES_PER_ROW)
+            return draws
+        best[hard] = 0.0
+        if job.technique.granularity == "region":
+            groups = np.zeros(int(scene.group_of.max(initial=-1)) + 1)
+            np.maximum.at(groups, scene.group_of, best)
+            best = groups[scene.group_of]
+        self._set_parts(job, 1 - (1 - job.technique.alpha_target) * best)
+        return draws
+
+    def _lit(self, job: ExactJob, part: NDArray[np.int64]):  # type: ignore[no-untyped-def]
+        """Light on the masks behind each fragment of all slices, and its object or surface."""
+        assert self._slices is not None
+        cells = self._slices
+        texture = self._context.texture(cells.whole, 1, dtype="f4")
+        framebuffer = self._context.framebuffer([texture])
+        framebuffer.use()
+        self._resolve(job, part, "OUTPUT_LIGHT")
+        light = np.frombuffer(framebuffer.read(components=1, dtype="f4", alignment=1), "f4")
+        framebuffer.release()
+        texture.release()
+        if cells.numbers is not None:
+            data = cells.framebuffer.read(components=1, attachment=1, dtype="f4", alignment=1)
+            return light, np.frombuffer(data, "f4").astype(np.int64)
+        data = cells.framebuffer.read(components=4, dtype="f4", alignment=1)
+        return light, np.frombuffer(data, "f4")[3::4].astype(np.int64)
+
+    def _resolve(self, job: ExactJob, part: NDArray[np.int64], output: str, first: int = 0) -> None:
+        """Sort every pixel of a part into the bound framebuffer."""
+        surfaces = job.technique.granularity == "surface"
+        key = (output, surfaces)
+        if key not in self._programs:
+            defines = [output] + ["WITH_SURFACES"] * surfaces
+            shader = program(self._context, "present.vert", "exact.frag", defines)
+            self._programs[key] = self._context.vertex_array(shader, [])
+        shader = self._programs[key].program
+        self._set_resolve(job, part, shader, output == "OUTPUT_LIGHT")
+        set_uniform(shader, "from", first)
+        self._context.enable_only(moderngl.NOTHING)
+        self._programs[key].render(moderngl.TRIANGLES, 3)
+
+    def _set_resolve(self, job, part, shader, light):  # type: ignore[no-untyped-def]
+        slices, entries, technique = self._slices, self._entries, job.technique
+        textures = (
+            ("colors", _COLORS, slices.color),
+            ("depths", _DEPTHS, slices.depth),
+            ("masks", _MASKS, entries.color),
+            ("parts", _PARTS, self._textures["parts"]),
+            ("numbers", _NUMBERS, slices.numbers),
+            ("surfaces", _SURFACES, self._textures.get("surfaces")),
+        )
+        for name, unit, texture in textures:
+            if texture is not None:
+                texture.use(unit)
+            set_uniform(shader, name, unit)
+        values = {
+            "slices": self._used,
+            "mask_count": self._mask_count,
+            "cell": slices.size,
+            "columns": slices.columns,
+            "mask_columns": entries.columns,
+            "origin": (int(part[0]), int(job.size[1] - part[3])),
+            "background": job.table.scene.background,
+            "per_pixel": technique.granularity == "pixel",
+            "least": technique.combine == "min",
+            "additive": technique.model == "additive",
+            "limit": 1_000_000 if technique.layers is None else technique.layers,
+            "tau": technique.min_transmittance,
+        }
+        if light:
+            values["tau"] = max(1.0 - technique.alpha_target, 1e-6)
+        for name, value in values.items():
+            set_uniform(shader, name, value)
+
+
+def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The objects that a part of the picture shows, and the slice of each."""
+    boxes = job.frame.boxes
+    objects = np.nonzero(boxes.inside & _overlapping(boxes.extents, part))[0]
+    # Rasterisation may reach a pixel beyond the box of the exact coordinates.
+    grown = np.ascontiguousarray(boxes.extents[objects] + np.array([-1.0, -1.0, 1.0, 1.0]))
+    return objects, order.apart(grown) if len(objects) else np.zeros(0, np.int64)
+
+
+def _overlapping(extents: NDArray[np.float64], part: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(n,) which extents reach into a part of the picture."""
+    low = (extents[:, :2] <= part[2:]).all(axis=1)
+    return low & (extents[:, 2:] >= part[:2]).all(axis=1)
+
+
+def bands(parts: NDArray[np.int64], slices: int) -> NDArray[np.int64]:
+    """Parts (k, 4) cut into bands so that all slices of one fit into memory."""
+    rows = []
+    for left, top, right, bottom in parts.tolist():
+        step = max(1, TEXELS // max(1, (right - left) * slices))
+        rows += [(left, y, right, min(y + step, bottom)) for y in range(top, bottom, step)]
+    return np.array(rows, dtype=np.int64).reshape(-1, 4)
+
+
+def _gl(part: NDArray[np.int64], size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """A part (left, top, right, bottom) as OpenGL's x, y (up), width, height."""
+    left, top, right, bottom = (int(v) for v in part)
+    return (left, size[1] - bottom, right - left, bottom - top)
+
+
+def _window_depth(job: ExactJob) -> NDArray[np.float64]:
+    """(n,) depth-buffer value of each object's centre; −1 behind the eye."""
+    depth = job.camera.depth(job.table.scene.centers)
+    near, far = job.camera.near, job.camera.far
+    safe = np.where(depth > 0, depth, 1.0)
+    return np.where(depth > 0, far / (far - near) * (1 - near / safe), -1.0)

@@ -1,0 +1,219 @@
+"""Draws a plan into a picture, with or without a picture of ids beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from renderer.camera import Camera
+from renderer.gpu.exact_painter import ExactJob, ExactPainter
+from renderer.gpu.layer_counter import LayerCounter
+from renderer.gpu.mask_painter import MaskPainter
+from renderer.gpu.meshes import MeshStore
+from renderer.gpu.programs import program
+from renderer.gpu.scene_table import Run, SceneTable
+from renderer.gpu.targets import FrameTarget
+from renderer.plan import FramePlan, Technique
+from renderer.techniques.dynamic import DynamicTransparency
+
+OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
+NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
+OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
+MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
+# The minimum takes no factors: colour stays because a mask's own is made to be larger.
+AfterLevel = Callable[[], None]
+
+
+@dataclass(frozen=True)
+class FrameStats:
+    """What a frame took: passes over objects, draw calls, masks made, objects put in order, and
+    parts of the picture sorted by pixel. All 0 when the last frame was shown again."""
+
+    passes: int
+    draws: int
+    masks: int
+    ordered: int
+    exact_parts: int = 0
+
+
+class Layer:
+    """One kind of picture: its programs, and how a plan is drawn into it."""
+
+    def __init__(self, context: moderngl.Context, store: MeshStore, ids: bool) -> None:
+        self._context, self._store = context, store
+        defines = ["WITH_IDS"] if ids else []
+        self._object = program(context, "object.vert", "object.frag", defines)
+        self._depth = program(context, "object.vert", "depth.frag", defines)
+        self._masks = MaskPainter(context, defines)
+        self._counter: LayerCounter | None = None
+        self._exact: ExactPainter | None = None
+
+    def draw(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: Technique,
+        target: FrameTarget,
+        scale: float = 1.0,
+        after_level: AfterLevel | None = None,
+    ) -> FrameStats:
+        """Draw the plan. `scale` shrinks the masks' width; `after_level()` follows each level."""
+        self._passes = self._draws = 0
+        camera = tight(camera, frame)
+        size = target.size
+        self._matrix = clip_from_offset(camera, size)
+        runs, counts = self._before(table, frame, camera, technique, scale, size)
+        self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
+        self._context.depth_func = "<="
+        target.clear(table.scene.background)
+        for shader in (self._object, self._depth):
+            self._use(shader)
+        self._pass(self._object, runs[0], OPAQUE)
+        if after_level is not None:
+            after_level()
+        if frame.levels and isinstance(technique, DynamicTransparency):
+            self._masks.begin(counts)
+            self._blend_levels(frame, runs[1:], technique, after_level)
+        if len(frame.exact) and after_level is None:
+            self._draw_exact(self._job(table, frame, camera, technique, scale, size), target)
+        return FrameStats(
+            self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
+        )
+
+    def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
+        """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""
+        camera = tight(camera, frame)
+        self._matrix = clip_from_offset(camera, size)
+        return self._painter().layers(self._job(table, frame, camera, technique, scale, size))
+
+    def _painter(self) -> ExactPainter:
+        if self._exact is None:
+            self._exact = ExactPainter(self._context)
+        return self._exact
+
+    def _job(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
+        width = technique.width * scale
+        return ExactJob(table, frame, camera, technique, width, size, self._matrix)
+
+    def _draw_exact(self, job: ExactJob, target: FrameTarget) -> None:
+        passes, draws = self._painter().draw(job, target.framebuffer)
+        self._passes += passes
+        self._draws += draws
+
+    def _before(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
+        """Put the objects in sequence, make what the masks look up. Returns the runs of the opaque
+        pass and of each level, and the picture of counts if one is needed."""
+        parts = [frame.opaque, *(level.objects for level in frame.levels)]
+        if not frame.levels:
+            sequence, runs = table.sequence(parts, camera)
+            self._bind(table, sequence)
+            return runs, None
+        covers = self._masks.prepare(table, frame, camera, technique, technique.width * scale, size)
+        if "counting" in frame.without and technique.min_transmittance > 0:
+            counted = frame.masked
+        else:
+            counted = frame.counted
+        occluders = np.concatenate([np.zeros(0, np.int64), *parts[1:]])
+        channel = self._masks.geometry.channel
+        zeros = np.zeros(len(channel))
+        extra = [*covers, *([counted, occluders] if len(counted) else [])]
+        numbers = [zeros] * len(parts) + [channel] * len(covers) + [zeros] * 2
+        sequence, runs = table.sequence([*parts, *extra], camera, numbers)
+        self._bind(table, sequence)
+        counts = None
+        if covers:
+            self._passes += 1
+            self._use(self._masks.cover)
+            pictures = runs[len(parts) : len(parts) + len(covers)]
+            self._draws += self._masks.draw_distances(
+                table, pictures, camera, self._masks.cover["first"]
+            )
+        if len(counted):
+            counts = self._count(size, runs[-2], runs[-1])
+        return runs, counts
+
+    def _count(self, size: tuple[int, int], targets: list[Run], occluders: list[Run]):  # type: ignore[no-untyped-def]
+        if self._counter is None:
+            self._counter = LayerCounter(self._context)
+        self._use(self._counter.program)
+        self._passes += 2
+        self._draws += self._counter.draw(size, targets, occluders)
+        return self._counter.counts
+
+    def _bind(self, table: SceneTable, sequence: moderngl.Texture) -> None:
+        table.table.use(0)
+        sequence.use(1)
+
+    def _use(self, shader: moderngl.Program) -> None:
+        shader["clip_from_offset"].write(self._matrix)
+        for unit, name in enumerate(("table", "sequence")):
+            if name in shader:
+                shader[name].value = unit
+
+    def _pass(
+        self, shader: moderngl.Program, runs: list[Run], blend: tuple[int, int, int, int]
+    ) -> None:
+        if not runs:
+            return
+        if blend is OPAQUE:
+            self._context.disable(moderngl.BLEND)
+        else:
+            self._context.enable(moderngl.BLEND)
+            self._context.blend_func = blend
+        first = shader["first"]
+        for mesh, start, count in runs:
+            first.value = start
+            mesh.array(self._context, shader).render(instances=count)
+        self._passes += 1
+        self._draws += len(runs)
+
+    def _blend_levels(
+        self,
+        frame: FramePlan,
+        runs: list[list[Run]],
+        technique: DynamicTransparency,
+        after_level: AfterLevel | None,
+    ) -> None:
+        every = "prepass" in frame.without
+        for level, part in zip(frame.levels, runs, strict=False):
+            solid = [run for run in part if every or not run[0].mesh.convex]
+            self._pass(self._depth, solid, NOTHING)
+            self._pass(self._object, part, OBJECT)
+            if after_level is not None and part:
+                after_level()
+            if len(level.masks):
+                self._draw_masks(level.masks, technique.combine == "min")
+
+    def _draw_masks(self, targets, least: bool) -> None:  # type: ignore[no-untyped-def]
+        context = self._context
+        context.enable(moderngl.BLEND)
+        context.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        context.blend_func = MASK
+        if least:
+            context.blend_equation = moderngl.FUNC_ADD, moderngl.MIN
+        self._draws += self._masks.draw(targets)
+        context.blend_equation = moderngl.FUNC_ADD
+        context.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+
+
+def clip_from_offset(camera: Camera, size: tuple[int, int]) -> bytes:
+    """clip ← (world − eye), for GLSL."""
+    turn = np.eye(4)
+    turn[:3, :3] = camera.rotation.T
+    return (camera.projection(size[0] / size[1]) @ turn).T.astype("f4").tobytes()
+
+
+def tight(camera: Camera, frame: FramePlan) -> Camera:
+    """The camera with its depth range closed in on what is drawn: more bits for each unit."""
+    seen = np.nonzero(frame.boxes.inside)[0]
+    if not len(seen):
+        return camera
+    near = max(camera.near, float(frame.boxes.near[seen].min()) * (1 - 1e-6))
+    far = min(camera.far, float(frame.boxes.far[seen].max()) * (1 + 1e-6))
+    if near >= far:
+        return camera
+    return Camera(camera.eye, camera.rotation, camera.fov_y, near, far)

@@ -1,0 +1,323 @@
+"""Who is drawn before whom: which box lies before which, and levels that respect it.
+
+Two objects whose boxes (or spheres) a plane separates have an order that holds at every pixel:
+the one on the eye's side is in front. The planes tried are those of the separating-axis test.
+Where none separates them, their centres decide, and the pair is said to be uncertain.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+# A box that only touches another, to the accuracy of its coordinates, is separated from it.
+TOUCH = 1e-9
+
+BEHIND, NEITHER, IN_FRONT, UNCERTAIN = -1, 0, 1, 2
+
+
+@njit(cache=True)
+def meet(a, i, b, j):  # type: ignore[no-untyped-def]
+    """Whether box i of `a` (n, 4) and box j of `b` overlap on the screen."""
+    return a[i, 0] <= b[j, 2] and a[i, 2] >= b[j, 0] and a[i, 1] <= b[j, 3] and a[i, 3] >= b[j, 1]
+
+
+@njit(cache=True)
+def _along(x, y, z, sides, radius, i):  # type: ignore[no-untyped-def]
+    """How far object i reaches from its centre along the unit direction (x, y, z)."""
+    total = 0.0
+    for k in range(3):
+        total += abs(x * sides[i, k, 0] + y * sides[i, k, 1] + z * sides[i, k, 2])
+    return min(total, radius[i])
+
+
+@njit(cache=True)
+def _try(x, y, z, centers, sides, radius, i, j):  # type: ignore[no-untyped-def]
+    """IN_FRONT, BEHIND or NEITHER if a plane across (x, y, z) separates i from j, else UNCERTAIN.
+
+    Centres are relative to the eye.
+    """
+    length = np.sqrt(x * x + y * y + z * z)
+    if length < 1e-12:
+        return UNCERTAIN
+    x, y, z = x / length, y / length, z / length
+    ci = x * centers[i, 0] + y * centers[i, 1] + z * centers[i, 2]
+    cj = x * centers[j, 0] + y * centers[j, 1] + z * centers[j, 2]
+    if ci < cj:
+        ci, cj = -ci, -cj
+    # Now i lies on the positive side; the eye is at 0.
+    low = ci - _along(x, y, z, sides, radius, i)
+    high = cj + _along(x, y, z, sides, radius, j)
+    slack = TOUCH * (abs(ci) + abs(cj))
+    if low < high - slack:
+        return UNCERTAIN
+    if low <= slack:
+        return IN_FRONT
+    if high >= -slack:
+        return BEHIND
+    return NEITHER
+
+
+@njit(cache=True)
+def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped-def]
+    """Whether object i lies in front of object j wherever both show, as seen from the origin."""
+    if far[i] <= near[j]:
+        return IN_FRONT
+    if near[i] >= far[j]:
+        return BEHIND
+    d = centers[i] - centers[j]
+    found = _try(d[0], d[1], d[2], centers, sides, radius, i, j)
+    for k in range(3):
+        if found == UNCERTAIN:
+            s = sides[i, k]
+            found = _try(s[0], s[1], s[2], centers, sides, radius, i, j)
+        if found == UNCERTAIN:
+            s = sides[j, k]
+            found = _try(s[0], s[1], s[2], centers, sides, radius, i, j)
+    # Sides are not at right angles under a shear: the faces' normals are the cross products.
+    for k in range(15):
+        if found != UNCERTAIN:
+            return found
+        if k < 9:
+            a, b = sides[i, k // 3], sides[j, k % 3]
+        elif k < 12:
+            a, b = sides[i, k % 3], sides[i, (k + 1) % 3]
+        else:
+            a, b = sides[j, k % 3], sides[j, (k + 1) % 3]
+        x, y, z = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+        found = _try(x, y, z, centers, sides, radius, i, j)
+    return found
+
+
+@njit(cache=True)
+def decide(order, group, extents, reach, centers, sides, radius, near, far, targets, hard, blend):  # type: ignore[no-untyped-def]
+    """relation (n, n) of each pair that matters, and which objects blend and are masked.
+
+    `order` are the objects to look at, from far to near by their groups' centres; those in
+    `blend` (n,) blend in any case. relation[i, j] is 1 where i is drawn after j, −1 where before,
+    0 where it makes no difference; a pair without a separating plane is `uncertain` (n, n).
+    """
+    n = len(extents)
+    relation = np.zeros((n, n), np.int8)
+    uncertain = np.zeros((n, n), np.bool_)
+    blended, masked = blend.copy(), np.zeros(n, np.bool_)
+    for both in range(2):  # first every object against the targets, then all that blend
+        for a in range(len(order)):
+            for b in range(a):
+                i, j = order[a], order[b]  # j is farther by its centre
+                i_over_j = targets[j] and not hard[i] and meet(extents, i, reach, j)
+                j_over_i = targets[i] and not hard[j] and meet(extents, j, reach, i)
+                if both:
+                    if relation[i, j] != 0 or not (blended[i] and blended[j]):
+                        continue
+                    if not meet(extents, i, extents, j):
+                        continue
+                elif not (i_over_j or j_over_i):
+                    continue
+                found = IN_FRONT
+                if group[i] != group[j]:
+                    found = compare(centers, sides, radius, near, far, i, j)
+                doubt = found == UNCERTAIN
+                if doubt:
+                    found = IN_FRONT
+                    uncertain[i, j] = uncertain[j, i] = True
+                relation[i, j], relation[j, i] = found, -found
+                if not both and i_over_j and (found == IN_FRONT or doubt):
+                    blended[i] = masked[j] = True
+                if not both and j_over_i and (found == BEHIND or doubt):
+                    blended[j] = masked[i] = True
+    return relation, uncertain, blended, masked
+
+
+@njit(cache=True)
+def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no-untyped-def]
+    """The level of each blended object and of each mask (−2: none), and objects in a cycle.
+
+    An object comes after every mask and blended object behind it that it overlaps; a mask comes
+    with its own target and after everything behind. In a cycle the farthest object goes first.
+    """
+    n, m = len(extents), len(order)
+    of_object, of_mask = np.full(n, -2, np.int64), np.full(n, -2, np.int64)
+    waits = np.zeros((2, n), np.int64)  # for objects, and for masks
+    forced = np.zeros(n, np.bool_)
+    for a in range(m):
+        i = order[a]
+        if masked[i] and blended[i]:
+            waits[1, i] += 1
+        for b in range(m):
+            j = order[b]
+            if not blended[i] or i == j:
+                continue
+            if blended[j] and relation[i, j] == 1 and meet(extents, i, extents, j):
+                waits[0, i] += 1
+            if masked[j] and meet(extents, i, reach, j):
+                if relation[i, j] == 1:
+                    waits[0, i] += 1
+                elif relation[i, j] == -1:
+                    waits[1, j] += 1
+    done = np.zeros((2, n), np.bool_)
+    left = 0
+    for a in range(m):
+        i = order[a]
+        left += blended[i]
+        left += masked[i]
+        of_object[i] = 0 if blended[i] else -2
+        of_mask[i] = -1 if masked[i] else -2
+    while left:
+        moved = False
+        for kind in range(2):
+            for a in range(m):
+                i = order[a]
+                there = blended[i] if kind == 0 else masked[i]
+                if not there or done[kind, i] or waits[kind, i] > 0:
+                    continue
+                done[kind, i] = moved = True
+                left -= 1
+                _release(kind, i, order, extents, reach, relation, blended, masked, waits,
+                         of_object, of_mask)  # fmt: skip
+        if not moved:
+            for a in range(m):
+                i = order[a]
+                if blended[i] and not done[0, i]:
+                    forced[i] = True
+                    waits[0, i] = 0
+                    break
+            else:
+                for a in range(m):
+                    if masked[order[a]] and not done[1, order[a]]:
+                        waits[1, order[a]] = 0
+                        break
+    return of_object, of_mask, forced
+
+
+@njit(cache=True)
+def _release(kind, i, order, extents, reach, relation, blended, masked, waits, of_object, of_mask):  # type: ignore[no-untyped-def]
+    """Object or mask i has its level: those that wait for it come after it."""
+    for b in range(len(order)):
+        j = order[b]
+        if kind == 0:
+            if i == j:
+                if masked[i]:
+                    waits[1, i] -= 1
+                    of_mask[i] = max(of_mask[i], of_object[i])
+                continue
+            if blended[j] and relation[j, i] == 1 and meet(extents, i, extents, j):
+                waits[0, j] -= 1
+                of_object[j] = max(of_object[j], of_object[i] + 1)
+            if masked[j] and relation[i, j] == -1 and meet(extents, i, reach, j):
+                waits[1, j] -= 1
+                of_mask[j] = max(of_mask[j], of_object[i])
+        elif i != j and blended[j] and relation[j, i] == 1 and meet(extents, j, reach, i):
+            waits[0, j] -= 1
+            of_object[j] = max(of_object[j], of_mask[i] + 1)
+
+
+@njit(cache=True)
+def doubtful(order, extents, reach, relation, uncertain, blended, masked, forced, size):  # type: ignore[no-untyped-def]
+    """(k, 4) parts of the picture where the order of two objects is in doubt behind a mask.
+
+    Only where a mask reaches does the order show at all: elsewhere the depth buffer is exact.
+    """
+    m = len(order)
+    found = np.empty((m * m // 2 + 1, 4))
+    count = 0
+    for a in range(m):
+        for b in range(a):
+            i, j = order[a], order[b]
+            doubt = uncertain[i, j] or ((forced[i] or forced[j]) and blended[i] and blended[j])
+            if not doubt or not (blended[i] or blended[j]):
+                continue
+            low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf
+            for c in range(m):
+                s = order[c]
+                if not masked[s]:
+                    continue
+                x0 = max(0.0, max(reach[s, 0], _low(extents, reach, i, j, s, 0)))
+                y0 = max(0.0, max(reach[s, 1], _low(extents, reach, i, j, s, 1)))
+                x1 = min(size[0], min(reach[s, 2], _high(extents, reach, i, j, s, 2)))
+                y1 = min(size[1], min(reach[s, 3], _high(extents, reach, i, j, s, 3)))
+                if x0 < x1 and y0 < y1:
+                    low_x, low_y = min(low_x, x0), min(low_y, y0)
+                    high_x, high_y = max(high_x, x1), max(high_y, y1)
+            if low_x < high_x:
+                found[count, 0], found[count, 1] = low_x, low_y
+                found[count, 2], found[count, 3] = high_x, high_y
+                count += 1
+    return found[:count]
+
+
+@njit(cache=True)
+def _low(extents, reach, i, j, s, k):  # type: ignore[no-untyped-def]
+    """Lower end of where i and j overlap; the mask itself counts as its target's extent."""
+    a = reach[i, k] if i == s else extents[i, k]
+    b = reach[j, k] if j == s else extents[j, k]
+    return max(a, b)
+
+
+@njit(cache=True)
+def _high(extents, reach, i, j, s, k):  # type: ignore[no-untyped-def]
+    a = reach[i, k] if i == s else extents[i, k]
+    b = reach[j, k] if j == s else extents[j, k]
+    return min(a, b)
+
+
+def one_by_one(order, of_object, of_mask):  # type: ignore[no-untyped-def]
+    """The same order with a level for each object, its mask included: the naive painter's."""
+    n = len(of_object)
+    place = np.zeros(n, np.int64)
+    place[order] = np.arange(len(order))
+    objects = np.nonzero(of_object >= 0)[0]
+    rank = np.lexsort((place[objects], of_object[objects]))
+    alone = np.full(n, -2, np.int64)
+    alone[objects[rank]] = np.arange(len(objects))
+    # A mask of level k comes after every object of level k.
+    through = np.cumsum(np.bincount(of_object[objects], minlength=int(of_mask.max(initial=0)) + 1))
+    moved = np.where(of_mask >= 0, through[np.maximum(of_mask, 0)] - 1, of_mask)
+    return alone, moved
+
+
+@njit(cache=True)
+def merge(boxes):  # type: ignore[no-untyped-def]
+    """(k, 4) boxes that do not overlap, each about some of the given ones."""
+    rows = boxes.copy()
+    n = len(rows)
+    moved = True
+    while moved:
+        moved = False
+        i = 0
+        while i < n:
+            j = i + 1
+            while j < n:
+                a, b = rows[i], rows[j]
+                if a[0] < b[2] and a[2] > b[0] and a[1] < b[3] and a[3] > b[1]:
+                    rows[i, 0], rows[i, 1] = min(a[0], b[0]), min(a[1], b[1])
+                    rows[i, 2], rows[i, 3] = max(a[2], b[2]), max(a[3], b[3])
+                    n -= 1
+                    rows[j] = rows[n]
+                    moved = True
+                else:
+                    j += 1
+            i += 1
+    return rows[:n]
+
+
+@njit(cache=True)
+def apart(extents):  # type: ignore[no-untyped-def]
+    """(n,) a set for each of the (n, 4) boxes so that those of one set nowhere overlap."""
+    n = len(extents)
+    which = np.full(n, -1, np.int64)
+    for i in range(n):
+        taken = np.zeros(n + 1, np.bool_)
+        for j in range(i):
+            if (
+                extents[i, 0] <= extents[j, 2]
+                and extents[i, 2] >= extents[j, 0]
+                and extents[i, 1] <= extents[j, 3]
+                and extents[i, 3] >= extents[j, 1]
+            ):
+                taken[which[j]] = True
+        k = 0
+        while taken[k]:
+            k += 1
+        which[i] = k
+    return which
