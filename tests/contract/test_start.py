@@ -170,12 +170,15 @@ def test_an_interrupted_installation_is_repaired(installed: Path) -> None:
         first.kill()
     said = installed / "said.txt"
     with said.open("w") as output, subprocess.Popen(command, stdout=output) as second:
-        while not said.read_text("utf-8"):
-            assert second.poll() is None
-            time.sleep(0.05)
-        time.sleep(1)  # long enough to say more, were it not waiting
-        assert said.read_text("utf-8") == "start.py: another call is setting up: waiting for it\n"
-        (installed / "slow").unlink()
+        try:
+            while not said.read_text("utf-8"):
+                assert second.poll() is None
+                time.sleep(0.05)
+            time.sleep(1)  # long enough to say more, were it not waiting
+            waiting = "start.py: another call is setting up: waiting for it\n"
+            assert said.read_text("utf-8") == waiting
+        finally:
+            (installed / "slow").unlink()
     lines = said.read_text("utf-8").splitlines()
     assert "unfinished or another Python's: making it again" in lines[1]
     assert lines[-1] == "ran demo"
