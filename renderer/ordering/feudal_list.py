@@ -1,0 +1,177 @@
+"""The postprocessing phase of paper 002: from a feudal priority tree to a priority list."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.ordering.feudal_tree import Node
+from renderer.ordering.polygons import Floats, Integers
+
+DOWN, SWITCH, UP = 0, 1, 2
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Program:
+    """The tree as three lists of polygons for each node: on the way down, at the switch, back up.
+
+    Going down, a node draws B_j towards the eye and F_j away from it, level by level; coming back
+    up, F_j towards and B_j away, in the reverse order. `entries` (e,) are polygons and `wanted`
+    (e,) the way they must face: 1 towards the eye, 0 away, 2 either way. Node i has the entries
+    spans[i, k] to spans[i, k + 1], k = DOWN, SWITCH, UP; `breaks` (e,) marks the first of a class.
+    A closed volume has no entries that look away.
+    """
+
+    planes: Floats
+    triangles: Integers
+    entries: Integers
+    wanted: NDArray[np.uint8]
+    breaks: NDArray[np.bool_]
+    spans: Integers
+    children: Integers
+    switches: Integers
+    room: int
+    depth: int
+
+    def order(self, point: Floats) -> NDArray[np.int32]:
+        """Triangles from back to front, seen from a homogeneous point (4,)."""
+        out = np.empty(self.room, np.int32)
+        length = _emit(
+            self.planes, self.triangles, self.entries, self.wanted, self.spans, self.children,
+            self.switches, self.depth, point, out,
+        )  # fmt: skip
+        return out[:length]
+
+    def classes(self, point: Floats) -> list[Integers]:
+        """Polygons in classes, from back to front."""
+        return priority_list(self, self.planes @ point > 0)
+
+
+def program(
+    nodes: list[Node], planes: Floats, triangles: Integers, flat: Integers, closed: bool
+) -> Program:
+    """Flatten a tree. `planes` (m, 4) and `triangles` (m + 1,) belong to output polygons.
+
+    `flat` are polygons without area: they belong to no node and are drawn first of all.
+    """
+    entries: list[int] = [int(p) for p in flat]
+    wanted = [2] * len(entries)
+    breaks = [i == 0 for i in range(len(entries))]
+    spans = np.zeros((len(nodes), 4), np.int64)
+    either = 1 if closed else 2
+
+    def put(polygons: Integers, way: int, first: bool) -> None:
+        if way == 0 and closed:
+            return
+        for i, polygon in enumerate(polygons):
+            entries.append(int(polygon))
+            wanted.append(way)
+            breaks.append(first and i == 0)
+
+    for i, node in enumerate(nodes):
+        for back, front in ((b, f) for f, b in node.levels):
+            put(back, 1, True)
+            put(front, 0, len(back) == 0)
+        spans[i, SWITCH] = len(entries)
+        put(node.coplanar, either, True)
+        spans[i, UP] = len(entries)
+        for front, back in reversed(node.levels):
+            put(front, 1, True)
+            put(back, 0, len(front) == 0)
+        spans[i, 3] = len(entries)
+    spans[1:, DOWN] = spans[:-1, 3]
+    return Program(
+        planes=np.ascontiguousarray(planes),
+        triangles=triangles,
+        entries=np.array(entries, np.int64),
+        wanted=np.array(wanted, np.uint8),
+        breaks=np.array(breaks, bool),
+        spans=spans,
+        children=np.array([node.children for node in nodes], np.int64).reshape(-1, 2),
+        switches=np.array([node.switch for node in nodes], np.int64),
+        room=int(triangles[-1]),
+        depth=_depth(nodes),
+    )
+
+
+def _depth(nodes: list[Node]) -> int:
+    """Connecting nodes on the longest way down; children come after their parents."""
+    depth = [1] * len(nodes)
+    for i, node in enumerate(nodes):
+        for child in node.children:
+            if child >= 0:
+                depth[child] = depth[i] + 1
+    return max(depth)
+
+
+def priority_list(made: Program, toward: NDArray[np.bool_]) -> list[Integers]:
+    """Classes of polygons from back to front, `toward` (m,) saying which face the eye."""
+    classes: list[list[int]] = []
+    fresh = True
+
+    def put(begin: int, end: int) -> None:
+        nonlocal fresh
+        fresh = True
+        for e in range(begin, end):
+            fresh |= bool(made.breaks[e])
+            polygon, way = int(made.entries[e]), int(made.wanted[e])
+            if way == 2 or bool(toward[polygon]) == bool(way):
+                if fresh:
+                    classes.append([])
+                classes[-1].append(polygon)
+                fresh = False
+
+    # A node is met on the way down, between its children, and on the way back up.
+    stack = [(0, DOWN)]
+    while stack:
+        node, step = stack.pop()
+        put(int(made.spans[node, step]), int(made.spans[node, step + 1]))
+        if step == UP:
+            continue
+        stack.append((node, step + 1))
+        switch = int(made.switches[node])
+        if switch >= 0:
+            far = 1 if toward[switch] else 0
+            child = int(made.children[node, far if step == DOWN else 1 - far])
+            if child >= 0:
+                stack.append((child, DOWN))
+    return [np.sort(np.array(c)) for c in classes]
+
+
+@numba.njit(cache=True)
+def _emit(planes, triangles, entries, wanted, spans, children, switches, depth, point, out):
+    """`priority_list` without its classes, as triangles; returns how many."""
+    toward = np.empty(len(planes), np.uint8)
+    for p in range(len(planes)):
+        height = (
+            planes[p, 0] * point[0] + planes[p, 1] * point[1] + planes[p, 2] * point[2]
+            + planes[p, 3] * point[3]
+        )  # fmt: skip
+        toward[p] = 1 if height > 0.0 else 0
+    stack = np.empty((2 * depth + 2, 2), np.int64)
+    stack[0, 0], stack[0, 1] = 0, DOWN
+    top, length = 1, 0
+    while top:
+        top -= 1
+        node, step = stack[top]
+        for e in range(spans[node, step], spans[node, step + 1]):
+            polygon = entries[e]
+            if wanted[e] == 2 or wanted[e] == toward[polygon]:
+                for triangle in range(triangles[polygon], triangles[polygon + 1]):
+                    out[length] = triangle
+                    length += 1
+        if step == UP:
+            continue
+        stack[top, 0], stack[top, 1] = node, step + 1
+        top += 1
+        switch = switches[node]
+        if switch >= 0:
+            far = 1 if toward[switch] else 0
+            child = children[node, far if step == DOWN else 1 - far]
+            if child >= 0:
+                stack[top, 0], stack[top, 1] = child, DOWN
+                top += 1
+    return length
