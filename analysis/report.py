@@ -10,16 +10,21 @@ from typing import Any
 from analysis.errors import DataError
 from analysis.exclude import apply_rules
 from analysis.load.study import load_study
-from analysis.page.blocks import Figure, Report, Table, walk
+from analysis.page.blocks import Figure, Report, Section, Table, walk
 from analysis.page.html import as_html
 from analysis.page.markdown import as_markdown
 from analysis.page.tables_csv import as_csv
-from analysis.plan import make_plan
+from analysis.plan import TESTS, make_plan
 from analysis.sections.accuracy import accuracy_section
 from analysis.sections.context import Context
 from analysis.sections.participants import participants_section
+from analysis.sections.provenance import provenance_section
 from analysis.sections.ratings import ratings_section
+from analysis.sections.sensitivity import sensitivity_section
+from analysis.sections.summary import summary_section
 from analysis.sections.time import time_section
+from analysis.sections.tradeoff import tradeoff_section
+from analysis.sections.validity import validity_section
 
 SIMULATED = "Simulated participants: for planning only, never evidence about people."
 PILOT = "Pilot data: not part of the study."
@@ -42,15 +47,35 @@ def make_report(data: Path, options: Options) -> tuple[Report, Mapping[str, Any]
     plan = make_plan(study, options.alpha, options.exclude)
     trials, excluded = apply_rules(study.trials, plan.exclude)
     context = Context(study, plan, trials, excluded, options.seed)
-    time, _ = time_section(context)
-    accuracy, _ = accuracy_section(context)
-    ratings = ratings_section(context)
-    people = participants_section(context)
-    sections = [s for s in (people, time, accuracy, ratings) if s is not None]
+    sections = _sections(context)
     banner = {"simulated": SIMULATED, "pilot": PILOT}.get(study.source, "")
     subtitle = f"Source: {study.source}. {study.description}"
     report = Report(f"Study “{study.name}”: report", subtitle, banner, tuple(sections))
     return report, {"version": _version()}
+
+
+def _sections(context: Context) -> list[Section]:
+    """All sections in reading order; `participants` comes last to know who is missing where."""
+    time, logs = time_section(context)
+    accuracy, tests = accuracy_section(context)
+    ratings = ratings_section(context)
+    tables = [b for b in walk(ratings.blocks) if isinstance(b, Table)] if ratings else []
+    single = next((t for t in tables if t.key == "single_items"), None)
+    optional = {
+        "time": time,
+        "accuracy": accuracy,
+        "ratings": ratings,
+        "tradeoff": tradeoff_section(context),
+        "validity": validity_section(context),
+        "mixed": sensitivity_section(context, logs),
+    }
+    chosen = [optional[name] for name in TESTS if name in context.plan.tests]
+    return [
+        summary_section(context, logs, tests, single),
+        participants_section(context),
+        *(section for section in chosen if section is not None),
+        provenance_section(context),
+    ]
 
 
 def make_published() -> tuple[Report, Mapping[str, Any]]:

@@ -14,6 +14,7 @@ import pandas as pd
 
 from analysis.errors import DataError
 from analysis.load import schema
+from analysis.load.chain import ChainState, verify
 from analysis.load.table import Source, read_table
 
 
@@ -38,6 +39,7 @@ class Study:
     questionnaire: pd.DataFrame
     sidecars: Mapping[str, Mapping[str, Any]]
     files: tuple[FileRead, ...]
+    chains: tuple[ChainState, ...] = ()
     other_sources: tuple[str, ...] = ()
 
 
@@ -63,6 +65,8 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         _check_ids(questions)
         _check_source(questions, chosen)
     files = [*_records(sources, trials), *_records(answers, questions)]
+    sidecars = _sidecars(paths, folder)
+    chains = [verify(s, sidecars.get(s.name, {})) for s in sources]
     return Study(
         folder,
         str(about.get("name", folder.name)),
@@ -70,8 +74,9 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         chosen,
         trials,
         questions,
-        _sidecars(paths, folder),
+        sidecars,
         tuple(files),
+        tuple(chains),
         others,
     )
 

@@ -83,12 +83,19 @@ class Tips:
     """Collects what a mark says when pointed at: `mark` an artist while drawing."""
 
     texts: dict[str, str] = field(default_factory=dict)
+    lists: dict[str, list[str]] = field(default_factory=dict)
 
     def mark(self, artist: Any, text: str) -> None:
         """Let `artist` (matplotlib) say `text`."""
         name = f"tip{len(self.texts)}"
         artist.set_gid(name)
         self.texts[name] = text
+
+    def mark_each(self, artist: Any, texts: list[str]) -> None:
+        """Let each marker of a line of markers say its own text."""
+        name = f"tips{len(self.lists)}"
+        artist.set_gid(name)
+        self.lists[name] = texts
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,14 +15,8 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure as Canvas
 
+from analysis.figures.style import DYNAMIC, FAINT, INK, RULE, STANDARD
 from analysis.page.blocks import Figure, Tips
-
-INK = "#1f2328"
-RULE = "#d0d7de"
-FAINT = "#8c959f"
-STANDARD = "#c2570c"
-DYNAMIC = "#0b69b7"
-COLOURS = {"standard": STANDARD, "dynamic": DYNAMIC}
 
 _VARIABLES = {
     INK: "--ink",
@@ -79,6 +73,7 @@ def write_files(figure: Figure, folder: Path, formats: tuple[str, ...]) -> str:
     canvas, tips = drawn(figure)
     with mpl.rc_context(_STYLE):
         svg = _svg(canvas)
+        canvas.set_layout_engine("none")  # laid out once: every format is the same picture
         for kind in formats:
             path = folder / f"{figure.key}.{kind}"
             if kind == "svg":
@@ -117,8 +112,25 @@ def _marked(svg: str, tips: Tips, figure: Figure, inline: bool) -> str:
         old = f'<g id="{key}-{name}">'
         new = f'<g class="mark" data-tip="{said}"><title>{said}</title>'
         body = body.replace(old, new)
+    for name, texts in tips.lists.items():
+        body = _each_marked(body, f"{key}-{name}", texts)
     head = "" if inline else '<?xml version="1.0" encoding="utf-8"?>\n'
     return head + opening + about + body
+
+
+def _each_marked(body: str, name: str, texts: list[str]) -> str:
+    """Wrap the markers of the group `name`, which come in the order of their points."""
+    start = body.index(f'<g id="{name}">')
+    said = iter(texts)
+
+    def wrap(match: re.Match[str]) -> str:
+        text = next(said, None)
+        if text is None:  # past this group's markers
+            return match.group()
+        text = escape(text)
+        return f'<g class="mark" data-tip="{text}"><title>{text}</title>{match.group()}</g>'
+
+    return body[:start] + re.sub(r"<use [^>]*/>", wrap, body[start:])
 
 
 def _themed(svg: str) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.random import Generator
 
 from analysis.comparison import Measure, apa_f, compare
-from analysis.figures import effect_sizes
+from analysis.figures.comparison import effect_sizes
 from analysis.page.blocks import Block, Column, Fold, Report, Section, Table, say
 from analysis.published.consistency import Finding, all_findings
 from analysis.published.numbers import Published, load_published

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from analysis.comparison import Measure, apa_f, compare, measure
-from analysis.figures import bars_and_differences
+from analysis.figures.comparison import bars_and_differences
 from analysis.measures import distance, over_tasks, relative_error, share_correct
 from analysis.page.blocks import Block, Column, Prose, Section, Table, say
 from analysis.sections.context import Context

@@ -44,7 +44,13 @@ def participants_section(context: Context) -> Section:
             total.cite("trials excluded", "count"),
         )
     )
-    blocks += [*_deviations(context), total, _cells(context.trials), *_excluded(context)]
+    blocks += [
+        *_deviations(context),
+        total,
+        _cells(context.trials),
+        *_excluded(context),
+        *_missing(context),
+    ]
     if people <= 200:
         blocks.append(counts)
     if plan.exclude:
@@ -126,3 +132,27 @@ def _excluded(context: Context) -> list[Block]:
         Column("row", "row", "int"),
     )
     return [Table("excluded", "Excluded trials, by rule and row", columns, rows)]
+
+
+def _missing(context: Context) -> list[Block]:
+    """Who lacks a cell that an analysis needs: left out of that analysis, and named."""
+    rows = tuple(
+        {
+            "key": f"{where}/{m.participant}",
+            "where": where,
+            "participant": m.participant,
+            "cells": "; ".join(m.cells),
+        }
+        for where, missing in context.missing.items()
+        for m in missing
+    )
+    if not rows:
+        return [say("No participant lacks a cell of an analysis.", kind="note")]
+    columns = (
+        Column("key", "key"),
+        Column("where", "left out of"),
+        Column("participant", "participant"),
+        Column("cells", "missing cells"),
+    )
+    shown = ("where", "participant", "cells")
+    return [Table("missing", "Participants left out for missing cells", columns, rows, shown)]

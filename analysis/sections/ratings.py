@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from analysis.cells import Cells
 from analysis.comparison import Measure, measure
-from analysis.figures import ratings_figure
+from analysis.figures.comparison import ratings_figure
 from analysis.measures import answers, rating
 from analysis.page.blocks import Block, Column, Section, Table, say
 from analysis.sections.accuracy import FRIEDMAN, friedman_row

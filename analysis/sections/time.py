@@ -8,7 +8,7 @@ import numpy as np
 
 from analysis.cells import Cells
 from analysis.comparison import Measure, apa_f, compare, compare_logs, measure
-from analysis.figures import bars_and_differences
+from analysis.figures.comparison import bars_and_differences
 from analysis.measures import by_scenario, over_tasks, scenario_of, time_by_task
 from analysis.page.blocks import Block, Fold, Prose, Section, Table, say
 from analysis.sections.context import Context
@@ -50,7 +50,7 @@ def time_measures(cells: Cells) -> list[Measure]:
 
 
 def time_section(context: Context) -> tuple[Section, Table | None]:
-    """The section, and the table of tests that the predictions are answered from."""
+    """The section, and the table of log tests that the first prediction is answered from."""
     cells = time_by_task(context.trials)
     context.missing["completion time"] = cells.missing
     blocks: list[Block] = [*missing_note(cells.missing)]
@@ -72,7 +72,7 @@ def time_section(context: Context) -> tuple[Section, Table | None]:
         bars_and_differences("time", "Completion time by task", "time (s)", measures, tests)
     )
     blocks += [logs, tests, table, *_factorial(context, cells)]
-    return Section("time", "Completion time", tuple(blocks)), tests
+    return Section("time", "Completion time", tuple(blocks)), logs
 
 
 def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:

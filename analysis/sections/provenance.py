@@ -1,0 +1,103 @@
+"""What ran: versions, plan, files with their hashes, the chains' state."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Iterable, Mapping
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from analysis.page.blocks import Block, Column, Fold, Section, Table, say
+from analysis.plan import Plan, config_of, digest
+from analysis.sections.context import Context
+
+PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "matplotlib", "Jinja2")
+PAIRS = (Column("what", "what"), Column("value", "value"))
+
+
+def software() -> list[dict[str, str]]:
+    """Versions of what made this report."""
+    rows = [{"what": "Python", "value": platform.python_version()}]
+    for name in PACKAGES:
+        try:
+            rows.append({"what": name, "value": version(name)})
+        except PackageNotFoundError:
+            rows.append({"what": name, "value": "not installed"})
+    return rows
+
+
+def provenance_section(context: Context) -> Section:
+    """The last section of a study's report."""
+    study = context.study
+    configs = sorted({digest(config_of(s)) for s in study.sidecars.values() if config_of(s)})
+    states = [c.state for c in study.chains]
+    ran = [
+        *software(),
+        {"what": "analysis stream", "value": f"seed {context.seed}, spawn key (3, …)"},
+        {"what": "source", "value": study.source},
+        {"what": "config hash (12 of 64)", "value": ", ".join(configs) or "no config recorded"},
+        {"what": "analysis plan", "value": _plan(context.plan)},
+        {"what": "hash chains", "value": _chains(states)},
+        *_recorded(study.sidecars.values()),
+    ]
+    blocks: list[Block] = [
+        say(f"Hash chains: {_chains(states)}."),
+        Table("ran", "What ran", PAIRS, tuple(ran)),
+        Fold(f"The {len(study.files)} files read, with their SHA-256", (_files(context),)),
+    ]
+    return Section("provenance", "What ran", tuple(blocks))
+
+
+def _plan(plan: Plan) -> str:
+    frozen = "frozen" if plan.frozen is not None else "defaults"
+    rules = ", ".join(plan.exclude) or "none"
+    return (
+        f"{frozen}; alpha {plan.alpha:g}; exclusions: {rules}; tests: {', '.join(plan.tests)}; "
+        f"equivalence margin {plan.margin:g} of the standard mean; "
+        f"{len(plan.deviations)} deviations"
+    )
+
+
+def _chains(states: list[str]) -> str:
+    good, none = states.count("verified"), states.count("none")
+    if good and not none:
+        return f"all {good} verified, no byte of a row was changed"
+    if not good:
+        return "none recorded, so changes to the files after collection would not show"
+    return f"{good} verified, {none} tables without one"
+
+
+def _recorded(sidecars: Iterable[Mapping[str, Any]]) -> list[dict[str, str]]:
+    """Versions and driver that the sessions ran with, each distinct value once."""
+    seen: dict[str, set[str]] = {}
+    for sidecar in sidecars:
+        inner = sidecar.get("provenance")
+        place = inner if isinstance(inner, Mapping) else sidecar
+        for key in ("versions", "driver", "display", "seed", "code"):
+            if place.get(key) is not None:
+                seen.setdefault(key, set()).add(_flat(place[key]))
+    return [
+        {"what": f"recorded {key}", "value": " | ".join(sorted(values)[:3])}
+        for key, values in seen.items()
+    ]
+
+
+def _flat(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return ", ".join(f"{k} {_flat(v)}" for k, v in sorted(value.items()))
+    return str(value)
+
+
+def _files(context: Context) -> Table:
+    states = {c.file: c.state for c in context.study.chains}
+    rows = tuple(
+        {"file": f.name, "rows": f.rows, "sha256": f.sha256, "chain": states.get(f.name, "none")}
+        for f in context.study.files
+    )
+    columns = (
+        Column("file", "file"),
+        Column("rows", "rows", "int"),
+        Column("sha256", "SHA-256"),
+        Column("chain", "chain"),
+    )
+    return Table("files", "Files read", columns, rows)

@@ -1,0 +1,172 @@
+"""Speed and accuracy side by side: did anyone buy speed with errors?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from analysis.comparison import Measure, compare
+from analysis.figures.tradeoff import arrows
+from analysis.page.blocks import Block, Column, Prose, Section, Table, say
+from analysis.sections.context import Context
+from analysis.sections.tables import name_of
+from analysis.stats.undefined import Undefined
+from analysis.tradeoff import Change, accuracy_by_speed, changes, correlation, scores
+
+CHANGES = (
+    Column("task", "task"),
+    Column("label", "task"),
+    Column("error", "error measure"),
+    Column("n", "n", "int"),
+    Column("faster_worse", "faster, more errors", "int"),
+    Column("faster_better", "faster, fewer errors", "int"),
+    Column("faster_same", "faster, same errors", "int"),
+    Column("slower", "not faster", "int"),
+    Column("r", "r of changes", "bound2", "log time with error"),
+    Column("r_low", "from", "bound2", "95 % interval"),
+    Column("r_high", "to", "bound2", "95 % interval"),
+    Column("p", "p", "p"),
+)
+WARNINGS = {
+    "bis": "BIS weighs time and accuracy equally; it is the least sensitive to trade-offs, "
+    "unless the trade-off itself differs between conditions.",
+    "ies": "IES assumes that errors and time are exchangeable and misleads below 90 % correct.",
+    "rcs": "RCS counts right answers per second and inherits the weights of IES.",
+}
+SCORES_SHOWN = ("label", "n", "mean_standard", "mean_dynamic", "F", "p", "pes", "dz", "bf10")
+
+
+def tradeoff_section(context: Context) -> Section | None:
+    """None unless somebody worked under both levels."""
+    found = changes(context.trials)
+    if not found:
+        return None
+    table = Table(
+        "tradeoff",
+        "From standard to dynamic: who became faster, and at what price",
+        CHANGES,
+        tuple(_row(c) for c in found),
+        tuple(c.name for c in CHANGES[1:]),
+        "A positive r: those who gained more time also gained more accuracy. A negative one: time "
+        "was bought with errors.",
+    )
+    blocks: list[Block] = [
+        _sentence(table, found, context.plan.alpha),
+        arrows("tradeoff", found),
+        table,
+        _conditional(context),
+        *_scores(context),
+    ]
+    return Section("tradeoff", "What accuracy costs in time", tuple(blocks))
+
+
+def _row(c: Change) -> dict[str, object]:
+    time = np.log(c.time[:, 1] / c.time[:, 0])
+    error = c.error[:, 1] - c.error[:, 0]
+    faster = time < 0
+    r = correlation(time, error)
+    return {
+        "task": c.task,
+        "label": name_of(c.task),
+        "error": c.error_label,
+        "n": len(time),
+        "faster_worse": int(np.sum(faster & (error > 0))),
+        "faster_better": int(np.sum(faster & (error < 0))),
+        "faster_same": int(np.sum(faster & (error == 0))),
+        "slower": int(np.sum(~faster)),
+        "r": r.r,
+        "r_low": r.interval[0],
+        "r_high": r.interval[1],
+        "p": r.p,
+    }
+
+
+def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
+    """One sentence: whether anyone bought speed with errors."""
+    runs: list[object] = []
+    for c in found:
+        runs += [
+            ", " if runs else "",
+            table.cite(c.task, "faster_worse"),
+            " of ",
+            table.cite(c.task, "n"),
+            f" in {name_of(c.task)}",
+        ]
+    traded = [
+        name_of(c.task)
+        for c in found
+        if not isinstance((row := table.row(c.task))["p"], Undefined)
+        and row["p"] < alpha
+        and row["r"] < 0
+    ]
+    verdict = (
+        f"in {' and '.join(traded)} those who gained more time lost more accuracy: there speed "
+        "was bought with errors"
+        if traded
+        else "in no task did those who gained more time lose more accuracy, so there is no sign "
+        "that speed was bought with errors"
+    )
+    return say(
+        f"Faster and with more errors under dynamic transparency were {{}}; {verdict}.", runs
+    )
+
+
+def _conditional(context: Context) -> Table:
+    """Conditional accuracy."""
+    names = ("fastest third", "middle third", "slowest third")
+    rows = tuple(
+        {
+            "cell": f"{row.transparency}/{names[int(row.part)]}",
+            "transparency": str(row.transparency),
+            "third": names[int(row.part)],
+            "share": float(row.share),
+            "trials": int(row.trials),
+        }
+        for row in accuracy_by_speed(context.trials).itertuples()
+    )
+    return Table(
+        "conditional_accuracy",
+        "Conditional accuracy: right answers by speed",
+        (
+            Column("cell", "cell"),
+            Column("transparency", "transparency"),
+            Column("third", "trials"),
+            Column("share", "share correct", "fixed3"),
+            Column("trials", "trials", "int"),
+        ),
+        rows,
+        ("transparency", "third", "share", "trials"),
+        "Speed within participant × task × transparency. If haste makes errors, the fastest third "
+        "is the least accurate.",
+    )
+
+
+def _scores(context: Context) -> list[Block]:
+    """The combined scores as ordinary measures, each with its warning."""
+    found = scores(context.trials)
+    if found is None:
+        return []
+    blocks: list[Block] = []
+    measures = []
+    for key, label, values in (
+        ("bis", "balanced integration score", found.bis),
+        ("ies", "inverse efficiency score (s)", found.ies),
+        ("rcs", "rate-correct score (1/s)", found.rcs),
+    ):
+        if isinstance(values, Undefined):
+            blocks.append(say(f"{label[0].upper()}{label[1:]}: {values}.", kind="note"))
+        else:
+            measures.append(Measure(key, label, "", 3, values[:, 0], values[:, 1]))
+    if measures:
+        note = " ".join(WARNINGS[m.key] for m in measures)
+        table = replace(
+            compare(measures, context.plan.margin),
+            key="tests_combined",
+            title="Combined scores over all tasks (secondary)",
+            shown=SCORES_SHOWN,
+            note=f"Secondary: read time and error above first. {note}",
+        )
+        blocks.insert(0, table)
+    return blocks
