@@ -152,7 +152,7 @@ def dog() -> Shape:
         )
     tail = curve([(0, 0.68, 0.46), (0, 0.80, 0.58), (0, 0.97, 0.62), (0, 1.10, 0.56)], 6)
     limbs += chain([tuple(p) for p in tail], [0.055, 0.05, 0.045, 0.04, 0.035, 0.022], saddle)
-    coat = body(limbs, 0.027).painted(white, lambda p: (p[:, 1] > 1.02) & (p[:, 2] > 0.45))
+    coat = body(limbs, 0.027).tinted(white, lambda p: (p[:, 1] - 1.0) * 40 * (p[:, 2] > 0.45))
     nose = ball((0.045, 0.036, 0.035), BLACK, 10).at(0, 0.875, -0.845)
     collar = sweep(curve_ring((0, 0.745, -0.36), (0, 0.62, -0.75), 0.15), 0.022, (0.80, 0.12, 0.10),
                    6, closed=True)  # fmt: skip

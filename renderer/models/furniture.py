@@ -34,7 +34,7 @@ def table() -> Shape:
         box((0.03, 0.11, 0.70), apron, 0.006).at(x=0.71).both(),
     ).at(y=0.72)
     legs = copies(
-        turned_leg(0.77, 0.055, white, 28),
+        turned_leg(0.77, 0.055, white, 56),
         [(x, 0, z) for x in (-0.71, 0.71) for z in (-0.36, 0.36)],
     )
     return assemble(top, rails, legs, size=1.7)
@@ -46,7 +46,7 @@ def lamp() -> Shape:
     foot = curve(
         [(0.13, 0.03), (0.10, 0.08), (0.22, 0.28), (0.24, 0.38), (0.15, 0.55), (0.05, 0.66)], 22
     )
-    vase = lathe([(0.0, 0.03), *foot, (0, 0.66)], blue, 32, sharp=60)
+    vase = lathe([(0.0, 0.03), *foot, (0, 0.66)], blue, 56, sharp=60)
     plinth = disc(0.17, 0.05, BRASS, 32, 0.012).at(y=0.025)
     stem = lathe(
         [(0.03, 0.65), (0.045, 0.68), (0.02, 0.70), (0.02, 1.25), (0.035, 1.27), (0, 1.31)],

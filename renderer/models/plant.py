@@ -16,25 +16,25 @@ def plant() -> Shape:
          (0, 0.42)], clay, 40,
     ).painted(soil, lambda p: (np.hypot(p[:, 0], p[:, 2]) < 0.2) & (p[:, 1] > 0.415))  # fmt: skip
     rng = np.random.default_rng(3)
+    rings = [_leaf(0.95 - 0.1 * ring, 0.32 + 0.30 * ring) for ring in range(3)]
     leaves = []
     for i in range(22):
         ring, angle = divmod(i, 8)
         turn = 45 * angle + 22 * ring + rng.uniform(-8, 8)
-        leaf = _leaf(0.95 - 0.1 * ring, 0.32 + 0.30 * ring, rng.uniform(0.9, 1.1))
-        leaves.append(leaf.turned("y", turn).at(y=0.42))
+        leaves.append(rings[ring].scaled(rng.uniform(0.9, 1.1)).turned("y", turn).at(y=0.42))
     trunk = sweep(curve([(0, 0.4, 0), (0.01, 0.6, 0), (0, 0.75, 0)], 6), 0.045, stem, 10)
     return assemble(pot, trunk, join(*leaves), size=1.6)
 
 
-def _leaf(reach: float, rise: float, size: float) -> Shape:
+def _leaf(reach: float, rise: float) -> Shape:
     """A bowed blade from the origin out along −z, folded along its middle."""
     green, pale = (0.13, 0.46, 0.16), (0.42, 0.66, 0.26)
-    spine = size * curve(
+    spine = curve(
         [(0, 0.1, -0.02), (0, 0.45 + rise, -0.28 * reach), (0, 0.55 + rise, -0.62 * reach),
-         (0, 0.30 + rise * 0.8, -reach)], 16
+         (0, 0.30 + rise * 0.8, -reach)], 28
     )  # fmt: skip
-    t = np.linspace(0, 1, 16)
-    half = 0.085 * size * np.sin(np.pi * np.clip(t * 0.97 + 0.03, 0, 1)) ** 0.7 + 0.004
+    t = np.linspace(0, 1, 28)
+    half = 0.085 * np.sin(np.pi * np.clip(t * 0.97 + 0.03, 0, 1)) ** 0.7 + 0.004
     tangent = np.gradient(spine, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
     rings = np.stack([_section(*at) for at in zip(spine, tangent, half, strict=True)])

@@ -23,7 +23,7 @@ WALNUT: Color = (0.36, 0.21, 0.12)
 LINEN: Color = (0.96, 0.95, 0.91)
 
 
-def turned_leg(height: float, radius: float, color: Color, sides: int = 20) -> Shape:
+def turned_leg(height: float, radius: float, color: Color, sides: int = 40) -> Shape:
     """A leg from the lathe, its foot at the origin: square block, beads, taper."""
     profile = [(0.42, 0), (0.5, 0.03), (0.5, 0.08), (0.38, 0.11), (0.45, 0.25), (0.72, 0.55),
                (0.9, 0.66), (0.78, 0.70), (0.5, 0.72), (0.85, 0.745), (0.85, 0.76), (0.5, 0.785),
@@ -39,7 +39,7 @@ def chair() -> Shape:
         0.05, OAK, 0.012).turned("x", -90).at(y=0.56)  # fmt: skip
     front = turned_leg(0.54, 0.035, OAK).at(0.235, 0, -0.19)
     post = curve([(0.2, 0, 0.25), (0.2, 0.35, 0.2), (0.2, 0.6, 0.2), (0.215, 1.22, 0.33)], 12)
-    back = sweep(post, np.linspace(0.027, 0.022, 12), OAK, 10)
+    back = sweep(post, np.linspace(0.027, 0.022, 12), OAK, 16)
     knob = lathe([(0.01, 0), (0.028, 0.02), (0.03, 0.04), (0.012, 0.07), (0, 0.072)], OAK, 12)
     rail = curve(
         [(-0.25, 1.15, 0.30), (-0.12, 1.19, 0.345), (0.12, 1.19, 0.345), (0.25, 1.15, 0.30)], 12
@@ -59,8 +59,8 @@ def chair() -> Shape:
 
 
 def rounded_bar(width: float, height: float) -> np.ndarray:
-    """(16, 2) cross-section of a flat bar with round edges, in units of its radius."""
-    return rounded(2 * width, 2 * height, 0.8 * height, 3)
+    """(24, 2) cross-section of a flat bar with round edges, in units of its radius."""
+    return rounded(2 * width, 2 * height, 0.8 * height, 5)
 
 
 def directors_chair() -> Shape:

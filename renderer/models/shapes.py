@@ -21,6 +21,10 @@ SHARP = 50.0
 """Degrees between the faces at an edge from which on the edge looks sharp."""
 
 
+LONGEST_CHAIN = 127
+"""Most triangles round a vertex with sharp edges: more than the sides of any cap or pole."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Shape:
     """vertices (n, 3); triangles (m, 3), counter-clockwise from outside; colors (m, 3, 3), one RGB
@@ -119,8 +123,13 @@ def shade(whole: Shape) -> Mesh:
     beside rounded edges.
     """
     faces = _areas(whole)
-    most = int(np.bincount(whole.triangles.ravel()).max())
-    label = _corner_groups(_across_smooth_edges(whole, faces), most)
+    label = _vertex_corners(whole)
+    sharp = _sharp_vertices(whole, label)[whole.triangles]
+    near = np.flatnonzero(sharp.any(axis=1))
+    if len(near):
+        corners = (3 * near[:, None] + np.arange(3)).ravel()
+        group = corners[_corner_groups(_across_smooth_edges(whole, faces, near))]
+        label[corners] = np.where(sharp[near].ravel(), group, label[corners])
     kept = label == np.arange(len(label))
     triangles = (np.cumsum(kept) - 1)[label]
     normals = np.stack([np.bincount(triangles, np.repeat(f, 3)) for f in faces.T], axis=1)
@@ -146,44 +155,64 @@ def _lengths(vectors: Array) -> Array:
     return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
-def _across_smooth_edges(whole: Shape, faces: Array) -> NDArray[np.int64]:
-    """(3m,) for each corner the next corner round its vertex, or itself where the edge is sharp.
+def _vertex_corners(whole: Shape) -> NDArray[np.int64]:
+    """(3m,) for each corner the first corner at its vertex."""
+    start = whole.triangles.ravel()
+    first = np.empty(len(whole.vertices), np.int64)
+    first[start[::-1]] = np.arange(len(start))[::-1]
+    return first[start]
+
+
+def _sharp_vertices(whole: Shape, first: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(n,) vertices of triangles that may have sharp edges or a colour border."""
+    colors = whole.colors.reshape(-1, 3)
+    border = (colors != colors[first]).any(axis=1).reshape(-1, 3).any(axis=1)
+    sharp = np.zeros(len(whole.vertices), bool)
+    sharp[whole.triangles[(whole.crease > -1) | border]] = True
+    return sharp
+
+
+def _across_smooth_edges(
+    whole: Shape, faces: Array, chosen: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """(3k,) for each corner of the chosen faces the next corner round its vertex, or itself where
+    the edge is sharp.
 
     Corner 3f + k is vertex k of triangle f; its edge leads to vertex k + 1. The triangle on the
     other side of that edge runs it the other way, so its corner at our vertex follows that edge's
     own corner. Edges of other than two triangles count as sharp.
     """
-    count = 3 * len(faces)
-    following = np.arange(count).reshape(-1, 3)[:, [1, 2, 0]].ravel()
-    start = whole.triangles.ravel()
-    end = start[following]
+    corners, crease = whole.triangles[chosen], whole.crease[chosen]
+    start, end = corners.ravel(), corners[:, [1, 2, 0]].ravel()
+    following = np.arange(len(start)).reshape(-1, 3)[:, [1, 2, 0]].ravel()
     key = np.minimum(start, end) * len(whole.vertices) + np.maximum(start, end)
     order = np.argsort(key)
     same = np.concatenate([[False], np.diff(key[order]) == 0, [False]])
     pair = np.flatnonzero(same[1:-1] & ~same[:-2] & ~same[2:])
     here, there = order[pair], order[pair + 1]
-    unit = (faces / _lengths(faces)[:, None]).T
+    unit = (faces[chosen] / _lengths(faces[chosen])[:, None]).T
     f, g = here // 3, there // 3
     cosine = sum(unit[i][f] * unit[i][g] for i in range(3))
-    smooth = cosine >= np.minimum(whole.crease[f], whole.crease[g])
+    smooth = cosine >= np.minimum(crease[f], crease[g])
     smooth &= start[here] == end[there]
-    color = (whole.colors.reshape(-1, 3) * 1023).astype(np.int64) @ np.array([1 << 20, 1 << 10, 1])
+    rgb = (whole.colors[chosen].reshape(-1, 3) * 1023).astype(np.int64)
+    color = rgb @ np.array([1 << 20, 1 << 10, 1])
     here2, there2 = following[here], following[there]
     smooth &= (color[here] == color[there2]) & (color[here2] == color[there])
-    onward = np.arange(count)
+    onward = np.arange(len(start))
     onward[here[smooth]] = there2[smooth]
     onward[there[smooth]] = here2[smooth]
     return onward
 
 
-def _corner_groups(onward: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+def _corner_groups(onward: NDArray[np.int64]) -> NDArray[np.int64]:
     """(3m,) one corner to stand for all those that `onward` chains together.
 
     A chain either ends, and its end stands for it, or runs round the vertex, and its lowest corner
-    does. Steps double in length, so rounds are the logarithm of the longest chain, `most` corners.
+    does. Steps double in length, so rounds are the logarithm of the longest chain.
     """
     lowest, jump = np.arange(len(onward)), onward
-    for _ in range(int(np.ceil(np.log2(most)))):
+    for _ in range(LONGEST_CHAIN.bit_length()):
         lowest = np.minimum(lowest, lowest[jump])
         jump = jump[jump]
     return np.where(onward[jump] == jump, jump, lowest)

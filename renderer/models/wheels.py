@@ -29,7 +29,7 @@ GLASS: Color = (0.20, 0.30, 0.38)
 def tyre(radius: float, width: float, depth: float, sides: int = 32, steps: int = 3) -> Shape:
     """A tyre about the x axis, its tread `depth` above the rim."""
     flat = rounded(depth, width, 0.42 * min(depth, width), steps)
-    return ring(np.add(flat, (radius - depth / 2, 0)), RUBBER, sides).turned("z", 90)
+    return ring(np.add(flat, (radius - depth / 2, 0)), RUBBER, sides, sharp=180).turned("z", 90)
 
 
 def road_wheel(radius: float, width: float, rim: Color = STEEL, spokes: int = 5) -> Shape:
@@ -40,7 +40,7 @@ def road_wheel(radius: float, width: float, rim: Color = STEEL, spokes: int = 5)
          (inner * 0.93, 0.44 * width), (inner * 0.86, 0.20 * width), (0, 0.16 * width)],
         (0.25, 0.25, 0.27), 32, sharp=30,
     ).painted(rim, lambda p: np.hypot(p[:, 0], p[:, 2]) > inner * 0.87)  # fmt: skip
-    bar = box((0.2 * radius, 0.16 * width, 0.60 * radius), rim, 0.02 * radius).at(
+    bar = box((0.2 * radius, 0.16 * width, 0.60 * radius), rim, 0.02 * radius, 1).at(
         y=0.28 * width, z=0.3 * radius
     )
     hub = disc(0.19 * radius, 0.2 * width, rim, 16, 0.03 * radius).at(y=0.32 * width)

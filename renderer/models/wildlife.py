@@ -79,7 +79,7 @@ def rabbit() -> Shape:
                [0.10, 0.066, 0.058], fur),
     ]  # fmt: skip
     tail = L((0, 0.30, 0.50), (0, 0.31, 0.51), 0.12, 0.11, light, soft=0.02)
-    coat = body([*limbs, *half, *mirrored(half), tail], 0.025)
+    coat = body([*limbs, *half, *mirrored(half), tail], 0.03)
     inner = (
         ball((0.035, 0.19, 0.012), pink, 14).turned("x", 10).turned("z", -7).at(0.094, 1.16, -0.282)
     )
