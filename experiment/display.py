@@ -24,6 +24,9 @@ class Display(Protocol):
     def show(self, view: View, technique: Any) -> float:
         """Draw and flip; the time of the flip."""
 
+    def digest(self) -> str:
+        """A digest of the picture shown last, without its HUD; empty where nothing was drawn."""
+
     def progress(self, fraction: float) -> None:
         """How much of the session is done: a line, never a clock."""
 

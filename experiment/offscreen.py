@@ -33,6 +33,10 @@ class OffscreenDisplay:
         self.looking.technique = technique
         return self.clock.now()
 
+    def digest(self) -> str:
+        """Nothing is drawn for nobody."""
+        return ""
+
     def progress(self, fraction: float) -> None:
         """Nobody sees the progress line."""
 

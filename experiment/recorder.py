@@ -9,7 +9,6 @@ from __future__ import annotations
 import csv
 import json
 import os
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
@@ -19,11 +18,10 @@ from typing import Any, TextIO
 from experiment.columns import NOTES, QUESTIONNAIRE, TABLES, TRIALS, Column
 from experiment.design import Trial
 from experiment.errors import InputError
+from experiment.folders import folder_of, next_free, stem_of
 from experiment.trial import TrialRecord
 from tasks.base import View
 from tasks.events import Event, Tick
-
-PARTICIPANT = re.compile(r"[A-Za-z0-9_-]{1,32}")
 
 
 @dataclass(frozen=True)
@@ -36,26 +34,6 @@ class Who:
     slot: int
     provenance: Mapping[str, Any]
     session: int = 1  # one more each time an interrupted session is gone on with
-
-
-def check_participant(participant: str) -> str:
-    """The id, if it may be one. Raises InputError."""
-    if not PARTICIPANT.fullmatch(participant):
-        raise InputError(
-            f"--participant = {participant!r}: expected 1 to 32 letters, digits, - or _"
-        )
-    return participant
-
-
-def folder_of(data: Path, source: str, participant: str) -> Path:
-    """Where a participant's files lie."""
-    return data / "data" / source / participant
-
-
-def stem_of(study: str, participant: str, session: int = 1) -> str:
-    """Start of a participant's file names. Psych-DS values are letters and digits only."""
-    plain = re.sub(r"[^A-Za-z0-9]", "", participant) or "x"
-    return f"study-{study}_subject-{plain}_session-{session}"
 
 
 def utc_now() -> str:
@@ -116,10 +94,10 @@ class FileRecorder:
         assert self._traces is not None
         self._traces.event(event)
 
-    def frame(self, time: float, view: View) -> None:
-        """One frame shown in the running trial."""
+    def frame(self, time: float, view: View, digest: str = "") -> None:
+        """One frame shown in the running trial; the digest of its pixels now and then."""
         assert self._traces is not None
-        self._traces.frame(time, view)
+        self._traces.frame(time, view, digest)
 
     def trial_ends(self, record: TrialRecord) -> None:
         """Append the trial's row; it is on disk when this returns."""
@@ -240,7 +218,7 @@ class _Traces:
         self._events = _open_new(folder / self.events_name)
         self._camera = _open_new(folder / self.camera_name)
         self._events.write("time,event,x,y,dx,dy,dragging,key\n")
-        self._camera.write("time,eye_x,eye_y,eye_z,forward_x,forward_y,forward_z\n")
+        self._camera.write("time,eye_x,eye_y,eye_z,forward_x,forward_y,forward_z,digest\n")
         self._last_camera: Any = None
 
     def event(self, event: Event) -> None:
@@ -253,11 +231,11 @@ class _Traces:
             rest = ",".join(_cell(values.get(n)) for n in names)
         self._events.write(f"{event.time!r},{kind},{rest}\n")
 
-    def frame(self, time: float, view: View) -> None:
+    def frame(self, time: float, view: View, digest: str) -> None:
         camera = view.camera
         values = [] if camera is self._last_camera else [*camera.eye, *camera.forward]
         cells = [repr(float(v)) for v in values] or [""] * 6
-        self._camera.write(",".join([repr(time), *cells]) + "\n")
+        self._camera.write(",".join([repr(time), *cells, digest]) + "\n")
         self._last_camera = camera
 
     def close(self) -> None:
@@ -297,21 +275,6 @@ def describe_dataset(data: Path, study: str) -> None:
         return  # another station described the study first: the same words
     except OSError as error:
         raise InputError(f"{data}: cannot be written: {error.strerror}") from None
-
-
-def taken(data: Path, source: str) -> frozenset[str]:
-    """Ids of the participants of a source that have files."""
-    return frozenset(p.name for p in (data / "data" / source).glob("*"))
-
-
-def next_free(data: Path, source: str) -> str:
-    """The lowest P01, P02, … that no participant of this source has (S01, … for simulated)."""
-    letter = "S" if source == "simulated" else "P"
-    names = taken(data, source)
-    number = 1
-    while f"{letter}{number:02d}" in names:
-        number += 1
-    return f"{letter}{number:02d}"
 
 
 def _cell(value: Any) -> str:

@@ -30,8 +30,8 @@ class Recorder(Protocol):
     def event(self, event: Any) -> None:
         """One input event of the running trial."""
 
-    def frame(self, time: float, view: Any) -> None:
-        """One frame shown in the running trial."""
+    def frame(self, time: float, view: Any, digest: str = "") -> None:
+        """One frame shown in the running trial; the digest of its pixels now and then."""
 
     def trial_ends(self, record: TrialRecord) -> None:
         """A completed trial: on disk when this returns."""

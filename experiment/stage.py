@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from typing import Any
 
 import moderngl
@@ -55,6 +56,10 @@ class Stage:
             hud.draw_pointer(self.pointer)
         draw_progress(self.size, self.done, self.pilot)
         self.interface.end(target)
+
+    def digest(self) -> str:
+        """BLAKE2b of the pixels of the view drawn last, without its HUD."""
+        return hashlib.blake2b(self.renderer.read().tobytes(), digest_size=16).hexdigest()
 
     def draw_form(self, form: Form, target: moderngl.Framebuffer, passed: float) -> bool:
         """Draw a page; whether one of its buttons was pressed."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5
+DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares
 
 LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
 MENU = Page(
@@ -135,6 +137,7 @@ class Running:
         self._trial, self._state, self._limit = trial, state, limit
         self._watch = _Watch(1.0 / run.study.display.refresh)
         self._first = self._confirmed = 0.0
+        self._digested = -inf
         self._away = 0.0
         self._lost_focus: float | None = None
         self._outcome: Outcome | None = None
@@ -154,7 +157,10 @@ class Running:
         if self._watch.frames == 0:
             self._first = flip
         self._watch.frame(flip, self.view)
-        self._world.recorder.frame(flip, self.view)
+        due = flip - self._digested >= DIGEST_EVERY
+        digest = self._world.display.digest() if due else ""
+        self._digested = flip if due else self._digested
+        self._world.recorder.frame(flip, self.view, digest)
 
     def take(self, event: Event) -> None:
         """Let an event change the trial. Raises Leave."""
@@ -194,8 +200,9 @@ class Running:
         self._watch.pause()
 
     def record(self) -> TrialRecord:
-        """What became of the trial."""
+        """What became of the trial; the frame it ended on is noted with its digest."""
         watch = self._watch
+        self._world.recorder.frame(self._confirmed, self.view, self._world.display.digest())
         lost = 0.0 if self._lost_focus is None else self._confirmed - self._lost_focus
         return TrialRecord(
             trial=self._trial,

@@ -93,6 +93,10 @@ class Window:
         self.on_frame()
         return self._flip()
 
+    def digest(self) -> str:
+        """A digest of the picture shown last, without its HUD."""
+        return self.stage.digest()
+
     def progress(self, fraction: float) -> None:
         """Draw the progress line up to `fraction` from now on."""
         self.stage.done = fraction
@@ -147,6 +151,11 @@ class Window:
             self._draw_page(form)
             if self._closed or self._escape_pressed():
                 raise Leave
+
+    def left(self) -> bool:
+        """Handle what came in; whether Esc was pressed or the window closed."""
+        self._pump()
+        return self._closed or self._escape_pressed()
 
     def point(self, at: tuple[float, float] | None) -> None:
         """Draw a pointer at a place in view units, for a simulated participant's hand."""

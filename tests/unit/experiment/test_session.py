@@ -41,6 +41,9 @@ class FakeDisplay:
         self.shown.append((view, technique))
         return self.clock.now()
 
+    def digest(self):
+        return ""
+
     def progress(self, fraction):
         self.fraction = fraction
 
@@ -97,7 +100,7 @@ class MemoryRecorder:
     def event(self, event):
         self.events.append(event)
 
-    def frame(self, time, view):
+    def frame(self, time, view, digest=""):
         pass
 
     def trial_ends(self, record):

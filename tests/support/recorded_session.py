@@ -1,0 +1,101 @@
+"""A short session through the real session code, drawn and recorded, played by a script."""
+
+import numpy as np
+
+from experiment.clock import SimulatedClock
+from experiment.config import parse
+from experiment.driver import describe
+from experiment.provenance import provenance
+from experiment.recorder import FileRecorder, Who
+from experiment.session import World, run_session
+from experiment.stage import Stage
+from experiment.texts import Texts
+from renderer.gpu.context import standalone
+from tasks.catalog import TASKS
+from tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
+
+STUDY = {
+    "study": {"name": "t", "title": "t", "description": "t", "participants": 4, "seed": 1},
+    "design": {"trials": 1, "training": 0},
+    "abstract": {"side": 50.0, "objects": 60, "target_share": [0.3, 0.4]},
+    "walkthrough": {"grid": 6, "objects": 8, "count": [1, 3], "types": ["chair", "table", "cat"]},
+    "display": {"width": 320, "height": 240},
+    "session": {"questionnaire": []},
+}
+FRAME = 0.25  # s of session time between two frames
+
+
+ANSWERS = {
+    "count": ["1", "7", "enter"],
+    "pattern": ["x", "enter"],
+    "unique": ["space", "left", "enter"],
+    "count_in_building": ["2", "enter"],
+}
+
+
+class DrawnDisplay:
+    """Draws every view offscreen, as the window does, and digests it."""
+
+    SIZE = (320, 240)
+    aspect = 4 / 3
+
+    def __init__(self, clock):
+        self.clock = clock
+        self.context = standalone()
+        self.stage = Stage(self.context, self.SIZE, Texts("en"))
+        self.target = self.context.framebuffer([self.context.texture(self.SIZE, 4)])
+
+    def show(self, view, technique):
+        self.stage.draw_view(view, technique, self.target, FRAME)
+        return self.clock.now()
+
+    def digest(self):
+        return self.stage.digest()
+
+    def progress(self, fraction):
+        pass
+
+    def describe(self):
+        return {**describe(self.context), "size": "320x240"}
+
+
+class Script:
+    """Drags, walks and turns for a dozen frames, then answers by keyboard."""
+
+    def __init__(self, clock):
+        self.clock = clock
+        self.rng = np.random.default_rng(5)
+
+    def begin_trial(self, task, training):
+        self.task, self.frames = task, 0
+
+    def events(self, view):
+        self.clock.advance(self.clock.now() + FRAME)
+        now, self.frames = self.clock.now(), self.frames + 1
+        if self.frames <= 12:
+            dx, dy = (float(v) for v in self.rng.uniform(-0.05, 0.05, 2))
+            events = [PointerMove(now - 0.1, 0.5 + dx, 0.5 + dy, dx, dy, dragging=True)]
+            if self.frames == 3:
+                events.append(KeyPress(now - 0.05, "up"))
+            if self.frames == 7:
+                events.append(KeyRelease(now - 0.05, "up"))
+            return [*events, Tick(now)]
+        keys = ANSWERS[self.task]
+        if self.task == "unique" and self.frames == 14:
+            return [PointerPress(now, 0.6, 0.5), KeyPress(now, "enter"), Tick(now)]
+        keys = keys[:1] if self.task == "unique" else keys
+        return [*(KeyPress(now, k) for k in keys), Tick(now)]
+
+    def ask(self, page):
+        self.clock.advance(self.clock.now() + 1.0)
+        return {"button": "0"}
+
+
+def play_recorded(folder):
+    """Play participant P01's session into `folder`."""
+    study = parse(STUDY, "test")
+    clock = SimulatedClock(1000.0)
+    display = DrawnDisplay(clock)
+    who = Who("t", "P01", "human", 1, provenance(study, display.describe()))
+    world = World(display, Script(clock), clock, FileRecorder(folder, who), TASKS)
+    assert run_session(study, 1, world) == "complete"
