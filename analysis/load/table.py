@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,9 @@ import numpy as np
 import pandas as pd
 
 from analysis.errors import DataError
+
+NEWLINE = b"\n"
+CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 
 WANTED = {
     "integer": "a whole number",
@@ -43,10 +47,13 @@ def read_table(sources: Sequence[Source], columns: Mapping[str, str]) -> pd.Data
         raise DataError(problems)
     frames = []
     for header, group in _by_header(sources).items():
-        bodies = [source.data.partition(b"\n")[2] for source in group]
+        bodies = [_plain_body(source.data) for source in group]
         joined = header + b"\n" + b"".join(bodies)
         frame = _parse(joined, columns, group)
         counts = [_rows(body) for body in bodies]
+        if sum(counts) != len(frame):  # two readers of CSV disagree: neither is to be trusted
+            names = ", ".join(source.name for source in group[:3])
+            raise DataError(f"{names}: cannot be read unambiguously as comma-separated values")
         frame["_file"] = pd.Categorical(
             np.repeat([source.name for source in group], counts),
             categories=[source.name for source in group],
@@ -68,11 +75,24 @@ def _by_header(sources: Sequence[Source]) -> dict[bytes, list[Source]]:
     return groups
 
 
+def _plain_body(data: bytes) -> bytes:
+    """The rows below the header, with plain line ends and no more quotes than needed."""
+    body = data.partition(b"\n")[2]
+    if b'"' not in body and b"\r" not in body:
+        return body
+    out = io.StringIO()
+    csv.writer(out, lineterminator="\n").writerows(_cells(body))
+    return out.getvalue().encode()
+
+
+def _cells(body: bytes) -> list[list[str]]:
+    """The rows' cells, read strictly. Raises csv.Error."""
+    return list(csv.reader(io.StringIO(body.decode("utf-8"), newline=""), strict=True))
+
+
 def _rows(body: bytes) -> int:
     """Number of CSV rows; quoted texts may hold line breaks."""
-    if b'"' not in body:
-        return body.count(b"\n")
-    return sum(1 for _ in csv.reader(io.StringIO(body.decode("utf-8"), newline="")))
+    return body.count(b"\n") if b'"' not in body else len(_cells(body))
 
 
 def _shape_problems(source: Source, columns: Mapping[str, str]) -> list[str]:
@@ -83,7 +103,10 @@ def _shape_problems(source: Source, columns: Mapping[str, str]) -> list[str]:
     except UnicodeDecodeError as error:
         line = source.data[: error.start].count(b"\n") + 1
         return [f"{source.name}: row {line}: not UTF-8 text"]
-    names = next(csv.reader([head.decode("utf-8").rstrip("\r")]), [])
+    try:
+        names = next(csv.reader([head.decode("utf-8").rstrip("\r")], strict=True), [])
+    except csv.Error as error:
+        return [f"{source.name}: row 1: not a header of column names ({error})"]
     missing = [name for name in columns if name not in names]
     if missing:
         spare = sorted(set(names) - set(columns))
@@ -93,19 +116,27 @@ def _shape_problems(source: Source, columns: Mapping[str, str]) -> list[str]:
         twice = next(name for name in names if names.count(name) > 1)
         return [f"{source.name}: column = {twice}: twice in the header"]
     if body and not body.endswith(b"\n"):
-        row = _rows(body + b"\n") + 1
-        return [f"{source.name}: row {row}: half-written: the line has no end"]
-    if b'"' not in body:
-        want = len(names) - 1
-        lengths = [line.count(b",") for line in body.split(b"\n")[:-1]]
-        bad = [i for i, commas in enumerate(lengths) if commas != want]
-        found = [(i + 2, lengths[i] + 1) for i in bad]
+        return [f"{source.name}: row {body.count(NEWLINE) + 2}: half-written: the line has no end"]
+    return _row_problems(source.name, body, len(names))
+
+
+def _row_problems(name: str, body: bytes, width: int) -> list[str]:
+    """Rows that are not `width` values long, or hold what no text has."""
+    odd = CONTROL.search(body)
+    if odd:
+        row = body.count(NEWLINE, 0, odd.start()) + 2
+        return [f"{name}: row {row}: a control character (byte {odd.group()[0]}): expected text"]
+    if b'"' not in body and b"\r" not in body:
+        lengths = [line.count(b",") + 1 for line in body.split(NEWLINE)[:-1]]
     else:
-        rows = csv.reader(io.StringIO(body.decode("utf-8"), newline=""))
-        found = [(i + 2, len(r)) for i, r in enumerate(rows) if len(r) != len(names)]
+        try:
+            lengths = [len(cells) for cells in _cells(body)]
+        except csv.Error as error:
+            return [f"{name}: not comma-separated values ({error})"]
     return [
-        f"{source.name}: row {row}: {count} of {len(names)} values: expected a whole row"
-        for row, count in found
+        f"{name}: row {row}: {count} of {width} values: expected a whole row"
+        for row, count in enumerate(lengths, start=2)
+        if count != width
     ]
 
 
@@ -119,6 +150,7 @@ def _parse(joined: bytes, columns: Mapping[str, str], group: Sequence[Source]) -
             usecols=list(columns),
             dtype=numeric | texts,
             keep_default_na=False,
+            skip_blank_lines=False,
             na_values={name: [""] for name in numeric},
         )[list(columns)]
     except ValueError:
