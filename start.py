@@ -46,18 +46,20 @@ MANAGERS = {
     "pacman": (["-Sy"], ["-S", "--noconfirm", "--needed"]),
 }
 OPENGL = {
-    "apt-get": ["libegl1", "libgl1", "libgl1-mesa-dri", "libx11-6", "libxext6"],
-    "dnf": ["mesa-dri-drivers", "mesa-libEGL", "mesa-libGL", "libX11", "libXext"],
-    "pacman": ["mesa", "libglvnd", "libx11", "libxext"],
+    "apt-get": "libegl1 libgl1 libgl1-mesa-dri libx11-6 libxext6 libxrender1 libxrandr2 libxi6 "
+    "libxinerama1 libxxf86vm1",
+    "dnf": "mesa-dri-drivers mesa-libEGL mesa-libGL libX11 libXext libXrender libXrandr libXi "
+    "libXinerama libXxf86vm",
+    "pacman": "mesa libglvnd libx11 libxext libxrender libxrandr libxi libxinerama libxxf86vm",
 }
-VENV_MODULE = {"apt-get": ["python{}.{}-venv".format(*sys.version_info)]}  # others ship it
+VENV_MODULE = {"apt-get": "python{}.{}-venv".format(*sys.version_info)}  # others ship it
 
 # Prints what is missing. A process of its own runs it: a driver once loaded stays loaded.
 OPENGL_PROBE = """
 import ctypes, os
-for name in ("libEGL.so.1", "libGL.so.1", "libX11.so.6"):
-    try: ctypes.CDLL(name)
-    except OSError: raise SystemExit(name)
+for name in ("EGL.so.1", "GL.so.1", "X11.so.6", "Xext.so.6", "Xrender.so.1", "Xrandr.so.2"):
+    try: ctypes.CDLL("lib" + name)
+    except OSError: raise SystemExit("lib" + name)
 egl = ctypes.CDLL("libEGL.so.1")
 egl.eglGetDisplay.restype = ctypes.c_void_p
 egl.eglGetDisplay.argtypes = [ctypes.c_void_p]
@@ -182,19 +184,19 @@ def as_root() -> list[str] | None:
     return ["sudo", "-n"] if may else None
 
 
-def install_system(what: str, packages: dict[str, list[str]]) -> None:
+def install_system(what: str, packages: dict[str, str]) -> None:
     """Install `packages[manager]`; Stop, saying what to type, where this user may not."""
     manager = next(filter(shutil.which, packages), "")
     if not manager:
         raise Stop(f"missing: {what}; install it with this system's package manager")
     update, install = MANAGERS[manager]
-    install = [*install, *packages[manager]]
+    install = install + packages[manager].split()
     prefix = as_root()
     if prefix is None:
         raise Stop(f"missing: {what}; an administrator types: sudo {manager} {' '.join(install)}")
     for words in filter(None, (update, install)):
-        command = [*prefix, manager, *words]
-        status, output = run_logged(command, f"{what}: {manager} {' '.join(words)}")
+        said = f"{what}: {manager} {' '.join(words)}"
+        status, output = run_logged([*prefix, manager, *words], said)
     if status:
         raise Stop(f"{what}: {manager} failed: {why(output)}")
 
@@ -212,7 +214,7 @@ def need_system(usable: bool) -> None:
     if not usable and not importlib.util.find_spec("ensurepip"):
         needs["Python's venv module"] = VENV_MODULE
     if needs:
-        wanted = {name: [p for of in needs.values() for p in of.get(name, [])] for name in MANAGERS}
+        wanted = {name: " ".join(of.get(name, "") for of in needs.values()) for name in MANAGERS}
         install_system(" and ".join(needs), wanted)
         if opengl_missing():
             say(f"{opengl_missing()} still does not work: drawing may fail")
@@ -222,13 +224,13 @@ def need_test_programs() -> None:
     """The programs of tests/system-packages.txt; says which are missing where it may not."""
     if sys.platform != "linux":
         return
-    wanted = {name: [] for name in MANAGERS}
+    wanted = dict.fromkeys(MANAGERS, "")
     with open(os.path.join(ROOT, "tests", "system-packages.txt"), encoding="utf-8") as file:
         for line in file:
             words = line.partition("#")[0].split()
             if words and not shutil.which(words[0]):
                 for name, package in zip(MANAGERS, words[1:], strict=True):
-                    wanted[name].append(package)
+                    wanted[name] += f" {package}"
     if wanted["apt-get"]:
         try:
             install_system("what the tests open windows and pages with", wanted)
@@ -246,15 +248,13 @@ def check_platform() -> None:
     if sys.platform == "darwin" and int(platform.mac_ver()[0].split(".")[0]) < 14:
         raise Stop(f"this is macOS {platform.mac_ver()[0]}, expected 14 or newer")
     if sys.platform == "linux" and platform.libc_ver()[0] != "glibc":
-        raise Stop("this Linux has no glibc, expected one that has: numba is made for nothing else")
+        raise Stop("this Linux has no glibc, expected one that has: numba needs it")
 
 
 def is_usable() -> bool:
     """Whether the .venv found here can be installed into: nothing of it is half done."""
-    stamp = read_stamp()
-    if os.path.exists(UNFINISHED) or (stamp and stamp[0] != environment_id()):
-        return False
-    if not os.path.exists(PYTHON):
+    elsewhere = read_stamp()[:1] not in ([], [environment_id()])
+    if os.path.exists(UNFINISHED) or elsewhere or not os.path.exists(PYTHON):
         return False
     answer = ask(PYTHON, "-c", "import pip, sys; print(sys.implementation.cache_tag)")
     return answer.stdout.strip() == sys.implementation.cache_tag
