@@ -88,7 +88,7 @@ class _Rule:
         f = fragments
         best, tested = choose(
             active, bounds, draws, sample, balance, f.start, f.count, f.source, f.rows, f.planes,
-            f.plane_of, f.tolerance,
+            f.plane_of, f.slack,
         )  # fmt: skip
         # `fewest` has seen every polygon already; `sampled` has the splitter's row still to test.
         self.relations += tested

@@ -10,7 +10,7 @@ from renderer.ordering.predicates import filtered_side
 
 @numba.njit(cache=True)
 def choose(
-    active, bounds, draws, sample, balance, start, count, source, rows, planes, plane_of, tolerance
+    active, bounds, draws, sample, balance, start, count, source, rows, planes, plane_of, slack
 ):
     """The best of some random candidates in each group of fragments.
 
@@ -46,7 +46,7 @@ def choose(
             for i in range(tests):
                 at = low + (pick + 1 + i * n // tests) % n
                 side = _rough_side(
-                    active[at], splitter, start, count, source, rows, planes, plane_of, tolerance
+                    active[at], splitter, start, count, source, rows, planes, plane_of, slack
                 )
                 if side == 3:
                     cuts += 1
@@ -63,13 +63,13 @@ def choose(
 
 
 @numba.njit(inline="always")
-def _rough_side(f, s, start, count, source, rows, planes, plane_of, tolerance):
+def _rough_side(f, s, start, count, source, rows, planes, plane_of, slack):
     """0 on, 1 front, 2 back, 3 both; corners the filter leaves open count as on the plane."""
     code = 0
     if plane_of[source[f]] == plane_of[s]:
         return code
     for v in range(start[f], start[f] + count[f]):
-        side = filtered_side(planes[s], rows[v, 0], rows[v, 1], rows[v, 2], tolerance)
+        side = filtered_side(planes[s], rows[v, 0], rows[v, 1], rows[v, 2], slack[s])
         if side == 1:
             code |= 1
         elif side == -1:

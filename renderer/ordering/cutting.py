@@ -12,18 +12,32 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from renderer.ordering.predicates import distance_row, filtered_side
+from renderer.ordering.predicates import ROUNDING, distance_row, filtered_side
 
 
 @numba.njit(cache=True)
 def classify(
-    fragments, splitters, start, count, source, rows, planes, plane_of, tolerance, sign, code, open_
+    fragments,
+    splitters,
+    start,
+    count,
+    source,
+    rows,
+    fresh,
+    planes,
+    plane_of,
+    slack,
+    sign,
+    code,
+    open_,
 ):
     """Side of every corner, and of every fragment: 0 in the plane, 1 front, 2 back, 3 both.
 
     `open_` (2, total corners) receives row and position of what the filter leaves undecided;
     returns how many. Polygons of one plane lie on each other by name: a fragment's rounded
-    corners aren't asked again.
+    corners aren't asked again. `slack` (m,) is each plane's, and `fresh` marks cut points, which
+    are known to rounding only: nearer than that they are on a plane, lest neighbours that were
+    cut together cut each other once more.
     """
     waiting = 0
     for i in range(len(fragments)):
@@ -33,7 +47,10 @@ def classify(
             continue
         plane = planes[s]
         for v in range(start[f], start[f] + count[f]):
-            side = filtered_side(plane, rows[v, 0], rows[v, 1], rows[v, 2], tolerance)
+            reach = slack[s]
+            if fresh[v]:
+                reach = max(reach, point_slack(rows[v, 0], rows[v, 1], rows[v, 2]))
+            side = filtered_side(plane, rows[v, 0], rows[v, 1], rows[v, 2], reach)
             sign[v] = side
             if side == 1:
                 code[i] |= 1
@@ -46,22 +63,17 @@ def classify(
     return waiting
 
 
+@numba.njit(inline="always")
+def point_slack(x, y, z):
+    """What rounding a cut point costs: a distance."""
+    return ROUNDING * max(abs(x), abs(y), abs(z))
+
+
 @numba.njit(cache=True)
 def cut(
-    fragments,
-    splitters,
-    halves,
-    start,
-    count,
-    source,
-    rows,
-    planes,
-    sign,
-    used,
-    parent,
-    cutter,
-    out,
-):
+    fragments, splitters, halves, start, count, source, rows, fresh, planes, sign, used, parent,
+    cutter, out,
+):  # fmt: skip
     """Cut fragments by planes; append the pieces. Corner signs must be those of `classify`.
 
     `used` (2,) counts rows and fragments and is moved on. `out` (2, room) receives, for each
@@ -76,6 +88,7 @@ def cut(
     room = 2 * largest + 2
     ring = np.empty((room, width))
     side = np.empty(room, np.int8)
+    young = np.empty(room, np.bool_)
     first = np.empty(room, np.int64)
     last = np.empty(room, np.int64)
     follow = np.empty(room, np.int64)
@@ -83,7 +96,7 @@ def cut(
     loop = np.empty(2 * room, np.int64)
     for i in range(len(fragments)):
         f, s = fragments[i], splitters[i]
-        size = _ring(f, s, start, count, rows, planes, sign, ring, side)
+        size = _ring(f, s, start, count, rows, fresh, planes, sign, ring, side, young)
         for wanted in (1, -1):
             chains = _chains(size, side, wanted, first, last)
             _link(chains, first, last, ring, planes[source[f]], planes[s], wanted, follow)
@@ -100,6 +113,7 @@ def cut(
                         for k in range(3):
                             corner = loop[(turn + (2 * half + k) % 4) % 4]
                             _copy(rows, used[0] + k, ring, corner)
+                            fresh[used[0] + k] = young[corner]
                         made = _append(
                             3,
                             f,
@@ -118,6 +132,7 @@ def cut(
                 else:
                     for k in range(length):
                         _copy(rows, used[0] + k, ring, loop[k])
+                        fresh[used[0] + k] = young[loop[k]]
                     made = _append(
                         length,
                         f,
@@ -152,7 +167,7 @@ def _append(length, f, s, i, wanted, start, count, source, used, parent, cutter,
 
 
 @numba.njit
-def _ring(f, s, start, count, rows, planes, sign, ring, side):
+def _ring(f, s, start, count, rows, fresh, planes, sign, ring, side, young):
     """The loop with its crossing points inserted; returns its length."""
     size = 0
     begin, n = start[f], count[f]
@@ -161,10 +176,12 @@ def _ring(f, s, start, count, rows, planes, sign, ring, side):
         v = begin + (j + 1) % n
         _copy(ring, size, rows, u)
         side[size] = sign[u]
+        young[size] = fresh[u]
         size += 1
         if sign[u] * sign[v] == -1:
             _crossing(rows, u, v, planes[s], ring, size)
             side[size] = 0
+            young[size] = True
             size += 1
     return size
 

@@ -55,12 +55,14 @@ def prepare(
     closed: bool = False,
     rng: np.random.Generator | None = None,
     tolerance: float = 0.0,
+    gaps: bool = False,
 ) -> PreparedFeudal:
     """Build the tree.
 
     `closed` culls the faces that look away (the paper's "forward" ones): right for opaque closed
     volumes; translucent ones show their far walls and are prepared open. `rng` shuffles the input
-    of the dynamic version; without one a fixed stream does. Raises ValueError for polygons that
+    of the dynamic version; without one a fixed stream does. `gaps` looks for separating planes
+    between polygons too, not only among their own (ours, `feudal_gaps`). Raises ValueError for polygons that
     `polygons.check` refuses, for an unknown version, and for more than 20,000 polygons.
     """
     if version not in VERSIONS:
@@ -71,16 +73,14 @@ def prepare(
     relations = Relations(fragments)
     group = np.flatnonzero(fragments.solid)
     if version == "static":
-        nodes = build_static(relations, group)
+        nodes = build_static(relations, group, gaps)
     else:
         generator = rng or np.random.default_rng(np.random.SeedSequence(3))
-        nodes = build_dynamic(relations, generator.permutation(group))
+        nodes = build_dynamic(relations, generator.permutation(group), gaps)
     return _assemble(fragments, nodes, relations.tested, closed)
 
 
-def _assemble(
-    fragments: Fragments, nodes: list[Node], tested: int, closed: bool
-) -> PreparedFeudal:
+def _assemble(fragments: Fragments, nodes: list[Node], tested: int, closed: bool) -> PreparedFeudal:
     """Output polygons numbered by fragment; those without area come first in every order."""
     whole = np.ones(int(fragments.used[1]), bool)
     parents = fragments.parent[: len(whole)]
@@ -91,11 +91,16 @@ def _assemble(
     for node in nodes:
         node.coplanar = np.sort(number[node.coplanar])
         node.levels = [(np.sort(number[f]), np.sort(number[b])) for f, b in node.levels]
-        node.switch = int(number[node.switch]) if node.switch >= 0 else -1
+        if node.switch >= 0:
+            node.switch = int(number[node.switch])
     source = fragments.source[kept]
     drawn = drawable(fragments.polygons(kept), source, fragments.planes)
     rows = fragments.planes[source]
     planes = np.column_stack([rows[:, 3:6], -(rows[:, 3:6] * rows[:, :3]).sum(axis=1)])
+    apart = [node for node in nodes if node.gap is not None]
+    for i, node in enumerate(apart):
+        node.switch = len(planes) + i
+    planes = np.concatenate([planes, *(_gap_plane(node.gap) for node in apart)])
     flat = np.flatnonzero(~fragments.solid[source])
     made = program(nodes, planes, drawn.bounds, flat, closed)
     stats = Stats(
@@ -104,6 +109,17 @@ def _assemble(
         splits=int((~whole).sum()),
         relations=tested,
         depth=made.depth,
-        nodes={"connecting": len(nodes), "switch": sum(n.switch >= 0 for n in nodes)},
+        nodes={
+            "connecting": len(nodes),
+            "switch": sum(n.switch >= 0 for n in nodes),
+            "gap": len(apart),
+        },
     )
     return PreparedFeudal(drawn, tuple(nodes), made, stats, fragments)
+
+
+def _gap_plane(gap: tuple[int, float]) -> Floats:
+    """(1, 4) plane across an axis, its front towards higher coordinates."""
+    plane = np.zeros((1, 4))
+    plane[0, gap[0]], plane[0, 3] = 1.0, -gap[1]
+    return plane

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.ordering.feudal_gaps import bounds_of, widest_parting
 from renderer.ordering.feudal_relations import Relations
 from renderer.ordering.fragments import BEHIND, COPLANAR, CUT, IN_FRONT
 from renderer.ordering.polygons import Integers
@@ -18,13 +19,15 @@ class Node:
 
     `levels` are pairs (F_j, B_j) of polygons with absolute front and back priority. `switch` is
     the polygon whose plane parts the rest, `coplanar` (O_k) it and all in its plane, `children`
-    the connecting nodes in front of it and behind. -1: none.
+    the connecting nodes in front of it and behind. -1: none. `gap` is (axis, coordinate) of a
+    switch that is no polygon's plane.
     """
 
     levels: list[tuple[Integers, Integers]] = field(default_factory=list)
     switch: int = -1
     coplanar: Integers = field(default_factory=lambda: np.empty(0, np.int64))
     children: list[int] = field(default_factory=lambda: [-1, -1])
+    gap: tuple[int, float] | None = None
 
 
 @dataclass(slots=True)
@@ -56,17 +59,22 @@ class _Counts:
         return (self.front == 0) & (self.cut == 0) & (self.back > 0)
 
 
-def build_static(relations: Relations, group: Integers) -> list[Node]:
-    """The whole table first, then the tree (002, "The Static Preprocessing Phase")."""
+def build_static(relations: Relations, group: Integers, gaps: bool = False) -> list[Node]:
+    """The whole table first, then the tree (002, "The Static Preprocessing Phase").
+
+    With `gaps`, a group that no plane of its own parts is parted at a gap before it is cut.
+    """
     for polygon in group:
         if not relations.known[polygon]:
             relations.compute(int(polygon), group)
     nodes = [Node()]
-    settle(relations, nodes, [(0, group)])
+    settle(relations, nodes, [(0, group)], gaps)
     return nodes
 
 
-def settle(relations: Relations, nodes: list[Node], work: list[tuple[int, Integers]]) -> None:
+def settle(
+    relations: Relations, nodes: list[Node], work: list[tuple[int, Integers]], gaps: bool
+) -> None:
     """Build what is below connecting nodes whose groups have all their rows (procedures 2 to 4)."""
     while work:
         at, group = work.pop()
@@ -84,6 +92,9 @@ def settle(relations: Relations, nodes: list[Node], work: list[tuple[int, Intege
         if len(group):
             # A separating plane cuts none; else the plane that cuts fewest. Then the most balanced.
             best = np.lexsort((group, np.abs(counts.front - counts.back), counts.cut))[0]
+            if gaps and counts.cut[best] > 0 and (gap := _gap(relations, group)) is not None:
+                work += part(relations, nodes, node, gap, group)
+                continue
             work += divide(relations, nodes, node, int(group[best]), group)
 
 
@@ -101,8 +112,13 @@ def divide(
             mine = pieces[piece_side == sign]
             sides[side] = np.concatenate([sides[side], mine])
             relations.refine(mine, sides[side])
+    return _hang(nodes, node, [sides[IN_FRONT], sides[BEHIND]])
+
+
+def _hang(nodes: list[Node], node: Node, sides: list[Integers]) -> list[tuple[int, Integers]]:
+    """New connecting nodes for the sides of a switch."""
     work = []
-    for place, members in enumerate(sides.values()):
+    for place, members in enumerate(sides):
         if len(members):
             node.children[place] = len(nodes)
             work.append((len(nodes), members))
@@ -110,49 +126,68 @@ def divide(
     return work
 
 
-def build_dynamic(relations: Relations, order: Integers) -> list[Node]:
+def _gap(relations: Relations, group: Integers) -> tuple[int, float] | None:
+    return widest_parting(*bounds_of(relations.fragments, group)) if len(group) > 1 else None
+
+
+def part(
+    relations: Relations, nodes: list[Node], node: Node, gap: tuple[int, float], group: Integers
+) -> list[tuple[int, Integers]]:
+    """Put a gap under a connecting node as its switch; returns the new nodes with their groups."""
+    node.gap = gap
+    low, _ = bounds_of(relations.fragments, group)
+    front = low[:, gap[0]] > gap[1]
+    return _hang(nodes, node, [group[front], group[~front]])
+
+
+def build_dynamic(relations: Relations, order: Integers, gaps: bool = False) -> list[Node]:
     """A row at a time, using each as soon as it is there (002, "The Dynamic Preprocessing Phase").
 
-    `order` is the input in the random order the paper asks for.
+    `order` is the input in the random order the paper asks for. With `gaps`, a group is parted at
+    a gap before a row of it is computed.
     """
     nodes = [Node()]
     work, rest = [(0, order)], []
     while work:
         at, group = work.pop()
-        switch, group = _peel(relations, nodes[at], group)
-        if switch >= 0:
+        switch, gap, group = _peel(relations, nodes[at], group, gaps)
+        if gap is not None:
+            work += part(relations, nodes, nodes[at], gap, group)
+        elif switch >= 0:
             work += divide(relations, nodes, nodes[at], switch, group)
         elif len(group):
             rest.append((at, group))
-    settle(relations, nodes, rest)
+    settle(relations, nodes, rest, gaps)
     return nodes
 
 
-def _peel(relations: Relations, node: Node, group: Integers) -> tuple[int, Integers]:
+def _peel(
+    relations: Relations, node: Node, group: Integers, gaps: bool
+) -> tuple[int, tuple[int, float] | None, Integers]:
     """Rows of a group in turn: absolute priority leaves at once, a separating plane ends it.
 
-    Returns the separating polygon, or -1 when every row is there and none is left, and the group.
+    Returns the separating polygon (-1: none), the gap that parts the group, and the group.
     """
-    next_row = 0
     while len(group):
         found = _usable(relations, group)
         if found is None:
+            if gaps and (gap := _gap(relations, group)) is not None:
+                return -1, gap, group
             unknown = np.flatnonzero(~relations.known[group])
             if not len(unknown):
                 break
-            next_row = int(group[unknown[0]])
-            relations.compute(next_row, group)
+            relations.compute(int(group[unknown[0]]), group)
             continue
         polygon, kind = found
         if kind == "separating":
-            return polygon, group
+            return polygon, None, group
         row = relations.codes[polygon, group]
         coplanar = group[row == COPLANAR]
         alike = relations.same_way(polygon, coplanar)
         bunches = (coplanar[alike], coplanar[~alike])
         node.levels.append(bunches if kind == "front" else bunches[::-1])
         group = group[row != COPLANAR]
-    return -1, group
+    return -1, None, group
 
 
 def _usable(relations: Relations, group: Integers) -> tuple[int, str] | None:

@@ -7,7 +7,15 @@ from numpy.typing import NDArray
 
 from renderer.ordering.cutting import classify, cut
 from renderer.ordering.polygons import Integers, Polygons, check
-from renderer.ordering.predicates import exact_sides, has_area, plane_corners, plane_ids, plane_rows
+from renderer.ordering.predicates import (
+    has_area,
+    plane_corners,
+    plane_ids,
+    plane_rows,
+    point_slacks,
+    sides,
+    thickness,
+)
 
 COPLANAR, IN_FRONT, BEHIND, CUT = 0, 1, 2, 3
 
@@ -38,23 +46,29 @@ class Fragments:
         self.corners = plane_corners(polygons)
         self.planes = plane_rows(self.corners)
         self.solid = has_area(self.corners) if n else np.empty(0, bool)
-        self.plane_of = plane_ids(polygons, self.corners)
+        thick = thickness(polygons, self.corners)
+        self.slack = np.maximum(thick, tolerance)
+        self.fresh = np.zeros(len(self.rows), bool)
+        self.plane_of = plane_ids(polygons, self.corners, thick)
 
     def classify(self, fragments: Integers, splitters: Integers) -> NDArray[np.int8]:
         """COPLANAR, IN_FRONT, BEHIND or CUT of each fragment against its splitter."""
         code = np.empty(len(fragments), np.int8)
         open_ = np.empty((2, int(self.count[fragments].sum())), np.int64)
         waiting = classify(
-            fragments, splitters, self.start, self.count, self.source, self.rows, self.planes,
-            self.plane_of, self.tolerance, self.sign, code, open_,
+            fragments, splitters, self.start, self.count, self.source, self.rows, self.fresh,
+            self.planes, self.plane_of, self.slack, self.sign, code, open_,
         )  # fmt: skip
         if waiting:
             at, who = open_[:, :waiting]
-            found = exact_sides(self.corners[splitters[who]], self.rows[at, :3])
-            self.sign[at] = found
-            np.bitwise_or.at(
-                code, who, np.where(found > 0, 1, np.where(found < 0, 2, 0)).astype(np.int8)
+            points, planes = self.rows[at, :3], splitters[who]
+            slack = np.maximum(
+                self.slack[planes], np.where(self.fresh[at], point_slacks(points), 0)
             )
+            found = sides(self.corners[planes], points, slack)
+            self.sign[at] = found
+            bits = np.where(found > 0, IN_FRONT, np.where(found < 0, BEHIND, COPLANAR))
+            np.bitwise_or.at(code, who, bits.astype(np.int8))
         return code
 
     def cut(self, fragments: Integers, splitters: Integers) -> tuple[Integers, Integers, Integers]:
@@ -67,7 +81,7 @@ class Fragments:
         out = np.empty((2, 2 * corners + 2), np.int64)
         begin = int(self.used[1])
         made = cut(
-            fragments, splitters, self.halves, self.start, self.count, self.source, self.rows,
+            fragments, splitters, self.halves, self.start, self.count, self.source, self.rows, self.fresh,
             self.planes, self.sign, self.used, self.parent, self.cutter, out,
         )  # fmt: skip
         return np.arange(begin, begin + made), out[0, :made].copy(), out[1, :made].copy()
@@ -86,6 +100,7 @@ class Fragments:
         if needed > len(self.rows):
             self.rows = _grown(self.rows, needed)
             self.sign = _grown(self.sign, len(self.rows))
+            self.fresh = _grown(self.fresh, len(self.rows))
         needed = int(self.used[1]) + fragments
         if needed > len(self.start):
             for name in ("start", "count", "source", "parent", "cutter"):

@@ -20,6 +20,8 @@ from renderer.ordering.polygons import Floats, Integers, Polygons, newell
 
 # (7 + 56 eps) eps with eps = 2^-53: the bound of the first stage, relative to the permanent.
 ERROR_BOUND = (7.0 + 56.0 * 2.0**-53) * 2.0**-53
+# What cut points and turned polygons lose to rounding, relative to their coordinates.
+ROUNDING = 8 * 2.0**-52
 FRONT, BACK, ON, UNDECIDED = 1, -1, 0, 2
 
 
@@ -62,19 +64,16 @@ def distance_row(plane: Floats, x: float, y: float, z: float) -> float:
 
 
 @numba.njit(inline="always")
-def filtered_side(plane: Floats, x: float, y: float, z: float, tolerance: float) -> int:
-    """FRONT, BACK or UNDECIDED; ON only within a positive `tolerance` (world units)."""
+def filtered_side(plane: Floats, x: float, y: float, z: float, slack: float) -> int:
+    """FRONT, BACK or UNDECIDED; ON only within a positive `slack` (a distance, world units)."""
     dx, dy, dz = x - plane[0], y - plane[1], z - plane[2]
     determinant = dx * plane[3] + dy * plane[4] + dz * plane[5]
-    if tolerance > 0.0:
-        if abs(determinant) <= tolerance * plane[9]:
-            return 0
-        return 1 if determinant > 0.0 else -1
     bound = ERROR_BOUND * (abs(dx) * plane[6] + abs(dy) * plane[7] + abs(dz) * plane[8])
-    if determinant > bound:
-        return 1
-    if determinant < -bound:
-        return -1
+    height, reach = abs(determinant), slack * plane[9]
+    if height > bound and height > reach:
+        return 1 if determinant > 0.0 else -1
+    if slack > 0.0 and height + bound <= reach:
+        return 0
     return 2
 
 
@@ -103,20 +102,38 @@ def has_area(corners: Floats) -> NDArray[np.bool_]:
     return spread
 
 
-def sides(corners: Floats, points: Floats, tolerance: float = 0.0) -> NDArray[np.int8]:
-    """(n,) sides of points (n, 3) against planes (n, 3, 3), the filter's shortcut included."""
-    result = _filtered(plane_rows(corners), points, tolerance)
-    open_ones = np.flatnonzero(result == UNDECIDED)
-    if len(open_ones):
-        result[open_ones] = exact_sides(corners[open_ones], points[open_ones])
+def sides(corners: Floats, points: Floats, slack: Floats | float = 0.0) -> NDArray[np.int8]:
+    """(n,) sides of points (n, 3) against planes (n, 3, 3).
+
+    Points within `slack`, (n,) or one distance, of a plane count as on it.
+    """
+    rows = plane_rows(corners)
+    reach = np.broadcast_to(np.asarray(slack, float), len(points)) * rows[:, 9]
+    height = np.abs(((points - rows[:, :3]) * rows[:, 3:6]).sum(axis=1))
+    result = exact_sides(corners, points)
+    result[(height <= reach) & (reach > 0)] = ON
     return result
 
 
-@numba.njit(cache=True)
-def _filtered(planes: Floats, points: Floats, tolerance: float) -> NDArray[np.int8]:
-    result = np.empty(len(points), np.int8)
-    for i in range(len(points)):
-        result[i] = filtered_side(planes[i], points[i, 0], points[i, 1], points[i, 2], tolerance)
+def point_slacks(points: Floats) -> Floats:
+    """(n,) what rounding cut points (n, 3) costs: distances."""
+    return ROUNDING * np.abs(points).max(axis=1)
+
+
+def thickness(polygons: Polygons, corners: Floats) -> Floats:
+    """(m,) how far off its plane a polygon's own corners may lie: 0 where they lie in it exactly.
+
+    A polygon of four corners that was turned or scaled is no longer exactly flat, and a neighbour
+    that shares its fourth corner would count as cut by it.
+    """
+    result = np.zeros(len(polygons))
+    larger = np.flatnonzero(polygons.counts > 3)
+    if len(larger):
+        some = polygons.take(larger)
+        own = np.repeat(corners[larger], some.counts, axis=0)
+        uneven = np.logical_or.reduceat(exact_sides(own, some.vertices) != ON, some.starts[:-1])
+        scale = np.maximum.reduceat(np.abs(some.vertices).max(axis=1), some.starts[:-1])
+        result[larger] = np.where(uneven, ROUNDING * scale, 0.0)
     return result
 
 
@@ -137,10 +154,11 @@ def paper_sides(
     return np.where(np.abs(distance) <= tolerance, 0, np.sign(distance)).astype(np.int8)
 
 
-def plane_ids(polygons: Polygons, corners: Floats) -> Integers:
+def plane_ids(polygons: Polygons, corners: Floats, slack: Floats) -> Integers:
     """(m,) a number for each distinct plane, whichever way a polygon faces.
 
-    Two polygons share a number only if every corner of one lies exactly in the other's plane.
+    Two polygons share a number only if every corner of one lies in the other's plane: exactly,
+    or within the larger of their `slack` (m,), see `thickness`.
     Candidates are found by rounded coefficients, so two coplanar polygons may still end up with
     different numbers when rounding parts them: that costs tests, never an order. A polygon
     without area is alone in its plane.
@@ -157,7 +175,8 @@ def plane_ids(polygons: Polygons, corners: Floats) -> Integers:
         waiting = waiting[shared[group[waiting]]]
         leader = chief[group[waiting]]
         rows = polygons.take(waiting)
-        on = sides(corners[np.repeat(leader, rows.counts)], rows.vertices) == ON
+        thick = np.repeat(np.maximum(slack[leader], slack[waiting]), rows.counts)
+        on = sides(corners[np.repeat(leader, rows.counts)], rows.vertices, thick) == ON
         same = leader == waiting
         if len(waiting):
             same |= np.logical_and.reduceat(on, rows.starts[:-1])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.translucent.solids import Faces, box, cone, disc, prism
+from renderer.models.translucent.solids import Faces, box, cone, disc, prism, turned
 
 # Windows of a front: where along the wall, the sill's height, how far the shutters stand open.
 EAST = [(-5.2, 0.9, 0.2), (-5.2, 3.7, 0.5), (-2.6, 3.7, 0.8), (0.9, 3.7, 1.1)]
@@ -25,7 +25,14 @@ def faces() -> Faces:
         windows += _window(along, sill, opened, 2, -6.0, -1.0)
     for along, sill, opened in WEST:
         windows += _window(along, sill, opened, 0, -4.0, -1.0)
-    return [*_walls(), *_roofs(), *windows, *_porch(), *_tower(), *_garden()]
+    return [
+        *_walls(),
+        *_roofs(),
+        *windows,
+        *_porch(),
+        *_tower(),
+        *turned(_garden(), 0.3, (0.0, 7.0)),
+    ]
 
 
 def _walls() -> Faces:
@@ -99,7 +106,8 @@ def _porch() -> Faces:
     parts = box((3.02, 0.45, -1.8), (3.12, 2.7, -0.6)) + prism(steps, 2, -2.4, 0.0)
     for x in (3.6, 4.8):
         for z in (-2.2, -0.2):
-            parts += box((x - 0.16, 0.42, z - 0.16), (x + 0.16, 0.7, z + 0.16))
+            base = box((x - 0.16, 0.42, z - 0.16), (x + 0.16, 0.7, z + 0.16))
+            parts += turned(base, 0.5, (z, x))
             parts += prism(disc((z, x), 0.12, 8, 0.5), 1, 0.72, 3.1, 0.8)
     return parts + prism(roof, 0, 3.22, 5.1)
 
@@ -112,30 +120,31 @@ def _tower() -> Faces:
     middle = np.array([3.4, -3.6])
     wall = [(float(z) + middle[0], float(x) + middle[1]) for z, x in ring]
     parts = prism(wall, 1, 0.0, 3.6, 0.95) + prism(wall, 1, 3.7, 7.4, 0.95)
-    for i in range(12):
-        a, b = 0.5 * i, 0.5 * i + 0.6
+    for i in range(19):
+        a, b = 0.6 * i, 0.6 * i + 0.7
         step = [(0.15, 0.0), (1.5, 0.0), (1.5 * np.cos(b - a), 1.5 * np.sin(b - a))]
-        turned = [
+        placed = [
             (
                 float(u * np.cos(a) - v * np.sin(a)) + middle[0],
                 float(u * np.sin(a) + v * np.cos(a)) + middle[1],
             )
             for u, v in step
         ]
-        parts += prism(turned, 1, 0.5 + 0.5 * i, 0.75 + 0.5 * i, 0.9)
+        parts += prism(placed, 1, 0.4 + 0.35 * i, 0.6 + 0.35 * i, 0.9)
     parts += cone(disc((middle[0], middle[1]), 2.3, 12, 0.3), 1, 7.5, 10.4)
     arc = [(1.1 * np.cos(a), 2.0 + 1.1 * np.sin(a)) for a in np.linspace(0, np.pi, 7)]
     arch = [(1.1, 0.0), *arc, (-1.1, 0.0), (-1.5, 0.0), (-1.5, 3.5), (1.5, 3.5), (1.5, 0.0)]
     for z in (8.0, -9.0):
-        parts += prism([(float(x) + 1.0, float(y)) for x, y in arch], 2, z, z + 0.6)
+        one = prism([(float(x) + 1.0, float(y)) for x, y in arch], 2, z, z + 0.6, 0.97)
+        parts += turned(one, 0.2, (z, 1.0))
     return parts
 
 
 def _garden() -> Faces:
-    """A fence of ten pointed pickets and a tub."""
+    """A fence of five pointed pickets and a tub."""
     parts = prism(disc((7.2, 4.6), 0.5, 6, 0.15), 1, 0.0, 0.7, 1.3)
-    for i in range(10):
-        z = -5.5 + 1.2 * i
+    for i in range(5):
+        z = -5.5 + 1.9 * i
         picket = [(0.0, z - 0.12), (0.0, z + 0.12), (1.0, z + 0.12), (1.25, z), (1.0, z - 0.12)]
         parts += prism(picket, 0, 7.0, 7.08, 0.9)
     return parts

@@ -64,3 +64,19 @@ def disc(
         (center[0] + radius * float(np.cos(a)), center[1] + radius * float(np.sin(a)))
         for a in angles
     ]
+
+
+def turned(
+    faces: Faces, angle: float, about: tuple[float, float] = (0.0, 0.0), axis: int = 1
+) -> Faces:
+    """Faces turned, counter-clockwise about an axis through `about`.
+
+    `about` has the coordinates a profile along that axis has (see `prism`).
+    """
+    u, v = (axis + 1) % 3, (axis + 2) % 3
+    turn = np.eye(3)
+    turn[[u, v], [u, v]] = np.cos(angle)
+    turn[v, u], turn[u, v] = np.sin(angle), -np.sin(angle)
+    middle = np.zeros(3)
+    middle[[u, v]] = about
+    return [(face - middle) @ turn.T + middle for face in faces]

@@ -6,16 +6,17 @@ fixed while only the BSP baseline had run on it.
 
 from __future__ import annotations
 
-from renderer.models.translucent.solids import Faces, box, disc, prism
+from renderer.models.translucent.solids import Faces, box, disc, prism, turned
+
+# The upper part stands turned on its foot, in radians.
+SWIVEL = 0.35
 
 
 def faces() -> Faces:
     """304 faces; x along the screw, y up, in units of about a centimetre."""
     return [
         *_foot(),
-        *_body(),
-        *_jaws(),
-        *_screw(),
+        *turned([*_body(), *_jaws(), *_screw()], SWIVEL),
         *_bolts(),
     ]
 
@@ -102,11 +103,11 @@ def _screw() -> Faces:
         )
     parts += prism(disc((3.3, 0.0), 1.1, 6), 0, 11.5, 12.6)
     parts += prism(disc((3.3, 0.0), 0.9, 8, 0.5), 0, 12.9, 14.2)
-    parts += prism(disc((13.5, 3.3), 0.3, 6, 0.35), 2, 1.0, 6.0)
-    parts += prism(disc((13.5, 3.3), 0.3, 6, 0.35), 2, -6.0, -1.0)
+    handle: Faces = []
     for sign in (-1.0, 1.0):
-        low, high = sorted((sign * 6.1, sign * 6.9))
-        parts += prism(disc((13.5, 3.3), 0.55, 6, 0.35), 2, low, high, 0.8)
+        handle += prism(disc((13.5, 3.3), 0.3, 6, 0.35), 2, *sorted((sign * 1.0, sign * 6.0)))
+        handle += prism(disc((13.5, 3.3), 0.55, 6, 0.35), 2, *sorted((sign * 6.1, sign * 6.9)), 0.8)
+    parts += turned(handle, 0.6, (3.3, 0.0), axis=0)
     for z in (-2.45, 2.45):
         parts += prism(disc((5.9, z), 0.35, 7, 0.3), 0, -8.4, 11.0, 0.6)
     return parts
