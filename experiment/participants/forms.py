@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from math import exp, log2
+from math import exp, hypot, log2
 from statistics import fmean
-from typing import Any
 
+import numpy as np
+
+from experiment.pages import Choice, Page, Paragraph, Picture, PlatePicture, Scale, TextField
 from experiment.participants.person import Person
 
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]
-MIDDLE, STEEPNESS, WOBBLE = 2.3, 1.1, 0.6  # ratings against log2 of relative time [ours]
+MIDDLE, STEEPNESS, WOBBLE = 0.57, 0.28, 0.15  # ratings, 0–1, against log2 of relative time [ours]
 SCENARIO = {
     "count": "abstract",
     "pattern": "abstract",
@@ -35,40 +37,64 @@ class Opinions:
         """The running trial has taken so long by now."""
         self._times[self._level, task][-1] = seconds
 
-    def answer(self, page: Any) -> tuple[dict[str, str], float]:
+    def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Answers by name ("button": which one), and the seconds that took."""
-        answers = {"button": "0"}
-        seconds = 1.0
+        answers, seconds = {"button": "0"}, 1.0
         for block in page.blocks:
-            text = getattr(block, "text", "")
-            if text.startswith("transparency."):
-                self._level = text.removeprefix("transparency.")
-            if hasattr(block, "steps"):
+            if isinstance(block, Paragraph):
+                if block.text.startswith("transparency."):
+                    self._level = block.text.removeprefix("transparency.")
+                seconds += READ
+            elif isinstance(block, Scale):
                 answers[block.name] = str(self._rating(page, block))
                 seconds += DECIDE
-            elif hasattr(block, "options"):
-                answers[block.name] = str(self._preference(len(block.options)))
+            elif isinstance(block, Choice) and not block.optional:
+                answers[block.name] = str(self._choice(page, block))
                 seconds += DECIDE
-            elif hasattr(block, "name"):
+            elif isinstance(block, TextField):
                 answers[block.name] = ""
-            elif text:
-                seconds += READ
         return answers, seconds * self.person.profile.pace
 
-    def _rating(self, page: Any, block: Any) -> int:
-        values = dict(block.values)
-        level = values.get("transparency", "").removeprefix("name.")
-        scenario = values.get("scenario", "").removeprefix("name.")
-        middle = MIDDLE - STEEPNESS * log2(max(self._relative(level, scenario), 1e-6))
-        value = middle + WOBBLE * self.person.rng.standard_normal()
-        return min(block.steps - 1, max(0, round(value)))
+    def _rating(self, page: Page, block: Scale) -> int:
+        """Liking what was quick; load is the other way round, as are the SUS's even items."""
+        kind, level, scenario = [*page.name.split(" "), "", ""][:3]
+        liking = MIDDLE - STEEPNESS * log2(max(self._relative(level, scenario), 1e-6))
+        liking += WOBBLE * self.person.rng.standard_normal()
+        against = kind == "tlx" or (kind == "sus" and int(block.name.rpartition("_")[2]) % 2 == 0)
+        share = min(1.0, max(0.0, 1 - liking if against else liking))
+        return round(share * (block.steps - 1))
 
     def _relative(self, level: str, scenario: str) -> float:
         """Time with this level over time with any, within the scenario; 1 where unknown."""
-        own = [fmean(t) for (lv, k), t in self._times.items()
-               if lv == level and SCENARIO.get(k) == scenario]  # fmt: skip
-        every = [fmean(t) for (_, k), t in self._times.items() if SCENARIO.get(k) == scenario]
-        return fmean(own) / fmean(every) if own and every else 1.0
+        times = [(lv, fmean(t)) for (lv, k), t in self._times.items()
+                 if not scenario or SCENARIO.get(k) == scenario]  # fmt: skip
+        own = [t for lv, t in times if lv == level]
+        return fmean(own) / fmean(t for _, t in times) if own else 1.0
+
+    def _choice(self, page: Page, block: Choice) -> int:
+        if block.name == "preference":
+            return self._preference(len(block.options))
+        for other in page.blocks:
+            if isinstance(other, PlatePicture):
+                # Every simulated participant has full colour vision.
+                return block.options.index(str(other.plate.digit))
+            if isinstance(other, Picture):
+                return self._nearer(other, block.options)
+        return int(self.person.rng.integers(len(block.options)))
+
+    def _nearer(self, picture: Picture, options: tuple[str, ...]) -> int:
+        """Which of the kinds looks nearest in the picture, with the usual error in depth."""
+        p = self.person.profile
+        spread = hypot(p.depth_noise, p.through_noise)
+        kinds = [o.removeprefix("kind.") for o in options]
+        depth = picture.view.camera.depth(picture.view.scene.centers)
+        looks = []
+        for kind in kinds:
+            same = [d for d, o in zip(depth, picture.view.scene.objects, strict=True)
+                    if o.kind == kind and d > 0]  # fmt: skip
+            true = min(same, default=np.inf)
+            looks.append(true * exp(spread * self.person.rng.standard_normal()))
+        return int(np.argmin(looks))
 
     def _preference(self, options: int) -> int:
         """0 for see-through, the last for none of it: by the times taken, and by chance."""

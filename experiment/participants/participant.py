@@ -7,10 +7,10 @@ visible strongly enough. It is a tool for planning studies, never evidence about
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable
-from typing import Any
 
 from numpy.random import Generator as Random
 
+from experiment.pages import Page
 from experiment.participants.count_red import count_red
 from experiment.participants.count_things import count_things
 from experiment.participants.effects import EffectUse, checked
@@ -71,7 +71,7 @@ class SimulatedParticipant:
         self.opinions.spent(self._task, events[-1].time - self._began)
         return events
 
-    def answer(self, page: Any) -> tuple[dict[str, str], float]:
+    def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Read and fill in a page: answers by name, and the seconds it took."""
         return self.opinions.answer(page)
 

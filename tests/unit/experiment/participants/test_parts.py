@@ -206,8 +206,8 @@ def test_pages_are_read_and_filled_in():
             opinions.spent("unique", seconds)
     ratings = {"standard": [], "dynamic": []}
     for level in ratings:
-        values = (("transparency", f"name.{level}"), ("scenario", "name.walkthrough"))
-        page = Page("r", "r", (Scale("ease", "rating.ease", "l", "h", values=values),))
+        name = f"rating {level} walkthrough"
+        page = Page(name, "r", (Scale("ease", "rating.ease", "l", "h"),))
         for _ in range(40):
             answers, spent = opinions.answer(page)
             assert spent > 0 and 0 <= int(answers["ease"]) <= 4
@@ -223,3 +223,24 @@ def test_opinions_without_experience_are_neutral():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
     page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c")),))
     assert opinions.answer(page)[0]["preference"] == "1"
+
+
+def test_load_and_negative_statements_are_rated_the_other_way():
+    opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
+    for level, seconds in (("standard", 100.0), ("dynamic", 25.0)):
+        opinions.answer(Page("i", "t", (Paragraph(f"transparency.{level}"),)))
+        opinions.begin("count")
+        opinions.spent("count", seconds)
+    means = {}
+    for level in ("standard", "dynamic"):
+        tlx = Page(f"tlx {level}", "t", (Scale("effort", "x", "l", "h", steps=21),))
+        sus = Page(
+            f"sus {level}", "s", (Scale("sus_1", "x", "l", "h"), Scale("sus_2", "x", "l", "h"))
+        )
+        answers = [opinions.answer(tlx)[0] | opinions.answer(sus)[0] for _ in range(40)]
+        means[level] = {
+            k: np.mean([int(a[k]) for a in answers]) for k in ("effort", "sus_1", "sus_2")
+        }
+    assert means["standard"]["effort"] > means["dynamic"]["effort"] + 3
+    assert means["standard"]["sus_1"] < means["dynamic"]["sus_1"] - 0.5
+    assert means["standard"]["sus_2"] > means["dynamic"]["sus_2"] + 0.5

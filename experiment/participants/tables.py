@@ -1,0 +1,151 @@
+"""Visibility tables: what can be seen from a lattice of viewpoints, so that nothing is drawn twice.
+
+A table belongs to one scene drawn with one technique. A look is answered for the nearest viewpoint
+of the lattice: exact where the participant stands on it, sampled elsewhere. A viewpoint that no
+table holds yet is drawn once, at the lattice's own pose, so that a table's content does not depend
+on who came first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import asin, atan2, pi
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiment.participants.count_red import TILT
+from experiment.participants.name_letter import FROM_ABOVE
+from experiment.participants.places import CELL, DIRECTIONS
+from renderer.camera import Camera
+from renderer.scene import Scene
+from renderer.visibility import Visibility
+from tasks.controls import turned
+
+YAWS = 12  # of the orbit's lattice: every 30°
+PITCHES = (-1.25, -0.8, -TILT, 0.0, TILT, 0.8, FROM_ABOVE)
+
+Key = tuple[int, ...]
+Draw = Callable[[Scene, Camera], Visibility]
+
+
+def orbit_key(camera: Camera) -> Key:
+    """The nearest lattice viewpoint of an orbit: number of its yaw, number of its pitch."""
+    r = camera.rotation
+    yaw = atan2(-r[2, 0], r[0, 0])
+    pitch = asin(min(1.0, max(-1.0, -r[1, 2]))) * -1.0
+    nearest = min(range(len(PITCHES)), key=lambda k: abs(PITCHES[k] - pitch))
+    return (round(yaw / (2 * pi / YAWS)) % YAWS, nearest)
+
+
+def orbit_camera(camera: Camera, key: Key) -> Camera:
+    """The lattice's camera at `key`, at the distance and with the lens of `camera`."""
+    rotation = turned(key[0] * 2 * pi / YAWS, -PITCHES[key[1]])
+    distance = float(np.linalg.norm(camera.eye))
+    return Camera(rotation[:, 2] * distance, rotation, camera.fov_y, camera.near, camera.far)
+
+
+def walk_key(camera: Camera) -> Key:
+    """The nearest lattice viewpoint of a walk: cell in x, cell in z, heading."""
+    r, eye = camera.rotation, camera.eye
+    yaw = atan2(-r[2, 0], r[0, 0])
+    cells = (int(np.floor(eye[0] / CELL)), int(np.floor(eye[2] / CELL)))
+    return (*cells, round(yaw / (2 * pi / DIRECTIONS)) % DIRECTIONS)
+
+
+def walk_camera(camera: Camera, key: Key) -> Camera:
+    """The lattice's camera at `key`, at the height and with the lens of `camera`."""
+    eye = np.array([(key[0] + 0.5) * CELL, camera.eye[1], (key[1] + 0.5) * CELL])
+    rotation = turned(key[2] * 2 * pi / DIRECTIONS)
+    return Camera(eye, rotation, camera.fov_y, camera.near, camera.far)
+
+
+@dataclass(eq=False)
+class Table:
+    """What can be seen of one scene: rows of its visible objects for each viewpoint."""
+
+    objects: int
+    rows: dict[Key, NDArray[np.float64]] = field(default_factory=dict)
+    _latest: tuple[Key, Visibility] | None = None
+
+    def put(self, key: Key, seen: Visibility) -> None:
+        """Keep a look: index, pixels, weight, x, y, contrast, area of whatever is visible."""
+        index = np.nonzero(seen.pixels > 0)[0]
+        columns = (index, seen.pixels[index], seen.weight[index], seen.position[index, 0],
+                   seen.position[index, 1], seen.contrast[index], seen.area[index])  # fmt: skip
+        self.rows[key] = np.stack(columns).astype(float)
+
+    def get(self, key: Key) -> Visibility:
+        """The look as it was kept, the same to the last bit."""
+        if self._latest is not None and self._latest[0] == key:
+            return self._latest[1]
+        rows = self.rows[key]
+        index = rows[0].astype(np.int64)
+        dense = np.zeros((4, self.objects))
+        dense[:, index] = rows[[1, 2, 5, 6]]
+        position = np.full((self.objects, 2), np.nan)
+        position[index] = rows[3:5].T
+        seen = Visibility(dense[0].astype(np.int64), dense[1], position, dense[2], dense[3])
+        self._latest = (key, seen)
+        return seen
+
+
+class TableEyes:
+    """Looks up, or draws and keeps, what is seen in a scene. Raises KeyError if it can't draw."""
+
+    def __init__(self, table: Table, scenario: str, draw: Draw | None = None) -> None:
+        self.table = table
+        self.draw = draw
+        self.drawn = 0
+        orbits = scenario == "abstract"
+        self._key = orbit_key if orbits else walk_key
+        self._camera = orbit_camera if orbits else walk_camera
+
+    def look(self, scene: Scene, camera: Camera) -> Visibility:
+        """What is visible from the lattice viewpoint nearest to `camera`."""
+        key = self._key(camera)
+        if key not in self.table.rows:
+            if self.draw is None:
+                raise KeyError(f"viewpoint {key} is in no table and nothing can be drawn")
+            self.table.put(key, self.draw(scene, self._camera(camera, key)))
+            self.drawn += 1
+        return self.table.get(key)
+
+
+def save(path: Path, tables: dict[str, Table]) -> None:
+    """Write tables by name; a file that is there is replaced as a whole."""
+    arrays: dict[str, NDArray[np.generic]] = {}
+    for name, table in tables.items():
+        keys = sorted(table.rows)
+        widths = [table.rows[k].shape[1] for k in keys]
+        arrays[f"{name}/keys"] = np.array(keys, dtype=np.int32).reshape(len(keys), -1)
+        arrays[f"{name}/widths"] = np.array([table.objects, *widths], dtype=np.int32)
+        arrays[f"{name}/rows"] = (
+            np.concatenate([table.rows[k] for k in keys], axis=1) if keys else np.zeros((7, 0))
+        )
+    draft = path.with_suffix(".part.npz")
+    np.savez(draft, **arrays)
+    draft.replace(path)
+
+
+def load(path: Path) -> dict[str, Table]:
+    """Tables by name. Raises ValueError for a file that holds something else."""
+    tables: dict[str, Table] = {}
+    with np.load(path) as file:
+        for entry in file.files:
+            name, _, part = entry.rpartition("/")
+            if part != "keys":
+                continue
+            widths = file[f"{name}/widths"]
+            rows, ends = file[f"{name}/rows"], np.cumsum(widths[1:])
+            if rows.shape != (7, int(widths[1:].sum())):
+                raise ValueError(f"{path}: {name}: expected 7 rows of visibility")
+            starts = ends - widths[1:]
+            keys = [tuple(k) for k in file[entry].tolist()]
+            tables[name] = Table(
+                int(widths[0]),
+                {k: rows[:, a:b] for k, a, b in zip(keys, starts, ends, strict=True)},
+            )
+    return tables
