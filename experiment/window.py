@@ -15,6 +15,7 @@ from experiment.config import DisplayTable
 from experiment.display import Leave
 from experiment.driver import describe
 from experiment.errors import InputError
+from experiment.event_time import EventTime
 from experiment.page_drawing import Form
 from experiment.pages import Answers, Page
 from experiment.stage import Stage
@@ -68,6 +69,8 @@ class Window:
         self.context = moderngl.create_context(require=330)
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, table.samples)
         self.technique: Any = None  # what the view shown last was drawn with
+        self._when = EventTime(clock.now)
+        self._window.event_time = self._when
         self._events: list[Event] = []
         self._down: set[str] = set()
         self._form: Form | None = None
@@ -111,6 +114,7 @@ class Window:
             "refresh_declared": f"{1 / self.period:g}",
             "refresh_of_screen": str(rate or "unknown"),
             "window": "yes",
+            "input_time": "X11 event time, 1 ms" if _has_stamps() else "dispatch, one frame",
         }
 
     # Input
@@ -124,7 +128,8 @@ class Window:
         self._pump()
         if self._closed:
             raise Leave
-        happened, self._events = self._events, []
+        # Keys and pointer come from different queues of the system.
+        happened, self._events = sorted(self._events, key=lambda e: e.time), []
         return [*happened, Tick(self.clock.now())]
 
     def ask(self, page: Page) -> Answers:
@@ -215,7 +220,7 @@ class Window:
         self._io_pointer(x, y)
         height = self._window.height
         self._events.append(
-            PointerMove(self.clock.now(), *self._at(x, y), dx / height, -dy / height, dragging)
+            PointerMove(self._when.time(), *self._at(x, y), dx / height, -dy / height, dragging)
         )
 
     def on_mouse_press(self, x: int, y: int, button: int, _: int) -> None:
@@ -223,14 +228,14 @@ class Window:
         if button == mouse.LEFT:
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, True)
-            self._events.append(PointerPress(self.clock.now(), *self._at(x, y)))
+            self._events.append(PointerPress(self._when.time(), *self._at(x, y)))
 
     def on_mouse_release(self, x: int, y: int, button: int, _: int) -> None:
         """A button went up."""
         if button == mouse.LEFT:
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, False)
-            self._events.append(PointerRelease(self.clock.now(), *self._at(x, y)))
+            self._events.append(PointerRelease(self._when.time(), *self._at(x, y)))
 
     def on_mouse_scroll(self, x: int, y: int, _: float, dy: float) -> None:
         """The wheel turned: pages scroll."""
@@ -241,7 +246,7 @@ class Window:
         name = _KEYS.get(symbol)
         if name:
             self.stage.interface.key(name, True)
-            self._events.append(KeyPress(self.clock.now(), name))
+            self._events.append(KeyPress(self._when.time(), name))
             self._down.add(name)
         return pyglet.event.EVENT_HANDLED
 
@@ -250,7 +255,7 @@ class Window:
         name = _KEYS.get(symbol)
         if name:
             self.stage.interface.key(name, False)
-            self._events.append(KeyRelease(self.clock.now(), name))
+            self._events.append(KeyRelease(self._when.time(), name))
             self._down.discard(name)
 
     def on_text(self, text: str) -> None:
@@ -268,11 +273,11 @@ class Window:
 
     def on_activate(self) -> None:
         """The window has the desktop's focus."""
-        self._events.append(FocusChange(self.clock.now(), True))
+        self._events.append(FocusChange(self._when.time(), True))
 
     def on_deactivate(self) -> None:
         """Another window has the focus now; keys that were down come up unseen."""
-        now = self.clock.now()
+        now = self._when.time()
         self._events += [KeyRelease(now, name) for name in sorted(self._down)]
         self._down.clear()
         self._events.append(FocusChange(now, False))
@@ -283,17 +288,57 @@ class Window:
         return pyglet.event.EVENT_HANDLED
 
 
+class _StampedWindow(pyglet.window.Window):
+    """Keeps the system's stamp of the event that is being dispatched, where the system has one."""
+
+    event_time: EventTime | None = None
+
+    def dispatch_platform_event(self, event: Any) -> None:
+        """X11 only: keys come this way."""
+        self._stamped(super().dispatch_platform_event, event)
+
+    def dispatch_platform_event_view(self, event: Any) -> None:
+        """X11 only: the pointer's events come this way."""
+        self._stamped(super().dispatch_platform_event_view, event)
+
+    def _stamped(self, dispatch: Callable[[Any], None], event: Any) -> None:
+        if self.event_time is None:
+            return dispatch(event)
+        self.event_time.stamp = _x11_stamp(event)
+        try:
+            return dispatch(event)
+        finally:
+            self.event_time.stamp = None
+
+
+# X11's numbers of KeyPress, KeyRelease, ButtonPress, ButtonRelease and MotionNotify.
+_X11_KEYS, _X11_BUTTONS, _X11_MOTION = (2, 3), (4, 5), 6
+
+
+def _x11_stamp(event: Any) -> int | None:
+    """Milliseconds, or None for an event that carries no time."""
+    if event.type in _X11_KEYS:
+        return int(event.xkey.time)
+    if event.type in _X11_BUTTONS:
+        return int(event.xbutton.time)
+    return int(event.xmotion.time) if event.type == _X11_MOTION else None
+
+
 def _open(table: DisplayTable, title: str) -> pyglet.window.Window:
     config = pyglet.gl.Config(
         double_buffer=True, major_version=3, minor_version=3, forward_compatible=True
     )
     try:
-        return pyglet.window.Window(
+        return _StampedWindow(
             table.width, table.height, title, fullscreen=table.fullscreen, vsync=True,
             resizable=not table.fullscreen, config=config,
         )  # fmt: skip
     except Exception as error:  # pyglet raises a different class on each platform
         raise InputError(f"display: no window can be opened: {error}") from error
+
+
+def _has_stamps() -> bool:
+    return hasattr(pyglet.window.Window, "dispatch_platform_event")
 
 
 def available() -> bool:

@@ -65,8 +65,12 @@ def open_session(desktop, study_file, data):
         desktop, study_file.with_suffix(".log"),
         "run", study_file, "--participant", "P01", "--data", data,
     )  # fmt: skip
-    wait_until(lambda: has_window(desktop) or not program.running(), START, "the window")
-    assert program.running(), program.said()
+    try:
+        wait_until(lambda: has_window(desktop) or not program.running(), START, "the window")
+        assert program.running(), program.said()
+    except AssertionError:
+        program.close()
+        raise
     desktop.do("mousemove", 400, 300)
     return program
 

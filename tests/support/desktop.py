@@ -65,6 +65,10 @@ class Program:
         return self
 
     def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Kill it if it still runs."""
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait(10)

@@ -1,0 +1,199 @@
+"""The pages around the trials: what is asked, and what becomes of the answers."""
+
+import numpy as np
+import pytest
+
+from experiment import blocks, questionnaire
+from experiment.config import load, parse
+from experiment.depth_test import RATIO, depth_test
+from experiment.display import Leave
+from experiment.errors import InputError
+from experiment.pages import Choice, PlatePicture, Scale, TextField
+from experiment.plates import FIGURE, GROUND, plates
+
+PUBLISHED = load("published")
+
+
+class Answers:
+    """Answers every page by rule and keeps the pages."""
+
+    def __init__(self, **fixed):
+        self.fixed, self.pages = fixed, []
+
+    def ask(self, page):
+        self.pages.append(page)
+        answers = {"button": "0"}
+        for block in page.blocks:
+            if isinstance(block, Scale):
+                answers[block.name] = str(block.steps - 1)
+            elif isinstance(block, Choice):
+                answers[block.name] = "1"
+        given = {k: v.pop(0) if isinstance(v, list) else v for k, v in self.fixed.items()
+                 if any(getattr(b, "name", None) == k for b in page.blocks)}  # fmt: skip
+        return answers | given
+
+
+def with_blocks(*names):
+    session = PUBLISHED.session.model_copy(update={"questionnaire": names})
+    return PUBLISHED.model_copy(update={"session": session})
+
+
+def test_the_published_session_asks_for_consent_age_gender_and_four_plates():
+    person = Answers(age="27")
+    rows = questionnaire.before(PUBLISHED, 1, person)
+    assert [r["item"] for r in rows] == [
+        "consent", "age", "gender", *(f"color_plate_{n}" for n in (1, 2, 3, 4)),
+    ]  # fmt: skip
+    assert rows[1]["value"] == "27" and rows[2]["text"] == "male"
+
+
+def test_an_age_that_is_none_is_asked_again_with_the_value_named():
+    person = Answers(age=["abc", "-3", "999", ""])
+    rows = questionnaire.before(PUBLISHED, 1, person)
+    asked = [p for p in person.pages if p.name == "demographics"]
+    assert len(asked) == 4
+    assert asked[1].blocks[0].values == (("age", "abc"), ("most", "120"))
+    assert "age" not in [r["item"] for r in rows]
+
+
+def test_without_consent_nothing_else_is_asked():
+    class Refuses(Answers):
+        def ask(self, page):
+            return super().ask(page) | {"button": "1"}
+
+    person = Refuses()
+    with pytest.raises(Leave):
+        questionnaire.before(PUBLISHED, 1, person)
+    assert [p.name for p in person.pages] == ["consent"]
+
+
+def test_plates_record_whether_the_digit_was_read():
+    class Reads(Answers):
+        def ask(self, page):
+            answers = super().ask(page)
+            for picture in page.blocks:
+                if isinstance(picture, PlatePicture):
+                    options = page.blocks[1].options
+                    answers["digit"] = str(options.index(str(picture.plate.digit)))
+            return answers
+
+    def values(person):
+        rows = questionnaire.before(PUBLISHED, 1, person)
+        return [r["value"] for r in rows if r["item"].startswith("color")]
+
+    assert values(Reads()) == ["1"] * 4
+    assert values(Answers(digit="6")) == ["0"] * 4  # "none"
+
+
+def test_each_condition_is_rated_on_three_scales():
+    rows = questionnaire.after(with_blocks("ratings"), Answers(), 4 / 3)
+    assert len(rows) == 12
+    assert {(r["transparency"], r["scenario"]) for r in rows} == set(
+        PUBLISHED.design.factors().conditions
+    )
+
+
+@pytest.mark.parametrize(("option", "value"), [("0", "1"), ("1", "0"), ("2", "0")])
+def test_preference_is_1_for_dynamic_and_0_for_neutral_or_standard(option, value):
+    rows = questionnaire.after(with_blocks("comparison"), Answers(preference=option), 4 / 3)
+    assert rows[0] == {"item": "preference", "value": value}
+
+
+def test_remarks_left_empty_leave_no_row():
+    assert questionnaire.after(with_blocks("remarks"), Answers(remarks=""), 4 / 3) == []
+    (row,) = questionnaire.after(with_blocks("remarks"), Answers(remarks="<b>ok</b>"), 4 / 3)
+    assert row["text"] == "<b>ok</b>"
+
+
+def test_sus_scores_the_known_extremes_and_the_middle():
+    def score(values):
+        return blocks.sus_score({f"sus_{n}": str(v) for n, v in enumerate(values, start=1)})
+
+    assert score([4, 0] * 5) == 100.0
+    assert score([0, 4] * 5) == 0.0
+    assert score([2] * 10) == 50.0
+    # By hand: odd items 3 + 3 + 4 + 3 + 3 = 16, even ones 20 - (1 + 0 + 2 + 1 + 1) = 15.
+    assert score([3, 1, 3, 0, 4, 2, 3, 1, 3, 1]) == 77.5
+
+
+def test_tlx_has_six_scales_of_21_steps_for_each_level():
+    rows = questionnaire.after(with_blocks("tlx"), Answers(), 4 / 3)
+    assert len(rows) == 12 and {r["value"] for r in rows} == {"20"}
+    assert {r["item"] for r in rows} == {f"tlx_{name}" for name in blocks.TLX}
+
+
+def test_the_depth_test_asks_three_disjoint_clear_pairs_and_scores_them():
+    test = depth_test(PUBLISHED, 4 / 3)
+    assert len(test.pairs) == 3 and len({k for pair in test.pairs for k in pair}) == 6
+    scene, camera = test.view.scene, test.view.camera
+    for (a, b), near in zip(test.pairs, test.nearer, strict=True):
+        depths = []
+        for kind in (a, b):
+            at = [c for c, o in zip(scene.centers, scene.objects, strict=True) if o.kind == kind]
+            # Only one of its kind is in view, and in front of the viewer.
+            ahead = [camera.depth(c[None])[0] for c in at if _in_picture(camera, c)]
+            assert len(ahead) == 1
+            depths.append(ahead[0])
+        assert depths[near] * RATIO <= depths[1 - near]
+    right = {f"pair_{n}": str(near) for n, near in enumerate(test.nearer)}
+    assert test.score(right) == 3
+    assert test.score({k: str(1 - int(v)) for k, v in right.items()}) == 0
+
+
+def _in_picture(camera, point):
+    clip = camera.projection(4 / 3) @ camera.view() @ np.append(point, 1.0)
+    return clip[3] > camera.near and abs(clip[0]) < clip[3] and abs(clip[1]) < clip[3]
+
+
+def test_the_same_study_has_the_same_depth_test():
+    one, two = depth_test(PUBLISHED, 4 / 3), depth_test(PUBLISHED, 4 / 3)
+    assert one.pairs == two.pairs and one.nearer == two.nearer
+
+
+# Viénot, Brettel & Mollon 1999: what a deuteranope sees, in linear RGB.
+DEUTAN = np.array([[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]])
+
+
+def test_the_plates_colours_are_alike_to_a_deuteranope_and_apart_to_others():
+    figure, ground = (np.power(c, 2.2) for c in (FIGURE, GROUND))
+    apart = np.linalg.norm(figure - ground)
+    alike = np.linalg.norm(DEUTAN @ figure - DEUTAN @ ground)
+    # The lightness of the dots varies by ± 25 %: the remaining difference must drown in it.
+    assert alike < 0.25 * np.linalg.norm(DEUTAN @ ground) / 2
+    assert apart > 8 * alike
+
+
+def test_plates_are_four_digits_of_dots_that_do_not_overlap():
+    made = plates(np.random.default_rng(3))
+    assert len({p.digit for p in made}) == 4
+    for plate in made:
+        apart = np.linalg.norm(plate.places[:, None] - plate.places[None], axis=2)
+        np.fill_diagonal(apart, np.inf)
+        assert (apart > plate.radii[:, None] + plate.radii[None]).all()
+        assert len(plate.places) > 150
+
+
+def test_a_consent_file_that_is_missing_or_no_text_is_named(tmp_path):
+    text = (
+        '[study]\nname = "a"\ntitle = "a"\ndescription = "a"\nparticipants = 1\nseed = 1\n'
+        '[session]\nconsent = "mine.txt"\n'
+    )
+    study = tmp_path / "a.toml"
+    study.write_text(text)
+    with pytest.raises(InputError, match=r"a\.toml: session\.consent = 'mine\.txt': expected"):
+        load(str(study))
+    (tmp_path / "mine.txt").write_bytes(b"\xff\xfe\xff")
+    with pytest.raises(InputError, match="not UTF-8"):
+        load(str(study))
+    (tmp_path / "mine.txt").write_text("Grüße.\n")
+    assert load(str(study)).texts["consent.text"] == "Grüße."
+
+
+def test_optional_questions_do_not_hold_a_page_up():
+    page = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
+                            "seed": 1}, "session": {"demographics": True}}, "x")  # fmt: skip
+    person = Answers()
+    questionnaire.before(page, 1, person)
+    (asked,) = person.pages
+    assert asked.required == ()
+    assert isinstance(asked.blocks[0], TextField)
