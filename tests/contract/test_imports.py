@@ -20,9 +20,9 @@ root = os.getcwd()
 did = []
 
 def watch(event, args):
-    if event == "open":
+    if event == "open" and not isinstance(args[0], int):  # a descriptor: opened by what is below
         name, mode, flags = args
-        name = os.fsdecode(name) if isinstance(name, (str, bytes)) else str(name)
+        name = os.fsdecode(name)
         ours = os.path.abspath(name).startswith(root + os.sep) and "site-packages" not in name
         writes = bool(flags and flags & (os.O_WRONLY | os.O_RDWR | os.O_CREAT))
         if ours and not name.endswith((".py", ".pyc")) and not os.path.isdir(name):
@@ -30,7 +30,8 @@ def watch(event, args):
         elif writes and name != os.devnull and "__pycache__" not in name:  # numba tries its cache
             did.append(f"wrote {name}")
     elif event in ("subprocess.Popen", "socket.connect", "socket.bind"):
-        did.append(f"{event} {args}")
+        if "ldconfig" not in str(args[0]):  # ctypes looks for a library
+            did.append(f"{event} {args}")
 
 def forbid(owner, name):
     def refuse(*args, **kwargs):

@@ -183,3 +183,10 @@ def test_an_interrupted_installation_is_repaired(installed: Path) -> None:
     assert "unfinished or another Python's: making it again" in lines[1]
     assert lines[-1] == "ran demo"
     assert start(installed, "demo").stdout == "ran demo\n"
+
+
+def test_every_test_program_has_a_package_for_each_manager() -> None:
+    """tests/system-packages.txt: program, then its package for apt-get, dnf and pacman."""
+    lines = (ROOT / "tests" / "system-packages.txt").read_text("utf-8").splitlines()
+    rows = [line.partition("#")[0].split() for line in lines]
+    assert [len(row) for row in rows if row] == [4] * sum(map(bool, rows))
