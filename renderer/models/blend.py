@@ -58,7 +58,8 @@ def body(limbs: Sequence[Limb], cell: float) -> Shape:
     # A grid that is its own mirror image in x = 0 gives symmetric bodies symmetric meshes.
     origin[0] = -cell * np.ceil(max(-origin[0], high[:, 0].max()) / cell)
     count = np.ceil((high.max(axis=0) - origin) / cell).astype(int) + 2
-    field = np.full(count, 4 * cell, np.float32)
+    # Far enough outside that no part blends with the background.
+    field = np.full(count, margin.max() + 2 * cell, np.float32)
     owner = np.zeros(count, np.int8)
     axes = [(origin[i] + cell * np.arange(count[i])).astype(np.float32) for i in range(3)]
     first = np.maximum(((low - origin) / cell).astype(int), 0)

@@ -43,7 +43,7 @@ def outline(
     xy = (seen[:, :2] - frame[0]) / (frame[1, 0] - frame[0, 0]) * size - 0.5
     depth = np.full(size * size, -np.inf)
     front = np.zeros(size * size, bool)
-    for batch in np.array_split(mesh.triangles, max(1, len(mesh.triangles) // 4000)):
+    for batch in np.array_split(mesh.triangles, -(-len(mesh.triangles) // 20_000)):
         _draw(xy[batch], seen[batch][..., 2], size, depth, front)
     covered = np.isfinite(depth).reshape(size, size)[::-1]
     return Outline(covered, front.reshape(size, size)[::-1])
@@ -64,28 +64,39 @@ def _draw(
     front: NDArray[np.bool_],
 ) -> None:
     """Add triangles (m, 3, 2), pixel coordinates, with depths z (m, 3), to a picture."""
-    low = np.clip(np.ceil(p.min(axis=1)), 0, size).astype(int)
-    high = np.clip(np.floor(p.max(axis=1)) + 1, 0, size).astype(int)
-    area = _cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    extent = np.maximum(high - low, 0)
-    count = extent.prod(axis=1) * (area != 0)
-    which = np.repeat(np.arange(len(p)), count)
-    k = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
-    at = low[which] + np.stack([k % extent[which, 0], k // np.maximum(extent[which, 0], 1)], axis=1)
-    corner = p[which]
-    share = np.stack(
-        [_cross(corner[:, (i + 2) % 3] - corner[:, (i + 1) % 3], at - corner[:, (i + 1) % 3])
-         for i in range(3)], axis=1,
-    ) / area[which, None]  # fmt: skip
-    inside = (share >= 0).all(axis=1)
-    which, at, share = which[inside], at[inside], share[inside]
+    # Twice the signed area of the triangle, and of those a point at (x, y) makes with each side:
+    # the latter are slope · x + offset, and all have the sign of the former inside.
+    opposite, after = p[:, [1, 2, 0]], p[:, [2, 0, 1]]
+    side = after - opposite
+    area = side[:, 2, 0] * side[:, 0, 1] - side[:, 2, 1] * side[:, 0, 0]
+    flip = np.sign(area)[:, None]
+    which, y = _spans(p[..., 1].min(axis=1), p[..., 1].max(axis=1), size, area != 0)
+    slope = (-side[..., 1] * flip)[which]
+    ox, oy = opposite[which, :, 0], opposite[which, :, 1]
+    offset = side[which, :, 0] * (y[:, None] - oy) + side[which, :, 1] * ox
+    offset *= flip[which]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bound = -offset / slope
+    low = np.where(slope > 0, bound, -np.inf).max(axis=1)
+    high = np.where(slope < 0, bound, np.inf).min(axis=1)
+    beside = ((slope == 0) & (offset < 0)).any(axis=1)
+    row, x = _spans(low, high, size, ~beside)
+    which, y = which[row], y[row]
+    share = (slope[row] * x[:, None] + offset[row]) / np.abs(area[which])[:, None]
     near = (share * z[which]).sum(axis=1)
-    pixel = at[:, 1] * size + at[:, 0]
+    pixel = y * size + x
     order = np.argsort(near, kind="stable")
     nearer = order[near[order] > depth[pixel[order]]]
     depth[pixel[nearer]] = near[nearer]
     front[pixel[nearer]] = area[which[nearer]] > 0
 
 
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+def _spans(
+    low: NDArray[np.float64], high: NDArray[np.float64], size: int, used: NDArray[np.bool_]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The whole numbers in [0, size) of each used interval: its index and the number."""
+    first = np.ceil(np.clip(low, -0.5, size)).astype(int)
+    last = np.floor(np.clip(high, -1, size - 1)).astype(int)
+    count = np.where(used, np.maximum(last - first + 1, 0), 0)
+    which = np.repeat(np.arange(len(first)), count)
+    return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count) + first[which]

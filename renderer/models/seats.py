@@ -55,7 +55,8 @@ def chair() -> Shape:
         rod((-0.217, 0.27, 0.02), (0.217, 0.27, 0.02), 0.014, OAK),
     )
     legs = join(front, back, knob.at(0.216, 1.215, 0.33)).both()
-    return assemble(seat, legs, top, *spindles, bars, bars.mirrored(), size=1.3)
+    cushion = pillow((0.46, 0.07, 0.42), (0.62, 0.16, 0.14), 0.4, 28).at(0, 0.60, -0.02)
+    return assemble(seat, cushion, legs, top, *spindles, bars, bars.mirrored(), size=1.3)
 
 
 def rounded_bar(width: float, height: float) -> np.ndarray:

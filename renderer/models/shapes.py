@@ -120,9 +120,9 @@ def shade(whole: Shape) -> Mesh:
     """The Mesh of a Shape where it stands, its vertices split at sharp edges and colour borders.
 
     Normals are means of the adjacent faces weighted by area, so that large flat faces stay flat
-    beside rounded edges.
+    beside rounded edges, and by angle, so that it does not matter how a quad is cut in two.
     """
-    faces = _areas(whole)
+    faces, angles = _areas_and_angles(whole)
     label = _vertex_corners(whole)
     sharp = _sharp_vertices(whole, label)[whole.triangles]
     near = np.flatnonzero(sharp.any(axis=1))
@@ -132,7 +132,8 @@ def shade(whole: Shape) -> Mesh:
         label[corners] = np.where(sharp[near].ravel(), group, label[corners])
     kept = label == np.arange(len(label))
     triangles = (np.cumsum(kept) - 1)[label]
-    normals = np.stack([np.bincount(triangles, np.repeat(f, 3)) for f in faces.T], axis=1)
+    weights = (angles * faces[:, None].transpose(2, 0, 1)).reshape(3, -1)
+    normals = np.stack([np.bincount(triangles, w) for w in weights], axis=1)
     return Mesh(
         vertices=whole.vertices[whole.triangles.ravel()[kept]],
         normals=normals / _lengths(normals)[:, None],
@@ -141,13 +142,14 @@ def shade(whole: Shape) -> Mesh:
     )
 
 
-def _areas(whole: Shape) -> Array:
-    """(m, 3) outward normals of the triangles, as long as twice their area."""
-    x, y, z = whole.vertices.T
-    a, b, c = whole.triangles.T
-    ux, uy, uz = x[b] - x[a], y[b] - y[a], z[b] - z[a]
-    vx, vy, vz = x[c] - x[a], y[c] - y[a], z[c] - z[a]
-    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], axis=1)
+def _areas_and_angles(whole: Shape) -> tuple[Array, Array]:
+    """(m, 3) outward normals of the triangles, as long as twice their area; (m, 3) angles."""
+    p = whole.vertices.T
+    a, b, c = (p[:, corner] for corner in whole.triangles.T)
+    u, v, w = b - a, c - b, a - c
+    faces = np.stack([u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2] for i in range(3)], axis=1)
+    cosines = np.stack([-(u * w).sum(axis=0), -(u * v).sum(axis=0), -(v * w).sum(axis=0)], axis=1)
+    return faces, np.arctan2(_lengths(faces)[:, None], cosines)
 
 
 def _lengths(vectors: Array) -> Array:

@@ -35,7 +35,7 @@ def contact_sheet_scene(
         mesh = MODELS[name]()
         place = np.array([i % columns - (columns - 1) / 2, (rows - 1) / 2 - i // columns, 0.0])
         objects.append(Object(mesh, _fitted(turn, mesh.vertices, place), kind=name))
-    return Scene(tuple(objects)), _camera(max(rows, columns / aspect))
+    return Scene(tuple(objects)), _camera(max(rows, columns / aspect), max(rows, columns))
 
 
 def grid(count: int, aspect: float) -> tuple[int, int]:
@@ -57,9 +57,9 @@ def _fitted(
     return transform
 
 
-def _camera(height: float) -> Camera:
+def _camera(height: float, extent: float) -> Camera:
     """Far off on the +z side, so that cells at the border look like those in the middle."""
-    distance = 12.0 * height
+    distance = 12.0 * extent
     fov = 2 * np.arctan(height / 2 / distance)
     eye = np.array([0.0, 0.0, distance])
     return Camera(eye, np.eye(3), fov, near=distance - 2.0, far=distance + 2.0)
