@@ -13,6 +13,7 @@ from experiment.errors import InputError
 COMMANDS = {
     "run": "run a participant's session in a window",
     "simulate": "play a study with simulated participants",
+    "power": "how many participants does a study need",
     "replay": "show a trial again from its log",
     "report": "make the statistics report from a data folder",
     "check": "check a study before anybody is invited",

@@ -1,0 +1,43 @@
+"""Effects from the participants of a data folder, reduced as the analysis reduces them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from analysis import measures
+from analysis.cells import Cells
+from analysis.errors import DataError
+from analysis.load.study import load_study
+from experiment.errors import InputError
+from experiment.power import SampledEffect
+
+LEVELS = ("standard", "dynamic")
+
+
+def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect]:
+    """Times, errors and distances of a folder's participants. Raises InputError."""
+    try:
+        trials = load_study(folder, source).trials
+    except DataError as error:
+        raise InputError(f"--effect = {folder}: {error}") from None
+    if tuple(measures.design(trials)["transparency"]) != LEVELS:
+        raise InputError(f"--effect = {folder}: expected trials of both transparency levels")
+    times = measures.time_by_task(trials)
+    effects = [_effect("time, overall", measures.over_tasks(times))]
+    effects += [_effect(f"time {task}", times, task) for task in times.factors["task"]]
+    errors = measures.relative_error(trials)
+    effects += [_effect(f"relative error {task}", errors, task) for task in errors.factors["task"]]
+    if (trials["task"] == "unique").any():
+        effects.append(_effect("distance unique", measures.distance(trials)))
+    if any(len(e.values) < 2 for e in effects):
+        raise InputError(f"--effect = {folder}: expected at least 2 complete participants")
+    return effects
+
+
+def _effect(name: str, cells: Cells, task: str | None = None) -> SampledEffect:
+    where = {} if task is None else {"task": task}
+    return SampledEffect(
+        name, np.stack([cells.at(**where, transparency=level) for level in LEVELS], axis=1)
+    )

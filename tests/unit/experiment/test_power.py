@@ -1,0 +1,104 @@
+"""Power against the closed form, published values and the analysis's own test."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from analysis.stats.anova import repeated_measures
+from experiment.power import (
+    NormalEffect,
+    SampledEffect,
+    closed_form,
+    curve,
+    enough,
+    power,
+    published,
+    rejections,
+)
+
+SHIFT = NormalEffect("shift", (0.5, 0.0), (1.0, 1.0), 0.5)
+
+
+def test_closed_form_agrees_with_published_values():
+    # Superpower's ANOVA_exact, σ = 1, ρ = .5, Δ = .5 in a 2 × 2: main effect, dz = .5/√.5.
+    assert_allclose(closed_form(0.5 / 0.5**0.5, 16, 0.05), 0.75298, atol=5e-6)
+    # Sample sizes for 80 % that every power table prints: dz .35 → 67, .5 → 34, .8 → 15.
+    for dz, n in ((0.35, 67), (0.5, 34), (0.8, 15)):
+        assert closed_form(dz, n, 0.05) >= 0.8 > closed_form(dz, n - 1, 0.05)
+    assert_allclose(closed_form(0.0, 16, 0.05), 0.05, rtol=1e-9)
+
+
+def test_drawing_agrees_with_the_closed_form():
+    for point in curve([SHIFT, published()[0], published()[-1]], (8, 16, 34), 4000, 0.05, 1):
+        error = max((point.exact * (1 - point.exact) / 4000) ** 0.5, 1 / 4000)
+        assert abs(point.found - point.exact) < 4 * error
+        assert point.low <= point.found <= point.high
+
+
+def test_rejections_are_those_of_the_analysis():
+    rng = np.random.default_rng(3)
+    values = SHIFT.draw(rng, 40, 12)
+    found = rejections(values, 0.05)
+    for replication, expected in zip(values, found, strict=True):
+        assert (
+            repeated_measures(replication, ("transparency",))["transparency"].p < 0.05
+        ) == expected
+    assert 0 < found.sum() < 40
+
+
+def test_draws_have_their_moments():
+    values = NormalEffect("x", (10.0, 4.0), (3.0, 1.0), -0.4).draw(
+        np.random.default_rng(1), 400, 500
+    )
+    flat = values.reshape(-1, 2)
+    assert_allclose(flat.mean(axis=0), [10, 4], atol=5 * 3 / len(flat) ** 0.5)
+    assert_allclose(np.corrcoef(flat.T)[0, 1], -0.4, atol=5 / len(flat) ** 0.5)
+
+
+def test_the_papers_effects_give_back_its_f():
+    for effect, f in zip(
+        published(), (49.54, 7.54, 5.28, 22.98, 48.61, 4.74, 4.12, 0.068), strict=True
+    ):
+        assert_allclose(16 * effect.dz() ** 2, f, rtol=1e-9)
+        assert -1 <= effect.r <= 1
+
+
+def test_enough_is_where_power_stays():
+    points = curve(
+        [SHIFT, NormalEffect("none", (0.0, 0.0), (1.0, 1.0), 0.0)], range(8, 41, 2), 50, 0.05, 1
+    )
+    answer = enough(points)
+    assert answer["none"] is None
+    assert closed_form(SHIFT.dz(), answer["shift"], 0.05) >= 0.8
+
+
+def test_sampling_keeps_participants_whole_and_says_no_closed_form():
+    people = np.array([[1.0, 2.0], [10.0, 20.0], [100.0, 200.0]])
+    effect = SampledEffect("doubling", people)
+    values = effect.draw(np.random.default_rng(1), 50, 6)
+    assert (values[..., 1] == 2 * values[..., 0]).all()
+    assert power(effect, 6, 50, 0.05, np.random.default_rng(1)).exact is None
+
+
+def test_one_seed_one_curve_whatever_else_is_drawn():
+    alone = curve([SHIFT], (16,), 200, 0.05, 7)
+    among = curve([SHIFT], (8, 12, 16), 200, 0.05, 7)
+    assert alone[0] == among[2]
+
+
+def test_identical_conditions_are_no_effect():
+    same = SampledEffect("same", np.array([[1.0, 1.0], [2.0, 2.0]]))
+    assert power(same, 8, 100, 0.05, np.random.default_rng(1)).found == 0
+
+
+@pytest.mark.parametrize(
+    "build, message",
+    [
+        (lambda: NormalEffect("x", (0, 1), (1, 1), 1.5), r"x: r = 1.500, expected a correlation"),
+        (lambda: NormalEffect("x", (0, 1), (0, 1), 0.5), r"x: sd = \(0, 1\), expected numbers > 0"),
+        (lambda: power(SHIFT, 1, 10, 0.05, np.random.default_rng()), r"participants = 1, expected"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(build, message):
+    with pytest.raises(ValueError, match=message):
+        build()
