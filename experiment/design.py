@@ -92,13 +92,18 @@ class TaskSet:
 
 @dataclass(frozen=True)
 class Factors:
-    """What a design crosses: transparency levels × scenarios, tasks nested in scenarios."""
+    """What a design crosses: transparency levels × scenarios, tasks nested in scenarios.
+
+    A scene named in `redraw` is drawn again, from a stream of its own, as often as it is named:
+    the difficulty certificate says which (experiment/certificate.py).
+    """
 
     transparency: tuple[str, ...]
     tasks: Mapping[str, tuple[str, ...]]  # scenario -> its tasks
     trials: int
     training: int
     static_scenarios: Sequence[str] = ("walkthrough",)
+    redraw: Sequence[str] = ()
 
     @property
     def conditions(self) -> tuple[tuple[str, str], ...]:
@@ -149,6 +154,8 @@ def _trial(
     else:
         stream = (PARTICIPANT, slot, level, scenario_number, which, scene_number)
         scene = "stream-" + "-".join(map(str, stream))
+    again = list(factors.redraw).count(scene)
+    stream = (*stream, again) if again else stream
     return Trial(
         number, block, task_set, in_set, transparency, scenario, task, scene, stream, training
     )

@@ -337,6 +337,16 @@ def _open(table: DisplayTable, title: str) -> pyglet.window.Window:
         raise InputError(f"display: no window can be opened: {error}") from error
 
 
+def measured_refresh(window: Window, flips: int = 60) -> float:
+    """Flips a second without pacing, in Hz: the display's rate, or more where flips do not wait."""
+    for _ in range(5):
+        window._window.flip()
+    start = time.perf_counter()
+    for _ in range(flips):
+        window._window.flip()
+    return flips / (time.perf_counter() - start)
+
+
 def _has_stamps() -> bool:
     return hasattr(pyglet.window.Window, "dispatch_platform_event")
 

@@ -1,59 +1,185 @@
-"""`seethrough check`: config, design and machine, before anybody is invited."""
+"""`seethrough check`: config, design, difficulty and machine, before anybody is invited."""
 
 from __future__ import annotations
 
 import argparse
-import shutil
+import csv
 from collections import Counter
+from collections.abc import Iterator
+from dataclasses import fields
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from experiment.config import Study, load
 from experiment.design import order_of, session_for
+from experiment.errors import InputError
 from experiment.texts import Texts
+
+if TYPE_CHECKING:
+    from experiment.certificate import Difficulty
+
+SECONDS = 10.0  # of the hardest scene
+LEAST_DISK = 1.0  # GiB
+MOST_REDRAWS = 50
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The command's own arguments."""
     parser.add_argument("study", metavar="STUDY", help="TOML file or name of a shipped study")
+    parser.add_argument("--config-only", action="store_true", help="config and design alone")
+    parser.add_argument("--certificate", type=Path, metavar="FILE.csv", help="every trial's row")
+    parser.add_argument(
+        "--redraw", action="store_true", help="find the scenes to draw again, and print them"
+    )
+    parser.add_argument("--seconds", type=float, default=SECONDS, help="of the hardest scene")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what was checked; 2 with one line if the study is not valid (InputError)."""
+    """Print what was checked; 0 if the study may run here, 1 if not."""
+    if arguments.certificate is not None and arguments.certificate.exists():
+        raise InputError(f"{arguments.certificate}: exists already; expected a new file")
     study = load(arguments.study)
     Texts(study.study.language, study.texts)
-    for line in (*_config(study), *_design(study), *_machine()):
+    print(f"config      {study.study.name}: valid, {study.digest()[:12]}")
+    for line in _design(study):
         print(line)
-    return 0
-
-
-def _config(study: Study) -> list[str]:
-    return [f"config    {study.study.name}: valid, {study.digest()[:12]}"]
-
-
-def _design(study: Study) -> list[str]:
-    factors = study.design.factors()
-    count = study.study.participants
-    per_session = sum(len(s.trials) for s in session_for(1, factors))
-    rows = Counter(order_of(slot, len(factors.conditions)) for slot in range(1, count + 1))
-    lines = [
-        f"design    {count} participants × {per_session} trials = {count * per_session} trials",
-        *(
-            f"          {number} × " + " → ".join("/".join(factors.conditions[c]) for c in order)
-            for order, number in sorted(rows.items())
-        ),
-    ]
-    uneven = max(rows.values()) - min(rows.values())
-    word = "balanced" if uneven == 0 else f"rows differ by {uneven}"
-    return [*lines, f"          {word}"]
-
-
-def _machine() -> list[str]:
+    if arguments.config_only:
+        return 0
     from experiment.driver import describe
     from renderer.gpu.context import standalone
 
-    driver = describe(standalone())
-    free = shutil.disk_usage(Path.cwd()).free
-    return [
-        *(f"machine   {name}: {value}" for name, value in driver.items()),
-        f"machine   free disk: {free / 2**30:.1f} GiB",
-    ]
+    context = standalone()
+    for name, value in describe(context).items():
+        print(f"machine     {name}: {value}")
+    measured = _measured(study, context)
+    passed = _difficulty(study, measured, context, arguments.redraw)
+    if arguments.certificate is not None:
+        _write(measured, arguments.certificate)
+    return 0 if _machine(study, measured, context, arguments.seconds) and passed else 1
+
+
+def _design(study: Study) -> Iterator[str]:
+    factors, count = study.design.factors(), study.study.participants
+    per_session = sum(len(s.trials) for s in session_for(1, factors))
+    rows = Counter(order_of(slot, len(factors.conditions)) for slot in range(1, count + 1))
+    yield f"design      {count} participants × {per_session} trials = {count * per_session} trials"
+    for order, number in sorted(rows.items()):
+        yield f"            {number} × " + " → ".join(
+            "/".join(factors.conditions[c]) for c in order
+        )
+    uneven = max(rows.values()) - min(rows.values())
+    yield f"            {'balanced' if uneven == 0 else f'rows differ by {uneven}'}"
+
+
+def _measured(study: Study, context: Any) -> list[Difficulty]:
+    """Every trial's difficulty, with progress."""
+    from experiment.certificate import Certifier, trials_of
+    from experiment.progress import Progress
+
+    certifier, trials = Certifier(study, context), trials_of(study)
+    measured = []
+    with Progress("measuring difficulty", len(trials)) as progress:
+        for trial in trials:
+            measured.append(certifier.measure(trial))
+            progress.step(trial.task)
+    return measured
+
+
+def _difficulty(study: Study, measured: list[Difficulty], context: Any, redraw: bool) -> bool:
+    from experiment.certificate import matches, worst
+
+    passed = True
+    for match in matches(study, measured):
+        levels = ", ".join(f"{level} {mean:.3f}" for level, mean in match.levels)
+        verdict = "ok" if match.ok else "NOT MATCHED"
+        print(
+            f"difficulty  {match.task}: visible fraction {levels}; apart {match.difference:.3f}, "
+            f"at most {study.design.tolerance:g}: {verdict}"
+        )
+        if not match.ok:
+            passed = False
+            print(f"            farthest off: {worst(match, measured).trial.scene}")
+    if redraw and not passed:
+        _redraw(study, measured, context)
+    return passed
+
+
+def _redraw(study: Study, measured: list[Difficulty], context: Any) -> None:
+    """Draw the worst scene again until all match; print the line for the config."""
+    from experiment.certificate import Certifier, matches, trials_of, worst
+
+    names = list(study.design.redraw)
+    for _ in range(MOST_REDRAWS):
+        bad = next((m for m in matches(study, measured) if not m.ok), None)
+        if bad is None:
+            quoted = ", ".join(f'"{name}"' for name in names)
+            print(f"redraw      these scenes drawn again match; in [design]: redraw = [{quoted}]")
+            return
+        names.append(worst(bad, measured).trial.scene)
+        design = study.design.model_copy(update={"redraw": tuple(names)})
+        study = study.model_copy(update={"design": design})
+        certifier, again = Certifier(study, context), {d.trial.stream: d for d in measured}
+        measured = [again.get(t.stream) or certifier.measure(t) for t in trials_of(study)]
+    print(f"redraw      {MOST_REDRAWS} scenes drawn again, and the levels still do not match")
+
+
+def _write(measured: list[Difficulty], path: Path) -> None:
+    from experiment.certificate import Difficulty
+
+    values = [f.name for f in fields(Difficulty) if f.name != "trial"]
+    with open(path, "x", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["scene", "task", "transparency", *values])
+        for d in measured:
+            cells = [getattr(d, name) for name in values]
+            table.writerow([d.trial.scene, d.trial.task, d.trial.transparency, *cells])
+
+
+def _machine(study: Study, measured: list[Difficulty], context: Any, seconds: float) -> bool:
+    """Frame times where they are worst: the scenes with most to see through, in each scenario."""
+    from experiment.machine import frame_times, free_disk
+
+    for scenario in study.design.factors().tasks:
+        own = [d for d in measured if d.trial.scenario == scenario]
+        level = study.design.transparency[-1]
+        hardest = max(
+            (d for d in own if d.trial.transparency == level),
+            key=lambda d: (d.occluders, d.targets),
+        )
+        times = frame_times(study, hardest.trial, context, seconds)
+        rate = study.display.refresh
+        print(
+            f"machine     {scenario}, {level}: {times.frames} frames of {hardest.trial.scene}, "
+            f"median {times.median:.1f} ms, 99 % within {times.p99:.1f} ms; "
+            f"{100 * times.missed:.1f} % over 1.5 periods of {rate:g} Hz"
+        )
+    fit = _refresh(study)
+    free = free_disk(Path.cwd())
+    print(f"machine     free disk: {free:.1f} GiB" + ("" if free > LEAST_DISK else ": TOO LITTLE"))
+    return fit and free > LEAST_DISK
+
+
+def _refresh(study: Study) -> bool:
+    """Measured against declared refresh rate, where there is a display."""
+    from experiment.window import available
+
+    if not available():
+        print("machine     no display: refresh rate not measured")
+        return True
+    from experiment.clock import RealClock
+    from experiment.window import Window, measured_refresh
+
+    window = Window(study.display, Texts("en"), RealClock(), "check")
+    try:
+        rate = measured_refresh(window)
+    finally:
+        window.close()
+    if rate > 1000:
+        print("machine     refresh: the display does not wait; frames are paced by a timer")
+        return True
+    fits = abs(rate - study.display.refresh) < 0.05 * study.display.refresh
+    word = "as declared" if fits else "NOT AS DECLARED"
+    print(
+        f"machine     refresh: {rate:.1f} Hz measured, {study.display.refresh:g} declared: {word}"
+    )
+    return fits

@@ -1,0 +1,202 @@
+"""The difficulty certificate: how hard is each trial's scene, and are the conditions alike?
+
+Measured without the technique, from fixed views that every scene of a scenario shares, so that the
+numbers say something about the scene and nothing about a participant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiment.config import Study
+from experiment.design import Trial, session_for
+from experiment.looking import Looking
+from experiment.scenes import StudyScenes
+from renderer.camera import Camera, look_at
+from renderer.scene import Scene
+from renderer.techniques.dynamic import DynamicTransparency
+from renderer.techniques.standard import Standard
+from tasks.base import View
+from tasks.building import Building
+from tasks.catalog import TASKS
+
+ABSTRACT_VIEWS = 6
+HEADINGS = 4
+# Shows every penetrable occluder half: a target's pixels are then those it would have alone, down
+# to six things in front of it (a share of 1/64 is the least that counts).
+UNCOVERED = DynamicTransparency(alpha_target=0.5, alpha_edge=1.0, width=0.0)
+LESS = 0.98  # a distractor that keeps less of its area than this hides part of a target
+
+
+@dataclass(frozen=True)
+class Difficulty:
+    """One scene's difficulty; means over the fixed views.
+
+    visible: fraction of the targets' pixels that can be seen, mean over targets in view; hidden:
+    targets of which no view shows anything; occluders: distractors that hide part of a target;
+    clutter: objects that can be seen; path: world units to walk past every asked object, 0 in the
+    abstract world.
+    """
+
+    trial: Trial
+    targets: int
+    visible: float
+    hidden: int
+    occluders: float
+    clutter: float
+    path: float
+
+
+@dataclass(frozen=True)
+class Match:
+    """A task's levels side by side: mean visible fraction of each, and their distance."""
+
+    task: str
+    levels: tuple[tuple[str, float], ...]
+    difference: float
+    ok: bool
+
+
+def trials_of(study: Study, participants: int | None = None) -> list[Trial]:
+    """Every trial of the study, with its level; walkthrough scenes occur once a participant."""
+    count = study.study.participants if participants is None else participants
+    factors = study.design.factors()
+    return [
+        trial
+        for slot in range(1, count + 1)
+        for task_set in session_for(slot, factors)
+        for trial in task_set.trials
+    ]
+
+
+class Certifier:
+    """Measures trials; a scene that several trials share is measured once."""
+
+    def __init__(self, study: Study, context: Any) -> None:
+        self.study = study
+        self.aspect = study.display.width / study.display.height
+        self._scenes = StudyScenes(study)
+        self._looking = Looking(context, self.aspect)
+        self._known: dict[tuple[int, ...], Difficulty] = {}
+
+    def measure(self, trial: Trial) -> Difficulty:
+        """The difficulty of a trial's scene."""
+        if trial.stream not in self._known:
+            self._known[trial.stream] = self._measured(trial)
+        return replace(self._known[trial.stream], trial=trial)
+
+    def _measured(self, trial: Trial) -> Difficulty:
+        task = TASKS[trial.task]
+        state = self._scenes.begin(task, trial, self.aspect)
+        first = task.view(state)
+        scene = first.scene
+        building = getattr(state, "building", None)
+        cameras = _abstract(first.camera) if building is None else _walkthrough(first, building)
+        looks = [self._both(scene, camera) for camera in cameras]
+        fractions = np.array([fraction for fraction, _, _ in looks])
+        in_view = np.isfinite(fractions)
+        seen = np.where(in_view, fractions, 0).sum() / max(in_view.sum(), 1)
+        shown = np.nanmax(np.where(in_view, fractions, 0), axis=0)
+        return Difficulty(
+            trial,
+            int(scene.targets.sum()),
+            float(seen),
+            int((shown == 0).sum()),
+            float(np.mean([occluders for _, occluders, _ in looks])),
+            float(np.mean([clutter for _, _, clutter in looks])),
+            0.0 if building is None else walking_path(building),
+        )
+
+    def _both(self, scene: Scene, camera: Camera) -> tuple[NDArray[np.float64], int, int]:
+        """(targets,) visible fractions, NaN out of view; occluders; visible objects."""
+        view = View(scene, camera)
+        self._looking.technique = Standard()
+        plain = self._looking.look(view)
+        self._looking.technique = UNCOVERED
+        alone = self._looking.look(view)
+        whole = alone.pixels[scene.targets].astype(float)
+        with np.errstate(invalid="ignore"):
+            fraction = np.where(whole > 0, plain.pixels[scene.targets] / whole, np.nan)
+        hides = (alone.area < LESS * plain.area) & ~scene.targets
+        return np.minimum(fraction, 1.0), int(hides.sum()), int(plain.visible.sum())
+
+
+def matches(study: Study, measured: Sequence[Difficulty]) -> list[Match]:
+    """Whether, task by task, the transparency levels show equally much of the targets."""
+    found = []
+    for task in study.design.tasks:
+        levels = tuple(
+            (level, float(np.mean(values)))
+            for level in study.design.transparency
+            if (values := [d.visible for d in measured if _is(d.trial, task, level)])
+        )
+        means = [mean for _, mean in levels]
+        difference = max(means) - min(means)
+        found.append(Match(task, levels, difference, difference <= study.design.tolerance))
+    return found
+
+
+def worst(match: Match, measured: Iterable[Difficulty]) -> Difficulty:
+    """The trial to draw again: the farthest from the other levels' mean."""
+    means = dict(match.levels)
+
+    def distance(d: Difficulty) -> float:
+        others = [mean for level, mean in match.levels if level != d.trial.transparency]
+        return abs(d.visible - float(np.mean(others)))
+
+    own = [d for d in measured if d.trial.task == match.task and d.trial.transparency in means]
+    return max(own, key=distance)
+
+
+def walking_path(building: Building) -> float:
+    """World units from the start past every asked object, always to the nearest one next.
+
+    Straight: there is no collision in the building (004 §VI-D).
+    """
+    centers = building.scene.centers[building.asked_objects][:, [0, 2]]
+    left = list(centers)
+    way = [np.asarray(building.start, float)]
+    while left:
+        nearest = min(range(len(left)), key=lambda i: float(np.linalg.norm(left[i] - way[-1])))
+        way.append(left.pop(nearest))
+    return float(sum(np.linalg.norm(b - a) for a, b in pairwise(way)))
+
+
+def _is(trial: Trial, task: str, level: str) -> bool:
+    return trial.task == task and trial.transparency == level
+
+
+def _abstract(camera: Camera) -> list[Camera]:
+    """Views from around the world at the orbit's distance: level, above and below in turn."""
+    distance = float(np.linalg.norm(camera.eye))
+    cameras = []
+    for k in range(ABSTRACT_VIEWS):
+        turn, rise = 2 * np.pi * k / ABSTRACT_VIEWS, (0.0, 0.6, -0.6)[k % 3]
+        flat = np.cos(rise)
+        eye = distance * np.array([flat * np.sin(turn), np.sin(rise), flat * np.cos(turn)])
+        lens = {"fov_y": camera.fov_y, "near": camera.near, "far": camera.far}
+        cameras.append(look_at(eye, np.zeros(3), **lens))
+    return cameras
+
+
+def _walkthrough(first: View, building: Building) -> list[Camera]:
+    """Four headings at the start and in the middle of each quarter of the building."""
+    camera, quarter = first.camera, building.parameters.side / 4
+    height = camera.eye[1]
+    places = [(camera.eye[0], camera.eye[2])]
+    places += [(x * quarter, z * quarter) for x in (-1, 1) for z in (-1, 1)]
+    cameras = []
+    for x, z in places:
+        eye = np.array([x, height, z])
+        for k in range(HEADINGS):
+            turn = 2 * np.pi * k / HEADINGS
+            ahead = eye + np.array([np.sin(turn), 0.0, -np.cos(turn)])
+            lens = {"fov_y": camera.fov_y, "near": camera.near, "far": camera.far}
+            cameras.append(look_at(eye, ahead, **lens))
+    return cameras
