@@ -57,7 +57,11 @@ class StudyTable(_Table):
 
 
 class DesignTable(_Table):
-    """[design]: what is crossed, and how often."""
+    """[design]: what is crossed, and how often.
+
+    `tolerance` bounds the difference between transparency levels in the mean visible fraction of
+    the targets; scenes named in `redraw` are drawn again to keep it (experiment/certificate.py).
+    """
 
     transparency: Annotated[
         tuple[Literal["standard", "dynamic"], ...], Field(min_length=1, max_length=2)
@@ -70,8 +74,10 @@ class DesignTable(_Table):
     )
     trials: Annotated[int, Field(ge=1, le=100)] = 3
     training: Annotated[int, Field(ge=0, le=20)] = 1
+    redraw: tuple[str, ...] = ()
+    tolerance: Annotated[float, Field(gt=0, le=1)] = 0.05
 
-    _arrays = field_validator("transparency", "tasks", mode="before")(_as_tuple)
+    _arrays = field_validator("transparency", "tasks", "redraw", mode="before")(_as_tuple)
     _unique = field_validator("transparency", "tasks")(_once)
 
     def factors(self) -> Factors:
@@ -79,7 +85,9 @@ class DesignTable(_Table):
         scenarios = ("abstract", "walkthrough")
         tasks = {s: tuple(t for t in self.tasks if TASK_SCENARIO[t] == s) for s in scenarios}
         present = {s: ts for s, ts in tasks.items() if ts}
-        return Factors(self.transparency, present, self.trials, self.training)
+        return Factors(
+            self.transparency, present, self.trials, self.training, redraw=self.redraw
+        )
 
 
 class DisplayTable(_Table):
@@ -96,7 +104,9 @@ class SessionTable(_Table):
     """[session]: limits in seconds, 0 is none (training: 004 §VI-G); pages before and after.
 
     `consent` is a text file beside the study's; `resume` says where an interrupted session goes
-    on: at the start of the block it broke off in, or at the trial.
+    on: at the start of the block it broke off in, or at the trial. A session not heard of for
+    `stale_after` loses its slot when somebody needs one. `ledger` is the address of a PostgreSQL
+    that many stations share (its password belongs into PostgreSQL's own password file).
     """
 
     training_limit: Annotated[float, Field(ge=0, strict=False)] = 300.0
@@ -107,6 +117,9 @@ class SessionTable(_Table):
     color_check: bool = False
     questionnaire: tuple[QuestionnaireBlock, ...] = ("ratings", "comparison", "remarks")
     resume: Literal["block", "trial"] = "block"
+    stale_after: Annotated[float, Field(ge=0, strict=False)] = 86_400.0
+    # Where slots are kept is no part of what is studied: not in the digest, nor in any sidecar.
+    ledger: Annotated[str, Field(pattern=r"^(postgresql://([^:@/]+@)?[^@]+)?$", exclude=True)] = ""
 
     _arrays = field_validator("questionnaire", mode="before")(_as_tuple)
     _unique = field_validator("questionnaire")(_once)
