@@ -24,8 +24,7 @@ import sysconfig
 import time
 
 if sys.version_info < (3, 11):  # noqa: UP036  an older Python is what this line is for
-    names = ("python3.14", "python3.13", "python3.12", "python3.11")
-    newer = next((name for name in names if shutil.which(name)), None)
+    newer = next(filter(shutil.which, [f"python3.{n}" for n in (14, 13, 12, 11)]), None)
     advice = f"run `{newer} start.py`" if newer else "install it, then run this again"
     sys.exit(f"start.py: this is Python {sys.version.split()[0]}, expected 3.11 or newer: {advice}")
 
@@ -70,13 +69,8 @@ if not egl.eglInitialize(egl.eglGetDisplay(None), None, None):
         raise SystemExit("a driver for EGL")
 """
 NO_NETWORK = (
-    "Failed to establish a new connection",
-    "Temporary failure",
-    "Could not resolve",
-    "getaddrinfo failed",
-    "Network is unreachable",
-    "ConnectTimeoutError",
-    "ProxyError",
+    "Failed to establish a new connection|Temporary failure|Could not resolve|getaddrinfo failed|"
+    "Network is unreachable|ConnectTimeoutError|ProxyError"
 )
 
 
@@ -164,7 +158,7 @@ def run_logged(command, what, detail=str, keep_open=()) -> tuple[int, str]:
 
 def why(output: str) -> str:
     """The reason for a failure, from what the failed command printed."""
-    if any(sign in output for sign in NO_NETWORK):
+    if any(sign in output for sign in NO_NETWORK.split("|")):
         return "there is no network: connect this machine, then run this again"
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     errors = [line for line in lines if line.startswith(("ERROR:", "E:", "Error:"))]
@@ -190,15 +184,16 @@ def install_system(what: str, packages: dict[str, str]) -> None:
     if not manager:
         raise Stop(f"missing: {what}; install it with this system's package manager")
     update, install = MANAGERS[manager]
-    install = install + packages[manager].split()
-    prefix = as_root()
+    install, prefix = install + packages[manager].split(), as_root()
     if prefix is None:
         raise Stop(f"missing: {what}; an administrator types: sudo {manager} {' '.join(install)}")
+    output = ""
     for words in filter(None, (update, install)):
         said = f"{what}: {manager} {' '.join(words)}"
-        status, output = run_logged([*prefix, manager, *words], said)
+        status, printed = run_logged([*prefix, manager, *words], said)
+        output += printed
     if status:
-        raise Stop(f"{what}: {manager} failed: {why(output)}")
+        raise Stop(f"missing: {what}, and {manager} failed: {why(output)}")
 
 
 def opengl_missing() -> str:
@@ -208,16 +203,20 @@ def opengl_missing() -> str:
 
 def need_system(usable: bool) -> None:
     """What only the system has (Linux): OpenGL, a window's library, what makes an environment."""
-    if sys.platform != "linux":
-        return
-    needs = {"OpenGL": OPENGL} if opengl_missing() else {}
+    missing = opengl_missing() if sys.platform == "linux" else ""
+    needs = {"OpenGL": OPENGL} if missing else {}
     if not usable and not importlib.util.find_spec("ensurepip"):
         needs["Python's venv module"] = VENV_MODULE
-    if needs:
-        wanted = {name: " ".join(of.get(name, "") for of in needs.values()) for name in MANAGERS}
+    if not needs:
+        return
+    wanted = {name: " ".join(of.get(name, "") for of in needs.values()) for name in MANAGERS}
+    try:
         install_system(" and ".join(needs), wanted)
-        if opengl_missing():
-            say(f"{opengl_missing()} still does not work: drawing may fail")
+    except Stop:
+        if [*needs] != ["OpenGL"] or missing.startswith("lib"):
+            raise  # else only Mesa's driver: a vendor's own may do
+    if missing and opengl_missing():
+        say(f"{opengl_missing()} is missing: drawing may fail")
 
 
 def need_test_programs() -> None:
@@ -228,7 +227,7 @@ def need_test_programs() -> None:
     with open(os.path.join(ROOT, "tests", "system-packages.txt"), encoding="utf-8") as file:
         for line in file:
             words = line.partition("#")[0].split()
-            if words and not shutil.which(words[0]):
+            if words and not any(map(shutil.which, words[0].split("|"))):
                 for name, package in zip(MANAGERS, words[1:], strict=True):
                     wanted[name] += f" {package}"
     if wanted["apt-get"]:
@@ -260,32 +259,26 @@ def is_usable() -> bool:
     return answer.stdout.strip() == sys.implementation.cache_tag
 
 
-def begin_environment() -> bool:
-    """Mark .venv as unfinished, emptied first if it is not usable; returns whether it is."""
-    usable = is_usable()
-    if not usable and os.path.isdir(VENV):
+def begin(usable: bool) -> None:
+    """Mark .venv as unfinished; one that is not usable is emptied and made anew, with pip."""
+    if not usable:
         if os.path.lexists(PYTHON):
             say("the environment in .venv is unfinished or another Python's: making it again")
         shutil.rmtree(VENV)
-    os.makedirs(VENV, exist_ok=True)
+        os.mkdir(VENV)
     with open(UNFINISHED, "w", encoding="utf-8") as file:
         file.write("start.py removes this file when the installation is complete\n")
-    return usable
-
-
-def make_environment() -> None:
-    """An empty environment in .venv, with pip."""
-    python = getattr(sys, "_base_executable", None) or sys.executable
-    status, output = run_logged([python, "-m", "venv", VENV], "making the environment .venv")
-    if status:
-        raise Stop(f"cannot make .venv: {why(output)}")
+    if not usable:
+        python = getattr(sys, "_base_executable", None) or sys.executable
+        status, output = run_logged([python, "-m", "venv", VENV], "making the environment .venv")
+        if status:
+            raise Stop(f"cannot make .venv: {why(output)}")
 
 
 def install_packages(extras: str, keep_open: tuple[int, ...]) -> None:
     """The project, editable, and what it needs, in the versions of constraints.txt."""
     with open(CONSTRAINTS, encoding="utf-8") as file:
         total = sum("==" in line for line in file)
-
     folder = sysconfig.get_path("purelib", "venv", {"base": VENV})
 
     def detail(line: str) -> str:
@@ -296,7 +289,7 @@ def install_packages(extras: str, keep_open: tuple[int, ...]) -> None:
 
     command = [PYTHON, "-m", "pip", "install", "--disable-pip-version-check", "--progress-bar"]
     command += ["off", "-c", CONSTRAINTS, "-e", f".[{extras}]" if extras else "."]
-    what = "installing the packages: 800 MB, a minute or so"
+    what = "installing the packages: 900 MB, a minute or so"
     status, output = run_logged(command, what, detail, keep_open)
     if status:
         os.remove(UNFINISHED)  # pip undoes what it could not finish
@@ -333,20 +326,27 @@ def set_up(extras: str) -> None:
         check_platform()
         stamp = read_stamp()
         extras = extras or (stamp[2] if stamp else "")
-        usable = begin_environment()
+        usable = is_usable()
+        os.makedirs(VENV, exist_ok=True)
         need_system(usable)
-        if not usable:
-            make_environment()
+        begin(usable)
         install_packages(extras, lock)
         with open(STAMP, "w", encoding="utf-8") as file:
             file.write("\n".join((environment_id(), packages_id(), extras)) + "\n")
         os.remove(UNFINISHED)
 
 
+def wait_for(process: subprocess.Popen) -> int:
+    """Its exit status. An interrupt reaches it too, and it ends in its own way."""
+    while True:
+        with contextlib.suppress(KeyboardInterrupt):
+            return process.wait()
+
+
 def run_program(words: list[str]) -> int:
     """Become `seethrough WORDS`; on Windows, which cannot, wait for it."""
     if WINDOWS:
-        return subprocess.call([os.path.join(SCRIPTS, "seethrough.exe"), *words])
+        return wait_for(subprocess.Popen([os.path.join(SCRIPTS, "seethrough.exe"), *words]))
     os.execv(PYTHON, [PYTHON, os.path.join(SCRIPTS, "seethrough"), *words])
 
 
@@ -359,18 +359,18 @@ def children() -> list[int]:
 def run_tests(words: list[str]) -> int:
     """pytest on two cores; its closing line is the last one printed, and no process is left."""
     command = [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadscope", *words]
-    if sys.platform != "linux":
-        return subprocess.call(command, cwd=ROOT)
-    set_child_subreaper = 36  # what our descendants leave behind becomes our child
-    importlib.import_module("ctypes").CDLL(None).prctl(set_child_subreaper, 1, 0, 0, 0)
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    try:
-        return subprocess.call(command, cwd=ROOT)
-    finally:
-        while children():
-            pid = children()[0]
-            os.kill(pid, signal.SIGKILL)
-            os.waitpid(pid, 0)
+    linux = sys.platform == "linux"
+    if linux:
+        set_child_subreaper = 36  # what our descendants leave behind becomes our child
+        importlib.import_module("ctypes").CDLL(None).prctl(set_child_subreaper, 1, 0, 0, 0)
+    pytest = subprocess.Popen(command, cwd=ROOT)
+    signal.signal(signal.SIGTERM, lambda *_: pytest.terminate())
+    status = wait_for(pytest)
+    while linux and children():
+        pid = children()[0]
+        os.kill(pid, signal.SIGKILL)
+        os.waitpid(pid, 0)
+    return status
 
 
 def main(words: list[str]) -> int:

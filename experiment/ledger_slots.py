@@ -8,9 +8,10 @@ rows differ by at most one from the target number on, whoever dropped out on the
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 
 LIVE, COMPLETE, VOID, SURPLUS = "live", "complete", "void", "surplus"
 STATUSES = (LIVE, COMPLETE, VOID, SURPLUS)
@@ -32,6 +33,29 @@ class Entry:
     changed: str
     why: str = ""
     new: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """The held slots of a ledger, with status and the time they were last heard of."""
+
+    slots: tuple[int, ...]
+    statuses: tuple[str, ...]
+    changed: tuple[str, ...]
+
+    def complete(self) -> set[int]:
+        """Slots that are complete."""
+        return {slot for slot, status in zip(self.slots, self.statuses, strict=True)
+                if status == COMPLETE}  # fmt: skip
+
+    def live(self, stale: str) -> set[int]:
+        """Slots that are live and were heard of since `stale`."""
+        columns = zip(self.slots, self.statuses, self.changed, strict=True)
+        return {slot for slot, status, heard in columns if status == LIVE and heard >= stale}
+
+    def not_before(self, now: datetime) -> datetime:
+        """Now, or the latest time here if the clock was set back: a ledger's time never does."""
+        return max(now, moment(max(self.changed))) if self.changed else now
 
 
 def row_of(slot: int, rows: int) -> int:
@@ -56,21 +80,22 @@ def next_slot(
     None where every slot that may be handed out is live or complete.
     """
     held = frozenset(live) | frozenset(complete)
-    counts = [0] * rows
-    for slot in held:
-        counts[row_of(slot, rows)] += 1
-    free = (s for s in range(1, last_open(complete, rows, participants) + 1) if s not in held)
-    return min(free, key=lambda slot: (counts[row_of(slot, rows)], slot), default=None)
+    end = last_open(complete, rows, participants) + 1
+    counts = Counter([row_of(slot, rows) for slot in held])
+    free = (
+        next((slot for slot in range(row + 1, end, rows) if slot not in held), None)
+        for row in range(rows)
+    )
+    firsts = [(counts[row], slot) for row, slot in enumerate(free) if slot is not None]
+    return min(firsts)[1] if firsts else None
 
 
-def is_stale(entry: Entry, now: datetime, after: float) -> bool:
-    """Whether a live entry was not heard of for over `after` seconds (0: entries never go stale).
+def stale_before(now: datetime, after: float) -> str:
+    """Live entries last heard of before this time are stale (`after` 0: none is).
 
     A clock that was set back makes nothing stale.
     """
-    if entry.status != LIVE or not after:
-        return False
-    return (now - moment(entry.changed)).total_seconds() > after
+    return stamp(now - timedelta(seconds=after)) if after else ""
 
 
 def moment(text: str) -> datetime:
@@ -81,3 +106,12 @@ def moment(text: str) -> datetime:
 def stamp(time: datetime) -> str:
     """A time for a record: UTC, ISO 8601, milliseconds."""
     return time.astimezone(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+def free_name(names: Collection[str]) -> str:
+    """The lowest P01, P02, … that nobody has."""
+    lower = {name.lower() for name in names}
+    number = 1
+    while f"p{number:02d}" in lower:
+        number += 1
+    return f"P{number:02d}"

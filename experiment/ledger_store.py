@@ -78,7 +78,9 @@ def shown(url: URL | None) -> str:
     """An address for messages and files, without its password."""
     if url is None:
         return "…"  # what cannot be parsed may hold a password anywhere
-    return url.set(password=None).render_as_string()
+    plain = URL.create("postgresql", url.username, None, url.host, url.port, url.database)
+    query = {key: value for key, value in url.query.items() if "pass" not in key}
+    return plain.set(query=query).render_as_string()
 
 
 def connect(url: URL) -> Engine:

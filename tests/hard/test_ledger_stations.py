@@ -1,0 +1,96 @@
+"""Many stations at one ledger, on SQLite and on a real PostgreSQL: no slot is given twice."""
+
+import json
+import subprocess
+import sys
+from collections import Counter
+from datetime import UTC, datetime
+
+import pytest
+from postgres import Postgres
+
+from experiment.errors import InputError
+from experiment.ledger import Ledger
+from experiment.ledger_plan import Plan
+
+STATIONS, SLOTS = 8, 1000
+ROWS = 7  # does not divide the number of slots: the rows may differ by one, and must not by two
+PLAN = Plan("many", "d" * 64, ROWS, SLOTS, 86_400.0, {})
+NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
+
+# Forks the stations, which wait for each other and then take slots as fast as they can.
+LAUNCHER = f"""
+import json, multiprocessing, sys
+from datetime import datetime, UTC
+from pathlib import Path
+from experiment.ledger import Ledger
+from experiment.ledger_plan import Plan
+
+STATIONS, EACH = {STATIONS}, {SLOTS // STATIONS}
+PLAN = Plan("many", "d" * 64, {ROWS}, {SLOTS}, 86_400.0, {{}})
+NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
+
+def station(number, data, url, together):
+    with Ledger.open(Path(data), url, PLAN, NOW) as ledger:
+        together.wait(60)
+        return [ledger.reserve(f"S{{number}}-{{i}}", NOW).slot for i in range(EACH)]
+
+def child(number, data, url, together, results):
+    results.put(station(number, data, url, together))
+
+forks = multiprocessing.get_context("fork")
+together, results = forks.Barrier(STATIONS), forks.Queue()
+for number in range(STATIONS):
+    forks.Process(target=child, args=(number, *sys.argv[1:], together, results)).start()
+print(json.dumps([results.get(timeout=100) for _ in range(STATIONS)]))
+"""
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def url(request):
+    if request.param == "sqlite":
+        yield ""
+    else:
+        with Postgres() as server:
+            yield server.url
+
+
+def test_eight_stations_take_a_thousand_slots_none_twice(url, tmp_path):
+    command = [sys.executable, "-c", LAUNCHER, tmp_path, url]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert (run.returncode, run.stderr) == (0, "")
+    stations = json.loads(run.stdout)
+    slots = [slot for taken in stations for slot in taken]
+    assert sorted(slots) == list(range(1, SLOTS + 1))
+    # Slots of a station rise, and it had none of them for itself: they really took turns.
+    assert all(taken == sorted(taken) for taken in stations)
+    assert all(max(taken) - min(taken) > len(taken) for taken in stations)
+    with Ledger.open(tmp_path, url, PLAN, NOW) as ledger:
+        entries = ledger.entries()
+    assert sorted(e.slot for e in entries) == sorted(slots)
+    assert {e.status for e in entries} == {"live"}
+    rows = Counter((slot - 1) % ROWS for slot in slots)
+    assert max(rows.values()) - min(rows.values()) == 1
+
+
+def test_a_ledger_moves_to_postgresql_with_its_entries_and_is_found_again(tmp_path):
+    with Ledger.open(tmp_path, "", PLAN, NOW) as ledger:
+        ledger.reserve("A", NOW)
+        ledger.complete("A", NOW)
+        ledger.reserve("B", NOW)
+        before = ledger.entries()
+    with Postgres() as server:
+        with Ledger.open(tmp_path, server.url, PLAN, NOW) as ledger:
+            assert ledger.entries() == before
+            assert ledger.reserve("C", NOW).slot == 3
+        assert not (tmp_path / "ledger.sqlite").exists()
+        with Ledger.existing(tmp_path) as ledger:  # nobody said where: the folder knows
+            assert [e.participant for e in ledger.entries()] == ["A", "B", "C"]
+        with pytest.raises(InputError, match=r"--ledger = .*: expected .*where this study's ledg"):
+            Ledger.open(tmp_path, "postgresql://somebody@elsewhere/x", PLAN, NOW)
+        # A folder with other entries of the same study cannot be mixed into it.
+        with Ledger.open(tmp_path / "other", "", PLAN, NOW) as ledger:
+            ledger.reserve("X", NOW)
+        with pytest.raises(InputError, match=r"ledger cannot be used: duplicate key"):
+            Ledger.open(tmp_path / "other", server.url, PLAN, NOW)
+        assert (tmp_path / "other" / "ledger.sqlite").exists()
