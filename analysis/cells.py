@@ -39,6 +39,15 @@ class Cells:
         return picked.reshape(len(picked), -1).mean(axis=1)
 
 
+def level_codes(column: pd.Series, levels: Sequence[str]) -> NDArray[np.intp]:
+    """Each row's place in `levels`, −1 for a level not listed; categoricals without a detour."""
+    if isinstance(column.dtype, pd.CategoricalDtype):
+        place = {level: i for i, level in enumerate(levels)}
+        known = [place.get(str(c), -1) for c in column.cat.categories]
+        return np.array([*known, -1], dtype=np.intp)[column.cat.codes]
+    return pd.Categorical(column.astype("str"), categories=list(levels)).codes.astype(np.intp)
+
+
 def sums(
     table: pd.DataFrame, columns: Sequence[str], factors: Mapping[str, Sequence[str]]
 ) -> tuple[list[Array], NDArray[np.intp], tuple[str, ...]]:
@@ -47,12 +56,12 @@ def sums(
     Rows with levels that are not listed, or with a missing value in any column, do not count.
     """
     names = sorted(pd.unique(table["participant"]).tolist())
-    codes = pd.Categorical(table["participant"], categories=names).codes.astype(np.intp)
+    codes = level_codes(table["participant"], names)
     shape = (len(names), *(len(levels) for levels in factors.values()))
     known = codes >= 0
     flat = codes
     for factor, levels in factors.items():
-        level = pd.Categorical(table[factor].astype("str"), categories=list(levels)).codes
+        level = level_codes(table[factor], levels)
         known &= level >= 0
         flat = flat * len(levels) + level
     values = table[list(columns)].to_numpy(dtype=np.float64)

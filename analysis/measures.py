@@ -16,7 +16,7 @@ RATINGS = ("efficiency", "ease", "enjoy")
 
 def levels_present(table: pd.DataFrame, column: str, known: Sequence[str]) -> tuple[str, ...]:
     """The known levels that occur, in their usual order; unused ones play no part."""
-    there = set(pd.unique(table[column].astype("str")))
+    there = {str(level) for level in pd.unique(table[column])}
     return tuple(level for level in known if level in there)
 
 
@@ -57,8 +57,8 @@ def by_scenario(cells: Cells, scenario_of: Mapping[str, str]) -> Cells:
 
 def scenario_of(trials: pd.DataFrame) -> dict[str, str]:
     """Which scenario each task is nested in."""
-    pairs = trials[["task", "scenario"]].astype("str").drop_duplicates()
-    return dict(zip(pairs["task"], pairs["scenario"], strict=True))
+    pairs = trials[["task", "scenario"]].drop_duplicates()
+    return {str(t): str(s) for t, s in zip(pairs["task"], pairs["scenario"], strict=True)}
 
 
 def relative_error(trials: pd.DataFrame, signed: bool = True) -> Cells:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 from analysis.errors import DataError
 from analysis.exclude import apply_rules
@@ -13,6 +13,7 @@ from analysis.load.study import load_study
 from analysis.page.blocks import Figure, Report, Section, Table, walk
 from analysis.page.html import as_html
 from analysis.page.markdown import as_markdown
+from analysis.page.pdf import find_browser, print_pdf
 from analysis.page.tables_csv import as_csv
 from analysis.plan import TESTS, make_plan
 from analysis.sections.accuracy import accuracy_section
@@ -28,7 +29,6 @@ from analysis.sections.validity import validity_section
 
 SIMULATED = "Simulated participants: for planning only, never evidence about people."
 PILOT = "Pilot data: not part of the study."
-FIGURE_FORMATS = ("svg", "png", "pdf")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,21 +41,30 @@ class Options:
     seed: int = 1
 
 
-def make_report(data: Path, options: Options) -> tuple[Report, Mapping[str, Any]]:
-    """Load, analyse, and put into words; nothing is written. Raises DataError."""
+Draw = Callable[[Figure], None]
+
+
+def _no_drawing(figure: Figure) -> None:
+    """For callers who want the numbers alone."""
+
+
+def make_report(data: Path, options: Options, draw: Draw = _no_drawing) -> Report:
+    """Load, analyse, and put into words; nothing is written. Raises DataError.
+
+    `draw` is given each figure as soon as it is known, to draw while the rest is calculated.
+    """
     study = load_study(data, options.source)
     plan = make_plan(study, options.alpha, options.exclude)
     trials, excluded = apply_rules(study.trials, plan.exclude)
     context = Context(study, plan, trials, excluded, options.seed)
-    sections = _sections(context)
+    sections = _sections(context, draw)
     banner = {"simulated": SIMULATED, "pilot": PILOT}.get(study.source, "")
     subtitle = f"Source: {study.source}. {study.description}"
-    report = Report(f"Study “{study.name}”: report", subtitle, banner, tuple(sections))
-    return report, {"version": _version()}
+    return Report(f"Study “{study.name}”: report", subtitle, banner, tuple(sections))
 
 
-def _sections(context: Context) -> list[Section]:
-    """All sections in reading order; `participants` comes last to know who is missing where."""
+def _sections(context: Context, draw: Draw) -> list[Section]:
+    """All sections in reading order; `participants` comes late to know who is missing where."""
     time, logs = time_section(context)
     accuracy, tests = accuracy_section(context)
     ratings = ratings_section(context)
@@ -67,8 +76,11 @@ def _sections(context: Context) -> list[Section]:
         "ratings": ratings,
         "tradeoff": tradeoff_section(context),
         "validity": validity_section(context),
-        "mixed": sensitivity_section(context, logs),
     }
+    for figure in figures_of([optional[n] for n in optional if n in context.plan.tests]):
+        draw(figure)
+    if "mixed" in context.plan.tests:  # the slowest, while the figures are drawn
+        optional["mixed"] = sensitivity_section(context, logs)
     chosen = [optional[name] for name in TESTS if name in context.plan.tests]
     return [
         summary_section(context, logs, tests, single),
@@ -78,17 +90,16 @@ def _sections(context: Context) -> list[Section]:
     ]
 
 
-def make_published() -> tuple[Report, Mapping[str, Any]]:
+def figures_of(sections: Iterable[Section | None]) -> list[Figure]:
+    """Every figure, those inside folds too."""
+    return [b for s in sections if s is not None for b in walk(s.blocks) if isinstance(b, Figure)]
+
+
+def make_published() -> Report:
     """The report on the paper's own printed numbers."""
     from analysis.published.report import published_report
 
-    return published_report(), {"version": _version()}
-
-
-def _version() -> str:
-    from importlib.metadata import version
-
-    return version("seethrough")
+    return published_report()
 
 
 def check_out(out: Path) -> None:
@@ -102,21 +113,30 @@ def check_out(out: Path) -> None:
         raise DataError(f"--out = {out}: not empty and no earlier report: expected a new folder")
 
 
-def write_report(report: Report, facts: Mapping[str, Any], out: Path) -> Path:
-    """Write report.html, report.md, tables/*.csv and figures/*; returns the page's path."""
-    blocks = [b for section in report.sections for b in walk(section.blocks)]
-    (out / "tables").mkdir(parents=True, exist_ok=True)
-    (out / "figures").mkdir(exist_ok=True)
-    for table in (b for b in blocks if isinstance(b, Table)):
-        (out / "tables" / f"{table.key}.csv").write_text(as_csv(table), encoding="utf-8")
-    pictures = {}
-    figures = [b for b in blocks if isinstance(b, Figure)]
-    if figures:
-        from analysis.page.pictures import write_files
+def write(out: Path, make: Callable[[Draw], Report], formats: Sequence[str]) -> Path:
+    """Make the report and write it into `out`; returns the page's path.
 
-        for figure in figures:
-            pictures[figure.key] = write_files(figure, out / "figures", FIGURE_FORMATS)
-    (out / "report.md").write_text(as_markdown(report), encoding="utf-8")
+    report.html, report.md, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if asked for.
+    """
+    from analysis.page.drawing import Drawing
+
+    check_out(out)
+    browser = find_browser() if "pdf" in formats else ""
+    with Drawing(out / "figures") as drawing:
+        report = make(drawing.add)
+        for figure in figures_of(report.sections):
+            drawing.add(figure)
+        (out / "tables").mkdir(parents=True, exist_ok=True)
+        for table in _tables(report):
+            (out / "tables" / f"{table.key}.csv").write_text(as_csv(table), encoding="utf-8")
+        (out / "report.md").write_text(as_markdown(report), encoding="utf-8")
+        pictures = drawing.pictures()
     page = out / "report.html"
-    page.write_text(as_html(report, pictures, facts), encoding="utf-8")
+    page.write_text(as_html(report, pictures, version("seethrough")), encoding="utf-8")
+    if browser:
+        print_pdf(browser, page, out / "report.pdf")
     return page
+
+
+def _tables(report: Report) -> list[Table]:
+    return [b for s in report.sections for b in walk(s.blocks) if isinstance(b, Table)]

@@ -40,16 +40,16 @@ def changes(trials: pd.DataFrame) -> list[Change]:
     found = []
     for i, task in enumerate(times.factors["task"]):
         error = _errors(trials[trials["task"] == task], task)
-        both = [p for p in times.participants if p in set(error.participants)]
-        if not both:
+        both, mine, theirs = np.intersect1d(
+            times.participants, error.participants, assume_unique=True, return_indices=True
+        )
+        if not len(both):
             continue
-        mine = [times.participants.index(p) for p in both]
-        theirs = [error.participants.index(p) for p in both]
         found.append(
             Change(
                 task,
                 ERROR_LABELS[task],
-                tuple(both),
+                tuple(str(p) for p in both),
                 times.values[mine][:, i],
                 error.values.reshape(len(error.values), 2)[theirs],
             )

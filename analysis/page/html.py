@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.resources import files
-from typing import Any
 
 from jinja2 import Environment, FunctionLoader, StrictUndefined
 from markupsafe import Markup, escape
@@ -52,13 +51,13 @@ def _run(run: str | Cited) -> Markup:
     ).format(cell(run.value), f"{run.table}.csv", run.row, run.column, run.text)
 
 
-def as_html(report: Report, pictures: Mapping[str, str], facts: Mapping[str, Any]) -> str:
-    """The page. `pictures` maps a figure's key to its inline SVG; `facts` is what ran."""
+def as_html(report: Report, pictures: Mapping[str, str], version: str) -> str:
+    """The page. `pictures` maps a figure's key to its inline SVG; `version` ours."""
     page = _environment().get_template("report.html.j2")
     return page.render(
         report=report,
         pictures={key: Markup(svg) for key, svg in pictures.items()},
-        facts=facts,
+        version=version,
         css=Markup(_template("report.css")),
         script=Markup(_template("report.js")),
     )

@@ -113,13 +113,17 @@ def _enumerate(r: Array, statistic: float) -> float:
 
 
 def _w_interval(r: Array, rng: Generator, level: float = 0.95, draws: int = 2000) -> Interval:
-    """Bootstrap interval (percentile) of Kendall's W over participants."""
+    """Bootstrap interval (percentile) of Kendall's W over participants.
+
+    Participants with the same ranks are alike, so what is drawn is how often each pattern comes.
+    """
     n, k = r.shape
-    own = np.sum(r**2, axis=1) - k * (k + 1) ** 2 / 4
+    patterns, counts = np.unique(r, axis=0, return_counts=True)
+    own = np.sum(patterns**2, axis=1) - k * (k + 1) ** 2 / 4
     values = []
     for start in range(0, draws, 100):
-        weights = rng.multinomial(n, np.full(n, 1 / n), size=min(100, draws - start))
-        sums = weights @ r - n * (k + 1) / 2
+        weights = rng.multinomial(n, counts / n, size=min(100, draws - start))
+        sums = weights @ patterns - n * (k + 1) / 2
         spread = weights @ own
         good = spread > 0
         values.append(np.sum(sums[good] ** 2, axis=1) / (n * spread[good]))

@@ -18,6 +18,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--published", action="store_true", help="the paper's printed numbers instead of DATA"
     )
     parser.add_argument("--out", type=Path, required=True, help="folder for the report")
+    parser.add_argument(
+        "--format",
+        action="append",
+        choices=("html", "pdf"),
+        default=["html"],
+        help="pdf prints report.html to report.pdf with an installed Chromium",
+    )
     parser.add_argument("--source", help="human, simulated or pilot, where there are several")
     parser.add_argument("--alpha", type=float, help="instead of the study's own (a deviation)")
     parser.add_argument(
@@ -33,17 +40,18 @@ def run(args: argparse.Namespace) -> int:
     """Make the report; returns 0, or 2 with one line for each thing wrong with the data."""
     # analysis imports pandas and scipy, which takes a second: only when the command runs
     from analysis.errors import DataError
-    from analysis.report import Options, check_out, make_published, make_report, write_report
+    from analysis.report import Options, make_published, make_report, write
 
+    options = Options(args.source, args.alpha, args.exclude)
     try:
         if args.published == (args.data is not None):
             raise DataError("report: expected either DATA or --published")
-        check_out(args.out)
-        if args.published:
-            report, facts = make_published()
-        else:
-            report, facts = make_report(args.data, Options(args.source, args.alpha, args.exclude))
-        page = write_report(report, facts, args.out)
+        make = (
+            (lambda _: make_published())
+            if args.published
+            else (lambda draw: make_report(args.data, options, draw))
+        )
+        page = write(args.out, make, args.format)
     except DataError as error:
         for line in error.shown():
             print(f"seethrough: {line}", file=sys.stderr)

@@ -227,7 +227,7 @@ def test_a_participant_without_a_cell_is_left_out_by_name(folder):
     path = folder / TRIALS
     rows = path.read_text().split("\n")
     path.write_text("\n".join(r for r in rows if not (",unique," in r and ",dynamic," in r)))
-    report, _ = make_report(folder, Options())
+    report = make_report(folder, Options())
     section = next(s for s in report.sections if s.key == "participants")
     missing = next(b for b in section.blocks if getattr(b, "key", "") == "missing")
     named = {(r["where"], r["participant"], r["cells"]) for r in missing.rows}
@@ -240,7 +240,7 @@ def test_a_repeated_trial_counts_once_and_the_earlier_attempt_is_named(folder):
     again = lines[4].split(",")
     again[0], again[10] = "human-P01-1-trial900", "2"
     path.write_text("\n".join([*lines, ",".join(again)]) + "\n")
-    report, _ = make_report(folder, Options())
+    report = make_report(folder, Options())
     section = next(s for s in report.sections if s.key == "participants")
     excluded = next(b for b in section.blocks if getattr(b, "key", "") == "excluded")
     assert [(r["rule"], r["row"]) for r in excluded.rows] == [("repeated", 5)]
@@ -250,7 +250,7 @@ def test_one_level_of_transparency_says_so_and_still_reports(folder):
     for path in folder.glob("data/human/*/*_data.csv"):
         rows = path.read_text().split("\n")
         path.write_text("\n".join(r for r in rows if ",dynamic," not in r))
-    report, _ = make_report(folder, Options())
+    report = make_report(folder, Options())
     assert [s.key for s in report.sections][:2] == ["summary", "participants"]
 
 
