@@ -8,6 +8,9 @@ from typing import Any
 
 import moderngl
 import pyglet
+
+# Without this, importing pyglet.window opens a window, and fails where there is no display.
+pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
 from experiment.clock import Clock
@@ -355,6 +358,6 @@ def available() -> bool:
     """Whether there is a desktop to open a window on."""
     try:
         pyglet.display.get_display()
-    except Exception:  # as above; the answer is the point
+    except Exception:  # a different class on each platform; the answer is the point
         return False
     return True
