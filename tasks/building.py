@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.random import Generator
@@ -35,7 +36,7 @@ class Building:
     asked: str
     start: tuple[float, float]
 
-    @property
+    @cached_property
     def asked_objects(self) -> list[int]:
         """Indices of the objects of the asked type."""
         return [i for i, o in enumerate(self.scene.objects) if o.kind == self.asked]

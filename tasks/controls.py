@@ -117,14 +117,15 @@ class Walk:
         seconds = self.held.elapsed(event.time)
         turn = self.turn_rate * seconds * self.held.sign("left", "right")
         # The chord of the arc: the path's length times sin(turn / 2) / (turn / 2), in the
-        # direction half-way through the turn. np.sinc has no hole at 0.
-        chord = self.speed * seconds * self.held.sign("up", "down") * np.sinc(turn / 2 / pi)
+        # direction half-way through the turn.
+        bend = sin(turn / 2) / (turn / 2) if turn else 1.0
+        chord = self.speed * seconds * self.held.sign("up", "down") * bend
         middle = self.yaw + turn / 2
         x, z = self.x - chord * sin(middle), self.z - chord * cos(middle)
         yaw = self.yaw + turn
         if isinstance(event, PointerMove):
             yaw -= self.gain * event.dx
-        return replace(self, x=float(x), z=float(z), yaw=yaw, held=self.held.after(event))
+        return replace(self, x=x, z=z, yaw=yaw, held=self.held.after(event))
 
     def camera(self) -> Camera:
         """What the walker sees."""

@@ -40,7 +40,7 @@ def play_trial(
     task = TASKS[trial.task]
     name, state = pool.begin(trial, aspect)
     view = task.view(state)
-    eyes = pool.eyes(name, trial, len(view.scene.objects))
+    eyes = pool.eyes(name, trial, view.scene)
     participant.begin_trial(trial.task, now)
     first, looks, kept = now, 0, []
     outcome = None

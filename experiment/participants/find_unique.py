@@ -35,7 +35,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
             yield from walker.hop(walker.eye + way)
             continue
         if walker.known.left < AGAIN:
-            walker.known.unseen[:] = 1.0
+            walker.known.doubt()
         goal = yield from _go_on(walker, goal)
     walker.hands.wait(mood.profile.prepare)
     walker.hands.key("space")

@@ -6,7 +6,7 @@ and walls are remembered. Cells of five units, as wide as a step or two, are wha
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -75,37 +75,63 @@ def _pieces(wall) -> list[NDArray[np.float64]]:  # type: ignore[no-untyped-def]
     return [line[:2], line[2:]]
 
 
-@dataclass(eq=False)
 class Known:
-    """What one knows of a building in a trial: arrays over cells, and a set of walls.
+    """What one knows of a building in a trial: arrays (n,) over cells, and a set of walls.
 
-    unseen (n,): 1 where nothing has been seen of a cell's things, 0 where they would have been.
+    Looking again from the same place shows the same things: of all looks from one place only the
+    best counts, and looks from different places multiply.
     """
 
-    layout: Layout
-    unseen: NDArray[np.float64] = field(init=False)
-    walls: NDArray[np.bool_] = field(init=False)
+    def __init__(self, plan: Layout) -> None:
+        n = len(plan.centers)
+        self.layout = plan
+        self.walls = np.zeros(len(plan.segments), dtype=bool)
+        self.unclear: dict[int, int] = {}  # things noticed but not made out → their cells
+        self._before = np.ones(n)  # chance that a thing was missed from all places before this
+        self._best = np.zeros(n)  # how sure one is of what is seen from here
+        self._hidden: NDArray[np.bool_] | None = None
 
-    def __post_init__(self) -> None:
-        self.unseen = np.ones(len(self.layout.centers))
-        self.walls = np.zeros(len(self.layout.segments), dtype=bool)
-
-    def see_walls(self, visible: NDArray[np.bool_]) -> None:
-        """Remember the walls among the visible objects."""
-        self.walls |= visible[self.layout.owner]
-
-    def hidden(self, eye: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(n,) cells whose middle a known wall hides from `eye` (2,)."""
-        return crossed(eye, self.layout.centers, self.layout.segments[self.walls])
-
-    def inspect(self, quality: NDArray[np.float64]) -> None:
-        """Cells (n,) have been looked at: `quality` is how sure a thing there would be seen."""
-        self.unseen *= 1.0 - quality
+    @property
+    def unseen(self) -> NDArray[np.float64]:
+        """(n,) 1 where a thing could well be that was not seen, 0 where none can be."""
+        unseen = self._before * (1.0 - self._best)
+        unseen[list(self.unclear.values())] = 1.0
+        return unseen
 
     @property
     def left(self) -> float:
         """Share of the building not seen yet."""
         return float(self.unseen.mean())
+
+    def see_walls(self, visible: NDArray[np.bool_]) -> None:
+        """Remember the walls among the visible objects (one flag per object of the scene)."""
+        seen = self.walls | visible[self.layout.owner]
+        if (seen != self.walls).any():
+            self.walls, self._hidden = seen, None
+
+    def hidden(self, eye: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(n,) cells whose middle a known wall hides from `eye` (2,), where one stands."""
+        if self._hidden is None:
+            segments = self.layout.segments[self.walls]
+            self._hidden = crossed(eye, self.layout.centers, segments)
+        return self._hidden
+
+    def inspect(self, quality: NDArray[np.float64]) -> None:
+        """Cells (n,) are looked at: `quality` is how sure a thing there would be seen."""
+        self._best = np.maximum(self._best, quality)
+
+    def gain(self, quality: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n,) how much would be seen anew by looking with that quality from here."""
+        return self._before * np.maximum(quality - self._best, 0.0)
+
+    def move(self) -> None:
+        """One stands somewhere else now."""
+        self._before, self._hidden = self._before * (1.0 - self._best), None
+        self._best = np.zeros_like(self._best)
+
+    def doubt(self) -> None:
+        """All seen and nothing found: whatever was seen from elsewhere may have been missed."""
+        self._before = np.ones_like(self._before)
 
 
 def crossed(

@@ -6,6 +6,7 @@ study, the same for everybody.
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import numpy as np
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, Trial, generator
 from experiment.participants.tables import Draw, Table, TableEyes, load, save
+from renderer.scene import Scene
 from tasks.catalog import TASKS
 
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
@@ -33,6 +35,7 @@ class Pool:
         self.tables: dict[str, Table] = {}
         self._scenes: dict[str, Any] = {}
         self._draws: dict[str, Draw | None] = {}
+        self._digests: dict[str, str] = {}
 
     def begin(self, trial: Trial, aspect: float) -> tuple[str, Any]:
         """The name of a trial's scene in the pool, and the trial's first state in it."""
@@ -50,10 +53,13 @@ class Pool:
             self._scenes[name] = task.make_scene(made, parameters)
         return name, task.begin(rng, parameters, aspect, self._scenes[name])
 
-    def eyes(self, name: str, trial: Trial, objects: int) -> TableEyes:
+    def eyes(self, name: str, trial: Trial, scene: Scene) -> TableEyes:
         """Eyes for a scene of the pool, at the trial's transparency level."""
         level = trial.transparency
-        table = self.tables.setdefault(f"{name}/{level}", Table(objects))
+        if name not in self._digests:
+            self._digests[name] = fingerprint(scene, self.study.dynamic)
+        key = f"{name}-{self._digests[name]}/{level}"
+        table = self.tables.setdefault(key, Table(len(scene.objects)))
         if level not in self._draws:
             self._draws[level] = None if self._draw is None else self._draw(level)
         return TableEyes(table, trial.scenario, self._draws[level])
@@ -71,6 +77,15 @@ class Pool:
     def looks(self) -> int:
         """How many viewpoints the tables hold."""
         return sum(len(t.rows) for t in self.tables.values())
+
+
+def fingerprint(scene: Scene, technique: object) -> str:
+    """What a table depends on besides its viewpoints: objects, their meshes, the technique."""
+    digest = hashlib.sha256(repr(technique).encode())
+    digest.update((np.round(scene.transforms, 6) + 0.0).astype("<f8").tobytes())
+    for thing in scene.objects:
+        digest.update(f"{thing.kind},{thing.color},{len(thing.mesh.triangles)};".encode())
+    return digest.hexdigest()[:12]
 
 
 def renderer_draw(study: Study, aspect: float) -> Any:

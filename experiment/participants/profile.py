@@ -28,7 +28,7 @@ class Profile:
     # Guided Search 6: 0 ms an item for pop-out, 25–30 ms and more for conjunctions and letters.
     search_slope: float = 0.030
     # A thing is noticed where contrast × √(window pixels) reaches this, half of the time [ours].
-    notice: float = 1.2
+    notice: float = 0.6
     notice_spread: float = 0.5  # s.d. of the natural logarithm of that
     # A model's kind is told from 10 × 10 clear pixels half of the time [ours].
     recognise: float = 100.0
@@ -64,6 +64,7 @@ class Profile:
     certainty: float = 0.90  # posterior probability at which a letter is believed
     letter_looks: int = 8  # after so many looks, the best guess is good enough
     letter_turning: float = 1.0  # seconds to turn a letter half round in the mind (Cooper 1975)
+    trust: float = 0.8  # in a view through walls, against one that nothing hides
     near_enough: float = 18.0  # how near one walks to see where something stands
 
     # Places. Distances in virtual worlds look short and uncertain (Loomis & Knapp 2003).
@@ -95,7 +96,7 @@ class Profile:
                 continue
             if not 0 <= value < 1000:
                 raise ValueError(f"{field.name} = {value}, expected a number from 0 to 1000")
-        for name in ("slip", "forget", "mistake_old", "crowded", "diligence", "certainty"):
+        for name in ("slip", "trust", "forget", "mistake_old", "crowded", "diligence", "certainty"):
             if getattr(self, name) > 1:
                 raise ValueError(f"{name} = {getattr(self, name)}, expected a probability")
         for name in _POSITIVE:

@@ -40,6 +40,7 @@ THING = 1.5  # radius of a usual thing, for how well it would be seen from afar 
 REACH = 3  # cells about a place that count as worth going there for [ours]
 THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
 THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached it
+GOAL = 0.5  # a cell is a goal if it is unseen at least half as much as any [ours]
 LOOK = 1.0  # seconds that a look somewhere else is thought to cost when choosing [ours]
 
 
@@ -85,6 +86,8 @@ class Walker:
         known = recognised(seen, things, mood)
         clear = things[known]
         self.recognised.update(clear.tolist())
+        for index in clear.tolist():
+            self.known.unclear.pop(index, None)
         self._see_through(seen, things)
         self._inspect()
         self._wonder(seen, things[~known])
@@ -107,6 +110,7 @@ class Walker:
         inside = np.abs(apart(bearing(way), self.yaw)) < HALF_VIEW
         here = np.hypot(way[:, 0], way[:, 1]) < THERE
         self.known.inspect(np.where(inside, self.quality(way, self.eye), here))
+        self.known.unclear = {i: c for i, c in self.known.unclear.items() if not here[c]}
 
     def _wonder(self, seen: Visibility, things: NDArray[np.int64]) -> None:
         """Where something was noticed and not made out, one has not really looked yet."""
@@ -114,7 +118,7 @@ class Walker:
             if index not in self.recognised:
                 place = self.place(index, seen) - self.error
                 away = np.hypot(*(self.known.layout.centers - place).T)
-                self.known.unseen[int(np.argmin(away))] = 1.0
+                self.known.unclear[index] = int(np.argmin(away))
 
     def quality(self, way: NDArray[np.float64], eye: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n,) how surely a thing would be recognised at the end of each way from `eye`."""
@@ -122,8 +126,10 @@ class Walker:
         distance = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1.0)
         # The picture is one unit high at distance 1 / (2 tan 30°); a thing fills half its circle.
         share = 0.5 * pi * (THING / (2 * distance * np.tan(np.pi / 6))) ** 2 * 0.75
-        clearness = np.where(self.known.hidden(eye), self._through_clearness(), 1.0)
-        return likely(share * WINDOW_PIXELS * clearness, p.recognise, p.recognise_spread)
+        hidden = self.known.hidden(eye)
+        clearness = np.where(hidden, self._through_clearness(), 1.0)
+        sure = likely(share * WINDOW_PIXELS * clearness, p.recognise, p.recognise_spread)
+        return np.where(hidden, p.trust * sure, sure)
 
     def _through_clearness(self) -> float:
         """How clear a thing behind a wall would be: nothing shines through until one did."""
@@ -138,7 +144,7 @@ class Walker:
         """
         centers = self.known.layout.centers
         way = centers - self.eye
-        worth = self.known.unseen * self.quality(way, self.eye)
+        worth = self.known.gain(self.quality(way, self.eye))
         toward = bearing(way)
         best, choice = 0.0, (STEP, None)
         for k in range(1, DIRECTIONS):
@@ -149,7 +155,8 @@ class Walker:
                 best, choice = rate, (turn, None)
         seconds = np.hypot(way[:, 0], way[:, 1]) / self.hands.speed + 3 * LOOK
         # Only what is unseen is worth going to: there, one will at least have seen that.
-        rates = np.where(self.known.unseen > 0.5, _nearby(self.known) / seconds, 0.0)
+        unseen = self.known.unseen
+        rates = np.where(unseen > GOAL * unseen.max(), _nearby(self.known) / seconds, 0.0)
         there = int(np.argmax(rates))
         if rates[there] > best:
             return float(apart(toward[there], self.yaw)), centers[there]
@@ -174,6 +181,7 @@ class Walker:
         before = self.eye
         self.hands.walk(distance)
         self.glance = yield self.hands.take()
+        self.known.move()
         went = hypot(*(self.eye - before))
         if not 0.7 < went / distance < 1.4 and went > 0:
             self.hands.speed *= went / distance
