@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import ast
+import importlib.util
+import platform
 import subprocess
 import sys
 import time
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -81,6 +84,90 @@ def start(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
         text=True,
         check=False,
     )
+
+
+@pytest.fixture
+def module(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
+    """start.py as a module whose .venv lies in an empty folder."""
+    spec = importlib.util.spec_from_file_location("start", ROOT / "start.py")
+    assert spec
+    assert spec.loader
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    for name in ("VENV", "STAMP", "UNFINISHED", "LOG", "PYTHON"):
+        place = Path(getattr(loaded, name)).relative_to(ROOT)
+        monkeypatch.setattr(loaded, name, str(tmp_path / place))
+    return loaded
+
+
+@pytest.mark.parametrize("manager", ["apt-get", "dnf", "pacman"])
+def test_without_leave_to_install_it_says_what_to_type(
+    module: ModuleType, monkeypatch: pytest.MonkeyPatch, manager: str
+) -> None:
+    """One line with the whole command; an environment that was whole stays so."""
+    monkeypatch.setattr(module, "opengl_missing", lambda: "libEGL.so.1")
+    monkeypatch.setattr(module, "is_usable", lambda: True)
+    monkeypatch.setattr(module, "as_root", lambda: None)
+    monkeypatch.setattr(module.shutil, "which", lambda name: name == manager)
+    packages = module.OPENGL[manager]
+    assert "mesa" in packages
+    with pytest.raises(module.Stop, match=r"^missing: OpenGL; an administrator") as stop:
+        module.set_up("")
+    assert f"types: sudo {manager} " in str(stop.value)
+    assert str(stop.value).endswith(f" {packages}")
+    assert not Path(module.UNFINISHED).exists()
+
+
+def test_a_vendors_driver_may_do_without_mesa(
+    module: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Where only the driver seems missing and nothing may be installed, it goes on and says so."""
+    monkeypatch.setattr(module, "opengl_missing", lambda: "a driver for EGL")
+    monkeypatch.setattr(module, "as_root", lambda: None)
+    module.need_system(usable=True)
+    assert capsys.readouterr().out.startswith("start.py: a driver for EGL is missing: drawing may")
+
+
+def test_without_a_package_manager_it_says_what_is_missing(
+    module: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No command to type, but what to look for."""
+    monkeypatch.setattr(module.shutil, "which", lambda name: None)
+    with pytest.raises(module.Stop, match=r"^missing: OpenGL; install it with this system's"):
+        module.install_system("OpenGL", module.OPENGL)
+
+
+@pytest.mark.parametrize(
+    ("system", "machine", "release", "libc", "said"),
+    [
+        ("darwin", "x86_64", "15.1", "", "Intel Macs .* are not supported"),
+        ("darwin", "arm64", "13.6", "", "this is macOS 13.6, expected 14 or newer"),
+        ("linux", "x86_64", "", "", "this Linux has no glibc, expected one that has"),
+    ],
+)
+def test_machines_that_cannot_be_served_are_told_so(
+    module: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    system: str,
+    machine: str,
+    release: str,
+    libc: str,
+    said: str,
+) -> None:
+    """A machine for which a package is not made gets one line instead of pip's pages."""
+    monkeypatch.setattr(module.sys, "platform", system)
+    monkeypatch.setattr(platform, "machine", lambda: machine)
+    monkeypatch.setattr(platform, "mac_ver", lambda: (release, ("", "", ""), machine))
+    monkeypatch.setattr(platform, "libc_ver", lambda: (libc, ""))
+    with pytest.raises(module.Stop, match=said):
+        module.check_platform()
+
+
+def test_missing_network_is_named(module: ModuleType) -> None:
+    """pip's pages about retries become one line; another error keeps its own words."""
+    pages = "WARNING: Retrying ... [Errno -3] Temporary failure in name resolution\nERROR: No match"
+    assert module.why(pages) == "there is no network: connect this machine, then run this again"
+    assert module.why("Collecting x\nERROR: No space left\nhint").startswith("ERROR: No space left")
 
 
 def test_it_needs_the_standard_library_only() -> None:
