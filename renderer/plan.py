@@ -32,9 +32,12 @@ SHORTCUTS = {
     "prepass": "only concave objects in front of a mask get a pre-pass for depth",
     "hulls": "the mask of a convex target is its hull with a skirt, without a picture of its own",
     "counting": "layers are counted only where they could take more light than is allowed",
+    "outside": "large objects are blended only where masks are, and drawn opaque elsewhere",
     "parts": "only parts of the picture whose order is in doubt are sorted by pixel",
     "still": "a frame in which nothing changed is shown again",
 }
+
+WORTH = 64  # pixels to save by drawing a triangle once more
 
 # Why an object is drawn as it is (FramePlan.reasons).
 OUTSIDE, OPAQUE, HARD, BLENDED = range(4)
@@ -54,8 +57,9 @@ class FramePlan:
 
     The first level holds masks only. `masked` are all targets that get a mask, `reach` (n, 4)
     what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
-    parts of the picture (left, top, right, bottom) to sort by pixel. `boxes` are the extents of
-    all objects. `reasons` (n,) say why each object is drawn as it is, `behind` (n,) which target
+    parts of the picture (left, top, right, bottom) to sort by pixel. `wide` are blended objects
+    to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
+    else. `boxes` are the extents of all objects. `reasons` (n,) say why each object is drawn as it is, `behind` (n,) which target
     it is that makes it blend (−1: none).
     """
 
@@ -69,6 +73,8 @@ class FramePlan:
     reasons: Indices
     behind: Indices
     without: frozenset[str] = field(default_factory=frozenset)
+    wide: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
+    holes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 4), np.int64))
 
     @property
     def ordered(self) -> int:
@@ -129,7 +135,9 @@ def plan(
         return base
     if technique.per_pixel_only:
         return replace(base, exact=_parts(reach[masked], technique, size, without))
-    return _with_levels(base, seen, relation, uncertain, blended, masked, size)
+    return _with_levels(
+        base, seen, relation, uncertain, blended, masked, size, scene.triangle_counts
+    )
 
 
 def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
@@ -191,6 +199,7 @@ def _with_levels(
     blended: NDArray[np.bool_],
     masked: NDArray[np.bool_],
     size: tuple[int, int],
+    triangles: Indices,
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right."""
     extents, reach = base.boxes.extents, base.reach

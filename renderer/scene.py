@@ -117,3 +117,8 @@ class Scene:
         own = np.array([o.mesh.radius for o in self.objects], dtype=float)
         stretch = np.linalg.svd(self.transforms[:, :3, :3], compute_uv=False)
         return own * stretch.max(axis=1, initial=0.0)
+
+    @cached_property
+    def triangle_counts(self) -> NDArray[np.int64]:
+        """(n,) triangles of each object."""
+        return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)

@@ -17,7 +17,7 @@ from renderer import order
 from renderer.camera import Camera
 from renderer.gpu.cells import MOST, Cells
 from renderer.gpu.mask_painter import MaskPainter
-from renderer.gpu.programs import program, set_uniform
+from renderer.gpu.programs import Shader, program
 from renderer.gpu.scene_table import SceneTable
 from renderer.plan import FramePlan, impenetrable
 from renderer.techniques.dynamic import DynamicTransparency
@@ -50,7 +50,7 @@ class ExactPainter:
             for flag in (False, True)
         }
         self._masks = MaskPainter(context, ["CELLS"])
-        self._programs: dict[tuple[str, bool], moderngl.VertexArray] = {}
+        self._programs: dict[tuple[str, bool], tuple[Shader, moderngl.VertexArray]] = {}
         self._slices: Cells | None = None
         self._entries: Cells | None = None
         self._textures: dict[str, moderngl.Texture] = {}
@@ -100,20 +100,16 @@ class ExactPainter:
         covers = self._masks.prepare(
             job.table, job.frame, job.camera, job.technique, job.width, job.size
         )
-        if not covers:
-            return 0, 0
-        channel = self._masks.geometry.channel
-        sequence, runs = job.table.sequence(covers, job.camera, [channel] * len(covers))
+        sequence, runs = job.table.sequence(covers, job.camera)
         self._use(self._masks.cover, job, sequence)
-        first = self._masks.cover["first"]
-        return 1, self._masks.draw_distances(job.table, runs, job.camera, first)
+        draws = self._masks.draw_distances(job.table, runs, job.camera)
+        return int(draws > 0), draws
 
-    def _use(self, shader: moderngl.Program, job: ExactJob, sequence: moderngl.Texture) -> None:
+    def _use(self, shader: Shader, job: ExactJob, sequence: moderngl.Texture) -> None:
         job.table.table.use(0)
         sequence.use(1)
         shader["clip_from_offset"].write(job.clip)
-        set_uniform(shader, "table", 0)
-        set_uniform(shader, "sequence", 1)
+        shader.set(table=0, sequence=1)
 
     def _slice_count(self, job: ExactJob, parts: NDArray[np.int64]) -> int:
         return max(int(_sets(job, part)[1].max(initial=0)) + 1 for part in parts)
@@ -152,12 +148,10 @@ class ExactPainter:
         sequence, runs = job.table.sequence(parts, job.camera, [base] * len(parts))
         shader = self._slice[surfaces]
         self._use(shader, job, sequence)
-        first = shader["first"]
         for k, part in enumerate(runs):
             self._slices.select(k, corner, job.size)
             for mesh, start, count in part:
-                first.value = start
-                mesh.array(self._context, shader).render(instances=count)
+                mesh.draw(self._context, shader, start, count)
         self._slices.framebuffer.scissor = None
         return sum(len(part) for part in runs)
 
@@ -176,8 +170,7 @@ class ExactPainter:
             x, y = self._entries.framebuffer.scissor[:2]
             self._masks.begin(shift=(corner[0] - x, corner[1] - y))
             for t in targets[entries == k].tolist():
-                set_uniform(shader, "beside", float(depths[t]))
-                set_uniform(shader, "target", t)
+                shader.set(beside=float(depths[t]), target=t)
                 self._masks.draw_one(t)
         self._entries.framebuffer.scissor = None
         return len(targets)
@@ -254,12 +247,12 @@ class ExactPainter:
         if key not in self._programs:
             defines = [output] + ["WITH_SURFACES"] * surfaces
             shader = program(self._context, "present.vert", "exact.frag", defines)
-            self._programs[key] = self._context.vertex_array(shader, [])
-        shader = self._programs[key].program
+            self._programs[key] = (shader, self._context.vertex_array(shader.program, []))
+        shader, array = self._programs[key]
         self._set_resolve(job, part, shader, output == "OUTPUT_LIGHT")
-        set_uniform(shader, "from", first)
+        shader.set(**{"from": first})
         self._context.enable_only(moderngl.NOTHING)
-        self._programs[key].render(moderngl.TRIANGLES, 3)
+        array.render(moderngl.TRIANGLES, 3)
 
     def _set_resolve(self, job, part, shader, light):  # type: ignore[no-untyped-def]
         slices, entries, technique = self._slices, self._entries, job.technique
@@ -274,7 +267,7 @@ class ExactPainter:
         for name, unit, texture in textures:
             if texture is not None:
                 texture.use(unit)
-            set_uniform(shader, name, unit)
+            shader.set(**{name: unit})
         values = {
             "slices": self._used,
             "mask_count": self._mask_count,
@@ -291,8 +284,7 @@ class ExactPainter:
         }
         if light:
             values["tau"] = max(1.0 - technique.alpha_target, 1e-6)
-        for name, value in values.items():
-            set_uniform(shader, name, value)
+        shader.set(**values)
 
 
 def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -13,7 +13,7 @@ from renderer.gpu.exact_painter import ExactJob, ExactPainter
 from renderer.gpu.layer_counter import LayerCounter
 from renderer.gpu.mask_painter import MaskPainter
 from renderer.gpu.meshes import MeshStore
-from renderer.gpu.programs import program
+from renderer.gpu.programs import Shader, program
 from renderer.gpu.scene_table import Run, SceneTable
 from renderer.gpu.targets import FrameTarget
 from renderer.plan import FramePlan, Technique
@@ -47,6 +47,7 @@ class Layer:
         defines = ["WITH_IDS"] if ids else []
         self._object = program(context, "object.vert", "object.frag", defines)
         self._depth = program(context, "object.vert", "depth.frag", defines)
+        self._flat = program(context, "flat.vert", "depth.frag", defines)
         self._masks = MaskPainter(context, defines)
         self._counter: LayerCounter | None = None
         self._exact: ExactPainter | None = None
@@ -72,12 +73,14 @@ class Layer:
         target.clear(table.scene.background)
         for shader in (self._object, self._depth):
             self._use(shader)
+        if len(frame.wide):
+            self._draw_outside(frame, runs[1], size)
         self._pass(self._object, runs[0], OPAQUE)
         if after_level is not None:
             after_level()
         if frame.levels and isinstance(technique, DynamicTransparency):
             self._masks.begin(counts)
-            self._blend_levels(frame, runs[1:], technique, after_level)
+            self._blend_levels(frame, runs[2:], technique, target, after_level)
         if len(frame.exact) and after_level is None:
             self._draw_exact(self._job(table, frame, camera, technique, scale, size), target)
         return FrameStats(
@@ -107,7 +110,10 @@ class Layer:
     def _before(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
         """Put the objects in sequence, make what the masks look up. Returns the runs of the opaque
         pass and of each level, and the picture of counts if one is needed."""
-        parts = [frame.opaque, *(level.objects for level in frame.levels)]
+        wide = np.isin(np.arange(len(frame.reasons)), frame.wide)
+        parts = [frame.opaque, frame.wide]
+        for level in frame.levels:
+            parts += [level.objects[~wide[level.objects]], level.objects[wide[level.objects]]]
         if not frame.levels:
             sequence, runs = table.sequence(parts, camera)
             self._bind(table, sequence)
@@ -117,21 +123,16 @@ class Layer:
             counted = frame.masked
         else:
             counted = frame.counted
-        occluders = np.concatenate([np.zeros(0, np.int64), *parts[1:]])
-        channel = self._masks.geometry.channel
-        zeros = np.zeros(len(channel))
+        occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
         extra = [*covers, *([counted, occluders] if len(counted) else [])]
-        numbers = [zeros] * len(parts) + [channel] * len(covers) + [zeros] * 2
-        sequence, runs = table.sequence([*parts, *extra], camera, numbers)
+        sequence, runs = table.sequence([*parts, *extra], camera)
         self._bind(table, sequence)
         counts = None
-        if covers:
-            self._passes += 1
-            self._use(self._masks.cover)
-            pictures = runs[len(parts) : len(parts) + len(covers)]
-            self._draws += self._masks.draw_distances(
-                table, pictures, camera, self._masks.cover["first"]
-            )
+        self._use(self._masks.cover)
+        whole = runs[len(parts) : len(parts) + len(covers)]
+        draws = self._masks.draw_distances(table, whole, camera)
+        self._passes += draws > 0
+        self._draws += draws
         if len(counted):
             counts = self._count(size, runs[-2], runs[-1])
         return runs, counts
@@ -148,15 +149,11 @@ class Layer:
         table.table.use(0)
         sequence.use(1)
 
-    def _use(self, shader: moderngl.Program) -> None:
+    def _use(self, shader: Shader) -> None:
         shader["clip_from_offset"].write(self._matrix)
-        for unit, name in enumerate(("table", "sequence")):
-            if name in shader:
-                shader[name].value = unit
+        shader.set(table=0, sequence=1)
 
-    def _pass(
-        self, shader: moderngl.Program, runs: list[Run], blend: tuple[int, int, int, int]
-    ) -> None:
+    def _pass(self, shader: Shader, runs: list[Run], blend: tuple[int, int, int, int]) -> None:
         if not runs:
             return
         if blend is OPAQUE:
@@ -164,26 +161,55 @@ class Layer:
         else:
             self._context.enable(moderngl.BLEND)
             self._context.blend_func = blend
-        first = shader["first"]
         for mesh, start, count in runs:
-            first.value = start
-            mesh.array(self._context, shader).render(instances=count)
+            mesh.draw(self._context, shader, start, count)
         self._passes += 1
         self._draws += len(runs)
+
+    def _draw_outside(self, frame: FramePlan, runs: list[Run], size: tuple[int, int]) -> None:
+        """Draw the wide objects opaque but where masks may be: the nearest depth is put there
+        first, and the farthest afterwards."""
+        corners = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
+        data = frame.holes[:, corners].astype("f4")
+        buffer = self._context.buffer(data.tobytes())
+        array = self._context.vertex_array(self._flat.program, [(buffer, "2f", "in_place")])
+        self._flat.set(size=size)
+        self._put_depth(array, -1.0)
+        self._pass(self._object, runs, OPAQUE)
+        self._put_depth(array, 1.0)
+        array.release()
+        buffer.release()
+
+    def _put_depth(self, array: moderngl.VertexArray, depth: float) -> None:
+        context = self._context
+        context.disable(moderngl.CULL_FACE)
+        context.enable(moderngl.BLEND)
+        context.blend_func = NOTHING
+        context.depth_func = "1"
+        self._flat.set(depth=depth)
+        array.render(moderngl.TRIANGLES)
+        self._draws += 1
+        context.depth_func = "<="
+        context.enable(moderngl.CULL_FACE)
 
     def _blend_levels(
         self,
         frame: FramePlan,
         runs: list[list[Run]],
         technique: DynamicTransparency,
+        target: FrameTarget,
         after_level: AfterLevel | None,
     ) -> None:
         every = "prepass" in frame.without
-        for level, part in zip(frame.levels, runs, strict=False):
-            solid = [run for run in part if every or not run[0].mesh.convex]
-            self._pass(self._depth, solid, NOTHING)
-            self._pass(self._object, part, OBJECT)
-            if after_level is not None and part:
+        for k, level in enumerate(frame.levels):
+            for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
+                if wide and part:
+                    target.framebuffer.scissor = _scope(frame, target.size)
+                solid = [run for run in part if every or not run[0].mesh.convex]
+                self._pass(self._depth, solid, NOTHING)
+                self._pass(self._object, part, OBJECT)
+                target.framebuffer.scissor = None
+            if after_level is not None and len(level.objects):
                 after_level()
             if len(level.masks):
                 self._draw_masks(level.masks, technique.combine == "min")
@@ -198,6 +224,13 @@ class Layer:
         self._draws += self._masks.draw(targets)
         context.blend_equation = moderngl.FUNC_ADD
         context.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+
+
+def _scope(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """The rectangle about all masks as OpenGL's x, y (up), width, height."""
+    left, top = frame.holes[:, :2].min(axis=0).tolist()
+    right, bottom = frame.holes[:, 2:].max(axis=0).tolist()
+    return (left, size[1] - bottom, right - left, bottom - top)
 
 
 def clip_from_offset(camera: Camera, size: tuple[int, int]) -> bytes:

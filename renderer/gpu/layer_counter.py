@@ -35,20 +35,18 @@ class LayerCounter:
     def draw(self, size: tuple[int, int], targets: list[Run], occluders: list[Run]) -> int:
         """Fill `counts`; the program's uniforms are set. Returns the draw calls."""
         self._reserve(size)
-        context, first = self._context, self.program["first"]
+        context = self._context
         self._marking.use()
         self._marking.clear(depth=0.0)
         context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
         context.blend_func = (moderngl.ZERO, moderngl.ONE)
         context.depth_func = ">"
         for mesh, start, count in targets:
-            first.value = start
-            mesh.array(context, self.program).render(instances=count)
+            mesh.draw(context, self.program, start, count)
         self._counting.use()
         context.blend_func = (moderngl.ONE, moderngl.ONE)
         context.depth_func = "<"
         for mesh, start, count in occluders:
-            first.value = start
-            mesh.array(context, self.program).render(instances=count)
+            mesh.draw(context, self.program, start, count)
         context.depth_func = "<="
         return len(targets) + len(occluders)

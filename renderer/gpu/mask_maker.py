@@ -11,15 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import masks, order, projection
+from renderer import masks, projection
 from renderer.camera import Camera
+from renderer.gpu import tiles
 from renderer.gpu.scene_table import SceneTable
 from renderer.plan import FramePlan
 from renderer.silhouettes import near_cuts, silhouette
 from renderer.techniques.dynamic import DynamicTransparency
 
-CHANNELS = 4
-VERTEX = 7  # place x, y; offset x, y; kind; semi-axes
+VERTEX = 7  # place x, y; offset x, y; kind; semi-axes, or the way to the tile
 
 _CORNERS = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
 _SIGNS = np.array([[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]])
@@ -27,16 +27,24 @@ _SIGNS = np.array([[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]])
 
 @dataclass(frozen=True, eq=False)
 class MaskGeometry:
-    """vertices (k, 7) float32, see shaders/mask.vert; first (m,) and count (m,) for each of the
-    m `targets`; `pictured` are those that need the picture of distances, `channel` (n objects,)
-    theirs."""
+    """The masks of a frame.
+
+    vertices (k, 7) float32, see shaders/mask.vert; first (m,) and count (m,) for each of the m
+    `targets`; `looped` and `covered` are those that need a picture of distances: closed ones by
+    the loops of their outline, the others drawn whole. `tile` (n objects, 4) is where their
+    picture lies in the texture: left, bottom, right, top; `shift` (n objects, 2) leads there from
+    the window's pixels (y up); `height` is the texture's.
+    """
 
     vertices: NDArray[np.float32]
     targets: NDArray[np.int64]
     first: NDArray[np.int64]
     count: NDArray[np.int64]
-    pictured: NDArray[np.int64]
-    channel: NDArray[np.float64]
+    looped: NDArray[np.int64]
+    covered: NDArray[np.int64]
+    tile: NDArray[np.int64]
+    shift: NDArray[np.int64]
+    height: int
 
 
 def mask_geometry(
@@ -56,14 +64,51 @@ def mask_geometry(
         vertices, firsts = _ellipses(table, plain, frame, camera, technique.mask, width, size)
     else:
         vertices, firsts = _hulls(table, plain, frame, camera, width, size)
-    channel = channels_of(pictured, frame.reach, len(table.scene.objects))
-    flat = rectangles(frame.reach[pictured], channel[pictured])
-    targets = np.concatenate([plain, pictured])
+    tile, shift, height = _tiles(pictured, frame, size)
+    empty = (tile[pictured, 2] <= tile[pictured, 0]) | (tile[pictured, 3] <= tile[pictured, 1])
+    flat = _rectangles(pictured, np.cumsum(~empty) - 1, frame, shift, size)
     base = len(vertices) + 6 * np.arange(len(pictured))
-    first = np.concatenate([firsts[:-1], base])
-    count = np.concatenate([np.diff(firsts), np.full(len(pictured), 6)])
-    everything = np.concatenate([vertices, flat.reshape(-1, VERTEX)]).astype(np.float32)
-    return MaskGeometry(everything, targets, first, count, pictured, channel)
+    closed = [table.meshes[table.slot[t]].topology.closed for t in pictured.tolist()]
+    loops = np.array(closed, dtype=bool) & ~frame.boxes.crosses[pictured]
+    loops &= technique.mask == "outline"
+    return MaskGeometry(
+        vertices=np.concatenate([vertices, flat.reshape(-1, VERTEX)]).astype(np.float32),
+        targets=np.concatenate([plain, pictured]),
+        first=np.concatenate([firsts[:-1], base]),
+        count=np.concatenate([np.diff(firsts), np.where(empty, 0, 6)]),
+        looped=pictured[loops & ~empty],
+        covered=pictured[~loops & ~empty],
+        tile=tile,
+        shift=shift,
+        height=height,
+    )
+
+
+def _tiles(
+    pictured: NDArray[np.int64], frame: FramePlan, size: tuple[int, int]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], int]:
+    """Tiles, shifts and the texture's height for what the masks of targets can cover."""
+    reach = frame.reach[pictured]
+    low = np.clip(np.floor(reach[:, :2]), 0, size).astype(np.int64)
+    high = np.clip(np.ceil(reach[:, 2:]), 0, size).astype(np.int64)
+    extent = np.maximum(high - low, 0)
+    corners, height = tiles.shelves(extent)
+    tile = np.zeros((len(frame.reach), 4), np.int64)
+    shift = np.zeros((len(frame.reach), 2), np.int64)
+    tile[pictured] = np.concatenate([corners, corners + extent], axis=1)
+    shift[pictured] = corners - np.stack([low[:, 0], size[1] - high[:, 1]], axis=1)
+    return tile, shift, height
+
+
+def _rectangles(pictured, grid, frame, shift, size):  # type: ignore[no-untyped-def]
+    """(k, 6, 7) two triangles over what each mask can cover, that look up its tile and grid."""
+    extents = np.clip(frame.reach[pictured], 0, [*size, *size])
+    extents[:, :2], extents[:, 2:] = np.floor(extents[:, :2]), np.ceil(extents[:, 2:])
+    rows = np.zeros((len(pictured), 6, VERTEX))
+    rows[:, :, :2] = extents[:, _CORNERS]
+    rows[:, :, 4] = grid[:, None]
+    rows[:, :, 5:] = shift[pictured][:, None]
+    return rows
 
 
 def _hulled(
@@ -120,20 +165,6 @@ def _ellipses(table, targets, frame, camera, shape, width, size):  # type: ignor
     return rows.reshape(-1, VERTEX), 6 * np.arange(len(targets) + 1)
 
 
-def channels_of(
-    targets: NDArray[np.int64], reach: NDArray[np.float64], count: int
-) -> NDArray[np.float64]:
-    """(n objects,) a channel for each of `targets` so that masks of one channel stay apart.
-
-    `reach` (n, 4) are the extents of the masks. Channel 4 p + c is channel c of picture p.
-    Objects that are no such target have −1.
-    """
-    channel = np.full(count, -1.0)
-    if len(targets):
-        channel[targets] = order.apart(np.ascontiguousarray(reach[targets]))
-    return channel
-
-
 def outline_segments(
     table: SceneTable, target: int, camera: Camera, size: tuple[int, int]
 ) -> NDArray[np.float64]:
@@ -159,11 +190,3 @@ def outline_segments(
     segments = np.concatenate([np.stack([a, b], axis=1), cuts])
     segments[..., 2] = np.minimum(segments[..., 2], -camera.near)
     return projection.to_pixels(segments, camera, size).reshape(-1, 4)
-
-
-def rectangles(extents: NDArray[np.float64], channels: NDArray[np.float64]) -> NDArray[np.float32]:
-    """(k, 6, 7) two triangles over each extent that look up a channel."""
-    rows = np.zeros((len(extents), 6, VERTEX))
-    rows[:, :, :2] = extents[:, _CORNERS]
-    rows[:, :, 4] = channels[:, None]
-    return rows.astype(np.float32)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
+from renderer.contours import HalfEdges, half_edges
 from renderer.geometry import Mesh
+from renderer.gpu.programs import Shader
 from renderer.silhouettes import Topology, topology
 
 FORMAT = "3f 3f 3f"
@@ -27,6 +29,7 @@ class GpuMesh:
         self._indices = context.buffer(np.ascontiguousarray(triangles, dtype="i4").tobytes())
         self._arrays: dict[int, moderngl.VertexArray] = {}
         self._topology: Topology | None = None
+        self._edges: HalfEdges | None = None
 
     @property
     def topology(self) -> Topology:
@@ -35,14 +38,23 @@ class GpuMesh:
             self._topology = topology(self.mesh)
         return self._topology
 
-    def array(self, context: moderngl.Context, program: moderngl.Program) -> moderngl.VertexArray:
-        """The vertex array of this mesh for a program."""
-        if program.glo not in self._arrays:
-            used = [a if a in program else None for a in ATTRIBUTES]
+    @property
+    def edges(self) -> HalfEdges:
+        """The same for outlines that are drawn as loops."""
+        if self._edges is None:
+            self._edges = half_edges(self.topology)
+        return self._edges
+
+    def draw(self, context: moderngl.Context, shader: Shader, first: int, count: int) -> None:
+        """Draw `count` instances, from row `first` of the sequence on."""
+        key = shader.program.glo
+        if key not in self._arrays:
+            used = [a if a in shader.members else None for a in ATTRIBUTES]
             layout = " ".join("3f" if a else "12x" for a in used)
             content = [(self._vertices, layout, *[a for a in used if a])]
-            self._arrays[program.glo] = context.vertex_array(program, content, self._indices)
-        return self._arrays[program.glo]
+            self._arrays[key] = context.vertex_array(shader.program, content, self._indices)
+        shader.members["first"].value = first
+        self._arrays[key].render(instances=count)
 
 
 class MeshStore:

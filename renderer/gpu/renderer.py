@@ -46,7 +46,7 @@ class Renderer:
         self._id_layer: Layer | None = None
         self._tables: dict[int, SceneTable] = {}
         self._present = program(context, "present.vert", "present.frag")
-        self._triangle = context.vertex_array(self._present, [])
+        self._triangle = context.vertex_array(self._present.program, [])
         self._samples = min(samples, context.max_samples)
         self._target = FrameTarget(context, _checked(size), self._samples)
         self._small: FrameTarget | None = None

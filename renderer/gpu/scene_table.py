@@ -62,7 +62,7 @@ class SceneTable:
         self._upload(objects, camera, extra)
         slots = self.slot[objects]
         starts = np.nonzero(np.diff(number, prepend=-1) | np.diff(slots, prepend=-1))[0]
-        ends = np.append(starts[1:], len(objects))
+        ends = np.append(starts[1:], len(objects))[: len(starts)]
         runs: list[list[Run]] = [[] for _ in parts]
         for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
             runs[number[a]].append((self.meshes[slots[a]], a, b - a))

@@ -1,9 +1,6 @@
-// Provides −1 in the object's channel of the distance picture: this pixel lies on the target.
-flat in int channel;
-
-layout(location = 0) out vec4 distances;
+// Provides a mark: this pixel (or cell) lies on the target.
+layout(location = 0) out float turn;
 
 void main() {
-    distances = vec4(60000.0);
-    distances[channel % 4] = -1.0;
+    turn = 1.0;
 }

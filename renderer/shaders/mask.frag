@@ -1,13 +1,14 @@
 // Provides a target's alpha mask, to be multiplied into the frame's alpha (004 §V-D).
 // With CELLS instead a mask's entry for the exact picture: opacity, depth beside the target, the
 // target's number, and 1 where the mask is at its core.
-uniform sampler2D distances;  // Euclidean, in pixels; −1 on the target; one channel each target
-uniform sampler2D rings;      // the paper's masks, channels as above
+uniform sampler2D distances;  // Euclidean, in pixels, in tiles
+uniform sampler2D turns;      // not 0 on the target, in the same tiles
+uniform sampler2D rings;      // the paper's masks, grids above each other
 uniform sampler2D counts;     // penetrable fragments in front of the farthest target
 uniform float alpha_target;
 uniform float alpha_edge;
 uniform float width;
-uniform int rows;        // of the frame: the pictures of channels 4, 8, … lie above the first
+uniform vec2 size;       // of the frame
 uniform int ring_size;   // 0: no rings
 uniform float tau;       // least transmittance, 0: no guarantee
 uniform vec4 searchlight;  // x, y in pixels (y up), radius, softness; radius < 0: light everywhere
@@ -19,22 +20,21 @@ uniform int target;
 
 in vec2 offset;
 flat in int kind;
-flat in vec2 axes;
+flat in vec2 extra;
 
 layout(location = 0) out vec4 picture;
 #ifdef WITH_IDS
 layout(location = 1) out float id;
 #endif
 
-float ring(ivec2 pixel, int channel) {
+float ring(ivec2 pixel) {
     int n = ring_size;
-    vec2 cell = clamp((vec2(pixel) + 0.5) * n / vec2(textureSize(distances, 0).x, rows) - 0.5, 0.0, n - 1.0);
+    vec2 cell = clamp((vec2(pixel) + 0.5) * n / size - 0.5, 0.0, n - 1.0);
     ivec2 low = min(ivec2(cell), n - 2);
     vec2 t = cell - vec2(low);
-    low.y += channel / 4 * n;
-    int c = channel % 4;
-    float a = texelFetch(rings, low, 0)[c], b = texelFetch(rings, low + ivec2(1, 0), 0)[c];
-    float d = texelFetch(rings, low + ivec2(0, 1), 0)[c], e = texelFetch(rings, low + 1, 0)[c];
+    low.y += kind * n;
+    float a = texelFetch(rings, low, 0).r, b = texelFetch(rings, low + ivec2(1, 0), 0).r;
+    float d = texelFetch(rings, low + ivec2(0, 1), 0).r, e = texelFetch(rings, low + 1, 0).r;
     return mix(mix(a, b, t.x), mix(d, e, t.x), t.y);
 }
 
@@ -49,14 +49,15 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy) + shift;
     float d = length(offset);
     if (kind == -2) {
-        float r = length(offset / axes);
+        float r = length(offset / extra);
         d = r > 1.0 ? d * (1.0 - 1.0 / r) : 0.0;
     } else if (kind >= 0) {
-        d = texelFetch(distances, pixel + ivec2(0, kind / 4 * rows), 0)[kind % 4];
+        ivec2 texel = pixel + ivec2(extra);
+        d = abs(texelFetch(turns, texel, 0).r) > 0.5 ? 0.0 : texelFetch(distances, texel, 0).r;
     }
     float alpha = alpha_target;
     if (d > 0.0) {
-        if (ring_size > 0) alpha = ring(pixel, kind);
+        if (ring_size > 0) alpha = ring(pixel);
         else alpha = width > 0.0 ? min(alpha_edge + (1.0 - alpha_edge) * d / width, 1.0) : 1.0;
     }
     alpha = 1.0 - light(pixel) * (1.0 - alpha);

@@ -2,17 +2,17 @@
 uniform vec2 size;
 
 in vec2 in_place;
-in vec2 in_offset;   // from a hull's outline; or from an ellipse's centre, along its axes
-in float in_kind;    // −1: offset from a hull; −2: an ellipse; from 0: channel of the distances
-in vec2 in_axes;     // of an ellipse
+in vec2 in_offset;  // from a hull's outline; or from an ellipse's centre, along its axes
+in float in_kind;   // −1: offset from a hull; −2: an ellipse; from 0: looked up, the ring's grid
+in vec2 in_extra;   // the semi-axes of an ellipse; or the way from the window's pixels to the tile
 
 out vec2 offset;
 flat out int kind;
-flat out vec2 axes;
+flat out vec2 extra;
 
 void main() {
     offset = in_offset;
     kind = int(in_kind);
-    axes = in_axes;
+    extra = in_extra;
     gl_Position = vec4(2.0 * in_place.x / size.x - 1.0, 1.0 - 2.0 * in_place.y / size.y, 0.0, 1.0);
 }

@@ -1,13 +1,11 @@
 // Provides a rectangle round a segment of an outline, `width` pixels larger on all sides.
-uniform vec2 size;  // of the picture, in pixels
+uniform vec2 size;  // of the window, in pixels
 uniform float width;
 
 in vec4 in_segment;  // ends: x, y, x, y in pixels, y down
-in float in_channel;
 
 out vec2 place;
 flat out vec4 segment;
-flat out int channel;
 
 void main() {
     vec2 a = in_segment.xy, b = in_segment.zw;
@@ -17,6 +15,5 @@ void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     place = a + along * mix(-width, span + width, corner.x) + across * mix(-width, width, corner.y);
     segment = in_segment;
-    channel = int(in_channel);
     gl_Position = vec4(2.0 * place.x / size.x - 1.0, 1.0 - 2.0 * place.y / size.y, 0.0, 1.0);
 }
