@@ -229,8 +229,8 @@ class Ledger:
             return self._change(at, mine, LIVE, now, "")
         said = f"{mine.status} since {mine.changed}" + (f" ({mine.why})" if mine.why else "")
         raise InputError(
-            f"--participant = {mine.participant}: {said}: expected an id that is not in the "
-            "ledger, or --next"
+            f"--participant = {mine.participant}: {said}; the next free one is "
+            f"{self._free_name(at, ())}"
         )
 
     def _find(self, at: Connection, participant: str) -> Entry | None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from datetime import UTC, datetime
 from pathlib import Path
 
 from experiment.clock import RealClock
-from experiment.config import load
+from experiment.config import Study, load
 from experiment.errors import InputError
+from experiment.folders import check_participant, folder_of, next_free, taken
 from experiment.live import play_in_window
-from experiment.recorder import check_participant, next_free, taken
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,24 +21,68 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     who.add_argument("--participant", metavar="ID", help="letters, digits, - and _; never a name")
     who.add_argument("--next", action="store_true", help="the next free id: P01, P02, …")
     parser.add_argument("--data", type=Path, metavar="DIR", help="default: data/STUDY")
-    parser.add_argument("--slot", type=int, metavar="N", help="row of the design; default: in turn")
+    parser.add_argument(
+        "--slot", type=int, metavar="N", help="row of the design; default: the ledger's next"
+    )
+    parser.add_argument(
+        "--pilot", action="store_true", help="a try: other folder, no slot, never in a report"
+    )
+    parser.add_argument(
+        "--ledger", default="", metavar="URL", help="postgresql://USER@HOST/DATABASE, for stations"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the session; 0 when it was completed, 1 when it was left."""
     study = load(arguments.study)
     data = arguments.data or Path("data") / study.study.name
-    participant = next_free(data, "human") if arguments.next else arguments.participant
-    check_participant(participant)
-    slot = _slot(arguments.slot, data)
-    print(f"participant {participant}, slot {slot}, data in {data}", file=sys.stderr)
-    status = play_in_window(study, participant, slot, "human", data, RealClock())
+    if arguments.participant is not None:
+        check_participant(arguments.participant)
+    if arguments.slot is not None and arguments.slot < 1:
+        raise InputError(f"--slot = {arguments.slot}: expected at least 1")
+    participant, status = (_pilot if arguments.pilot else _human)(study, data, arguments)
     print(f"session {status}: {participant} in {data}")
     return 0 if status == "complete" else 1
 
 
-def _slot(wanted: int | None, data: Path) -> int:
-    """The row asked for, else one more than sessions there are."""
-    if wanted is not None and wanted < 1:
-        raise InputError(f"--slot = {wanted}: expected at least 1")
-    return wanted or len(taken(data, "human")) + 1
+def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
+    """A pilot run takes no slot from anybody."""
+    participant = arguments.participant or next_free(data, "pilot")
+    slot = arguments.slot or len(taken(data, "pilot")) + 1
+    return participant, _play(study, participant, slot, "pilot", data)
+
+
+def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
+    """A participant's session in the slot that the ledger gives."""
+    from experiment.ledger import Ledger  # SQLAlchemy: only where a ledger is needed
+    from experiment.ledger_files import reconcile
+    from experiment.ledger_plan import plan_of
+
+    url, plan = arguments.ledger or study.session.ledger, plan_of(study)
+    with Ledger.open(data, url, plan, _now()) as ledger:
+        for line in reconcile(ledger, data, _now()):
+            print(line, file=sys.stderr)
+        used = taken(data, "human")
+        entry = ledger.reserve(arguments.participant, _now(), arguments.slot, used)
+    # The session takes an hour, in which a connection may be lost: the ledger is opened again.
+    try:
+        status = _play(study, entry.participant, entry.slot, "human", data)
+    except InputError:
+        if entry.new and not folder_of(data, "human", entry.participant).exists():
+            with Ledger.open(data, url, plan, _now()) as ledger:
+                ledger.cancel(entry.participant)
+        raise
+    if status == "complete":
+        with Ledger.open(data, url, plan, _now()) as ledger:
+            ledger.complete(entry.participant, _now())
+    return entry.participant, status
+
+
+def _play(study: Study, participant: str, slot: int, source: str, data: Path) -> str:
+    what = "pilot run, " if source == "pilot" else ""
+    print(f"{what}participant {participant}, slot {slot}, data in {data}", file=sys.stderr)
+    return play_in_window(study, participant, slot, source, data, RealClock())
+
+
+def _now() -> datetime:
+    return datetime.now(UTC)

@@ -1,0 +1,89 @@
+"""`seethrough status`: slots, who has them, the balance, and what to run next."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
+
+if TYPE_CHECKING:
+    from experiment.ledger import Ledger
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The command's own arguments."""
+    parser.add_argument("data", metavar="DATA", type=Path, help="the study's data folder")
+    parser.add_argument("--ledger", default="", metavar="URL", help="where it is, if not noted")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the ledger; 0."""
+    from experiment.ledger import Ledger
+    from experiment.ledger_files import reconcile
+
+    now = datetime.now(UTC)
+    with Ledger.existing(arguments.data, arguments.ledger) as ledger:
+        changes = reconcile(ledger, arguments.data, now)
+        lines = [*(f"mended    {line}" for line in changes), *describe(ledger, now)]
+    print("\n".join(lines))
+    return 0
+
+
+def describe(ledger: Ledger, now: datetime) -> list[str]:
+    """The ledger in lines for the experimenter."""
+    plan, entries = ledger.plan, ledger.entries()
+    of = {s: [e for e in entries if e.status == s] for s in (COMPLETE, LIVE, VOID, SURPLUS)}
+    stale = ledger.stale(now)
+    held = {e.slot for e in (*of[COMPLETE], *of[LIVE])}
+    free = sum(slot not in held for slot in range(1, plan.participants + 1))
+    idle = f" ({len(stale)} stale)" if stale else ""
+    return [
+        f"study     {plan.study}: {plan.participants} participants wanted, "
+        f"{plan.rows} rows of the design; ledger {ledger.where}",
+        f"slots     {len(of[COMPLETE])} complete, {len(of[LIVE])} open{idle}, "
+        f"{free} free, {len(of[VOID])} void entries",
+        *_balance(of[COMPLETE], of[LIVE], plan.rows),
+        *_people("open", of[LIVE], {e.participant for e in stale}),
+        *_people("void", of[VOID]),
+        *_people("surplus", of[SURPLUS]),
+        f"next      {_next(ledger, now)}",
+    ]
+
+
+def _balance(complete: Sequence[Entry], live: Sequence[Entry], rows: int) -> list[str]:
+    done = Counter(row_of(e.slot, rows) for e in complete)
+    open_ = Counter(row_of(e.slot, rows) for e in live)
+    uneven = max(done[r] for r in range(rows)) - min(done[r] for r in range(rows))
+    word = "completed rows are even" if not uneven else f"completed rows differ by {uneven}"
+    return [
+        f"balance   {word}",
+        *(f"          row {r + 1}: {done[r]} complete, {open_[r]} open" for r in range(rows)),
+    ]
+
+
+def _people(what: str, entries: Sequence[Entry], stale: Sequence[str] | set[str] = ()) -> list[str]:
+    return [
+        f"{what:<9} {e.participant}, slot {e.slot}, since {e.changed}"
+        + (" (stale: its slot may be given out)" if e.participant in stale else "")
+        + (f": {plain(e.why)}" if e.why else "")
+        for e in entries
+    ]
+
+
+def _next(ledger: Ledger, now: datetime) -> str:
+    slot = ledger.upcoming(now)
+    if slot is None:
+        return "nobody: every slot is complete or open; wait for the open ones, or withdraw"
+    beyond = " (past the number wanted)" if slot > ledger.plan.participants else ""
+    row = row_of(slot, ledger.plan.rows) + 1
+    return f"seethrough run STUDY --next: slot {slot}, row {row}{beyond}"
+
+
+def plain(text: str) -> str:
+    """Free text for a terminal: what is not printable would drive it."""
+    return "".join(c if c.isprintable() else "�" for c in text)

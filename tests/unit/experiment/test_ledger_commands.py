@@ -1,0 +1,155 @@
+"""run, status and withdraw with a ledger: what the experimenter sees and what is left."""
+
+import json
+from datetime import UTC, datetime
+
+import pytest
+
+from experiment import cli
+from experiment.commands import run as run_command
+from experiment.config import find, load
+from experiment.errors import InputError
+from experiment.ledger import Ledger
+from experiment.ledger_plan import plan_of
+from experiment.recorder import FileRecorder, Who
+
+STUDY = load("demo")
+NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
+
+
+@pytest.fixture
+def sessions(monkeypatch, tmp_path):
+    """Runs `seethrough run` with sessions that end as they are told to, and record who came."""
+    came = []
+
+    def session(study, participant, slot, source, data, clock):
+        how = ends.pop(0) if ends else "complete"
+        if how == "no display":
+            raise InputError("display: no window can be opened")
+        came.append((participant, slot, source))
+        number = sum(c[0] == participant for c in came)
+        made = {"study_sha256": study.digest()}
+        who = Who(study.study.name, participant, source, slot, made, number)
+        FileRecorder(data, who).close(how)
+        return how
+
+    ends = []
+    monkeypatch.setattr(run_command, "play_in_window", session)
+
+    def run(*words, how="complete"):
+        ends[:] = [how]
+        return cli.main(["run", "demo", "--data", str(tmp_path), *words])
+
+    run.came = came
+    return run
+
+
+def entries(folder):
+    with Ledger.existing(folder) as ledger:
+        return [(e.participant, e.slot, e.status) for e in ledger.entries()]
+
+
+def test_slots_come_from_the_ledger_and_drop_outs_are_given_out_again(sessions, tmp_path, capsys):
+    assert sessions("--next") == 0
+    assert sessions("--next", how="left") == 1
+    assert sessions("--next") == 0
+    assert sessions.came == [("P01", 1, "human"), ("P02", 2, "human"), ("P03", 3, "human")]
+    assert entries(tmp_path) == [("P01", 1, "complete"), ("P02", 2, "live"), ("P03", 3, "complete")]
+    assert sessions("--participant", "P02") == 0  # comes back, in their own slot
+    assert sessions.came[-1] == ("P02", 2, "human")
+    assert cli.main(["withdraw", str(tmp_path), "--participant", "P02", "--yes"]) == 0
+    assert not (tmp_path / "data" / "human" / "P02").exists()
+    assert sessions("--next") == 0
+    assert sessions.came[-1] == ("P04", 2, "human")  # a withdrawn id is never used again
+    capsys.readouterr()
+    assert sessions("--participant", "P01") == 2
+    assert "P01: complete since" in (said := capsys.readouterr().err) and "one is P05" in said
+
+
+def test_a_session_that_never_began_takes_no_slot(sessions, tmp_path, capsys):
+    assert sessions("--next", how="no display") == 2
+    assert entries(tmp_path) == []
+    assert sessions("--next") == 0
+    assert sessions.came == [("P01", 1, "human")]
+
+
+def test_a_pilot_takes_no_slot(sessions, tmp_path):
+    assert sessions("--next", "--pilot") == 0
+    assert sessions.came == [("P01", 1, "pilot")]
+    assert not (tmp_path / "ledger.sqlite").exists()
+
+
+def test_a_changed_study_is_refused_and_nothing_is_written(sessions, tmp_path, capsys):
+    sessions("--next")
+    changed = tmp_path / "changed.toml"
+    text = find("demo")
+    changed.write_text(text.read_text("utf-8").replace("objects = 60", "objects = 61"), "utf-8")
+    capsys.readouterr()
+    assert cli.main(["run", str(changed), "--data", str(tmp_path), "--next"]) == 2
+    said = capsys.readouterr().err
+    assert "abstract.objects = 61: expected 60, as in the study that this ledger began" in said
+    assert said.count("\n") == 1 and len(sessions.came) == 1
+
+
+def test_a_lost_ledger_is_made_again_from_the_files(sessions, tmp_path, capsys):
+    for how in ("complete", "left", "complete"):
+        sessions("--next", how=how)
+    before = entries(tmp_path)
+    (tmp_path / "ledger.sqlite").unlink()
+    assert sessions("--next") == 0
+    assert entries(tmp_path) == [*before, ("P04", 4, "complete")]
+    assert "P02: not in the ledger: entered as live, slot 2" in capsys.readouterr().err
+
+
+def test_a_session_whose_end_the_ledger_missed_is_completed(sessions, tmp_path, capsys):
+    sessions("--next", how="left")
+    (end,) = (tmp_path / "data" / "human" / "P01").glob("*_end.json")
+    end.write_text(json.dumps({"status": "complete"}), "utf-8")  # a crash right after this
+    assert cli.main(["status", str(tmp_path)]) == 0
+    assert "P01: complete on disk, live in the ledger" in capsys.readouterr().out
+    assert entries(tmp_path) == [("P01", 1, "complete")]
+
+
+def test_status_says_who_has_what_and_what_is_next(tmp_path, capsys):
+    with Ledger.open(tmp_path, "", plan_of(STUDY), NOW) as ledger:
+        for name in ("A", "B", "C"):
+            ledger.reserve(name, NOW)
+        ledger.complete("A", NOW)
+        ledger.void("B", "felt ill\x1b[2J", NOW)
+    assert cli.main(["status", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "study     demo: 4 participants wanted, 4 rows of the design" in said
+    assert "slots     1 complete, 1 open (1 stale), 2 free, 1 void entries" in said
+    assert "balance   completed rows differ by 1\n          row 1: 1 complete, 0 open" in said
+    assert "open      C, slot 3, since 2026-01-02T03:04:05.000Z (stale: its slot may" in said
+    assert "void      B, slot 2, since 2026-01-02T03:04:05.000Z: felt ill�[2J" in said
+    assert "next      seethrough run STUDY --next: slot 2, row 2" in said
+
+
+def test_withdrawing_asks_and_removes_only_when_told(sessions, tmp_path, capsys, monkeypatch):
+    sessions("--next")
+    folder = tmp_path / "data" / "human" / "P01"
+    words = ["withdraw", str(tmp_path), "--participant", "P01"]
+    assert cli.main(words) == 2  # nobody to ask
+    assert "--yes: expected, where nobody can be asked" in capsys.readouterr().err
+    monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
+    for answer, status in (("no", 1), ("p01", 1), ("P01", 0)):
+        assert folder.exists()
+        monkeypatch.setattr("builtins.input", lambda question, answer=answer: answer)
+        assert cli.main([*words, "--why", "by mail"]) == status
+    assert not folder.exists() and (tmp_path / "data" / "human").exists()
+    with Ledger.existing(tmp_path) as ledger:
+        (entry,) = ledger.entries()
+    assert (entry.status, entry.why) == ("void", "withdrawn: by mail")
+    assert entry.changed.startswith(datetime.now(UTC).strftime("%Y-"))
+    assert cli.main(["withdraw", str(tmp_path), "--participant", "P09", "--yes"]) == 2
+    assert "participant = P09: not in the ledger" in capsys.readouterr().err
+    assert cli.main(["withdraw", str(tmp_path), "--participant", "../..", "--yes"]) == 2
+
+
+def test_keeping_the_files_frees_the_slot_all_the_same(sessions, tmp_path):
+    sessions("--next")
+    words = ["withdraw", str(tmp_path), "--participant", "P01", "--yes", "--keep-files"]
+    assert cli.main(words) == 0
+    assert (tmp_path / "data" / "human" / "P01").exists()
+    assert entries(tmp_path) == [("P01", 1, "void")]
