@@ -40,9 +40,9 @@ def count_red(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None
         # A patience of 1.3 is one quiet view, and another three times out of ten.
         if quiet + mood.rng.random() > p.patience * mood.care or views >= MOST_VIEWS:
             break
-        yaw, pitch = heading(glance.view)
+        yaw, height = heading(glance.view)
         aim = TILT if views % 2 == 0 else -TILT
-        hands.turn(p.orbit_step, aim - pitch, drag=True)
+        hands.turn(p.orbit_step, aim - height, drag=True)
         before = yaw
         glance = yield hands.take()
         learn_gain(hands, before, heading(glance.view)[0], p.orbit_step)

@@ -32,9 +32,9 @@ Strategy = Iterator[list[Event]]
 
 
 def heading(view: View) -> tuple[float, float]:
-    """(yaw, pitch) of the view as one feels it, in radians; pitch is up."""
+    """(yaw, height) in radians: which way one looks, and from how far above one looks down."""
     rotation = view.camera.rotation
-    return atan2(-rotation[2, 0], rotation[0, 0]), asin(float(np.clip(-rotation[1, 2], -1, 1)))
+    return atan2(-rotation[2, 0], rotation[0, 0]), asin(min(1.0, max(-1.0, rotation[1, 2])))
 
 
 def likely(strength: NDArray[np.float64], half: float, spread: float) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ from experiment.participants.hands import Hands
 from experiment.participants.person import Mood
 from tasks.events import Event
 
-FROM_ABOVE = 1.25  # pitch from which a flat letter reads well [ours]
+FROM_ABOVE = 1.25  # height, in radians, from which a flat letter reads well [ours]
 RELATIVE_DEPTH = 0.04  # s.d. of depth in the cloud, as a part of the distance [ours]
 MISTAKEN_SHAPE = 0.25  # of unclear red things, how many are taken for cones [ours]
 ANGLES = np.arange(36) * (2 * np.pi / 36)
@@ -39,9 +39,9 @@ def name_letter(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
     hands.wait(p.prepare)
     places: dict[int, list[NDArray[np.float64]]] = {}
     for looks in range(1, p.letter_looks + 1):
-        yaw, pitch = heading(glance.view)
+        yaw, height = heading(glance.view)
         side = 0.0 if looks == 1 else p.orbit_step
-        hands.turn(side, FROM_ABOVE - pitch, drag=True)
+        hands.turn(side, FROM_ABOVE - height, drag=True)
         glance = yield hands.take()
         if side:
             learn_gain(hands, yaw, heading(glance.view)[0], side)

@@ -35,7 +35,7 @@ def orbit_key(camera: Camera) -> Key:
     """The nearest lattice viewpoint of an orbit: number of its yaw, number of its pitch."""
     r = camera.rotation
     yaw = atan2(-r[2, 0], r[0, 0])
-    pitch = asin(min(1.0, max(-1.0, -r[1, 2]))) * -1.0
+    pitch = asin(min(1.0, max(-1.0, r[1, 2])))
     nearest = min(range(len(PITCHES)), key=lambda k: abs(PITCHES[k] - pitch))
     return (round(yaw / (2 * pi / YAWS)) % YAWS, nearest)
 
@@ -120,7 +120,7 @@ def save(path: Path, tables: dict[str, Table]) -> None:
     for name, table in tables.items():
         keys = sorted(table.rows)
         widths = [table.rows[k].shape[1] for k in keys]
-        arrays[f"{name}/keys"] = np.array(keys, dtype=np.int32).reshape(len(keys), -1)
+        arrays[f"{name}/keys"] = np.array(keys, dtype=np.int32)
         arrays[f"{name}/widths"] = np.array([table.objects, *widths], dtype=np.int32)
         arrays[f"{name}/rows"] = (
             np.concatenate([table.rows[k] for k in keys], axis=1) if keys else np.zeros((7, 0))

@@ -1,0 +1,178 @@
+"""Visibility tables: lattice poses, exact storage, the same decisions as with the eyes open."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from experiment.config import load
+from experiment.participants.data_mode import play_session, play_trial, trial_row
+from experiment.participants.participant import SimulatedParticipant
+from experiment.participants.pool import Pool, fingerprint, same
+from experiment.participants.tables import (
+    PITCHES,
+    YAWS,
+    Table,
+    TableEyes,
+    orbit_camera,
+    orbit_key,
+    walk_camera,
+    walk_key,
+)
+from experiment.participants.tables import load as load_tables
+from experiment.participants.tables import save as save_tables
+from renderer.visibility import Visibility
+from tasks.controls import orbit, walk
+from tasks.parameters import AbstractParameters, BuildingParameters
+
+ASPECT = 4 / 3
+
+
+def random_sight(seed, n=12):
+    rng = np.random.default_rng(seed)
+    pixels = rng.integers(0, 50, n) * (rng.random(n) < 0.6)
+    seen = pixels > 0
+    position = np.where(seen[:, None], rng.random((n, 2)), np.nan)
+    return Visibility(pixels, rng.random(n) * seen, position, rng.random(n) * seen,
+                      rng.random(n) * seen)  # fmt: skip
+
+
+def test_orbit_lattice_poses_are_their_own_nearest():
+    start = orbit(AbstractParameters(), ASPECT).camera()
+    for yaw in range(YAWS):
+        for pitch in range(len(PITCHES)):
+            camera = orbit_camera(start, (yaw, pitch))
+            assert orbit_key(camera) == (yaw, pitch)
+            assert_allclose(np.linalg.norm(camera.eye), np.linalg.norm(start.eye))
+            assert_allclose(camera.forward @ camera.eye, -np.linalg.norm(camera.eye))
+    # Where a trial starts lies on the lattice: the same camera to the last digits.
+    again = orbit_camera(start, orbit_key(start))
+    assert_allclose(again.eye, start.eye, rtol=1e-12)
+
+
+def test_walk_lattice_poses_are_their_own_nearest():
+    start = walk(BuildingParameters(), (2.5, 2.5)).camera()
+    assert_allclose(walk_camera(start, walk_key(start)).eye, start.eye)
+    for key in ((-8, 7, 0), (0, -1, 3), (7, 7, 7)):
+        assert walk_key(walk_camera(start, key)) == key
+
+
+def test_a_table_gives_back_what_was_put_to_the_last_bit(tmp_path):
+    table = Table(12)
+    looks = {(k, 2): random_sight(k) for k in range(5)}
+    for key, seen in looks.items():
+        table.put(key, seen)
+    save_tables(tmp_path / "t.npz", {"a-1/standard": table, "none/dynamic": Table(3)})
+    back = load_tables(tmp_path / "t.npz")
+    assert set(back) == {"a-1/standard", "none/dynamic"} and back["none/dynamic"].objects == 3
+    for key, seen in looks.items():
+        assert same(table.get(key), seen) and same(back["a-1/standard"].get(key), seen)
+    assert not same(looks[0, 2], looks[1, 2])
+
+
+def test_eyes_draw_each_viewpoint_once_at_the_lattice_pose():
+    drawn = []
+
+    def draw(scene, camera):
+        drawn.append(camera)
+        return random_sight(len(drawn))
+
+    eyes = TableEyes(Table(12), "walkthrough", draw)
+    first = walk(BuildingParameters(), (2.6, 2.4), 0.05).camera()
+    second = walk(BuildingParameters(), (2.4, 2.7), -0.1).camera()
+    assert same(eyes.look(None, first), eyes.look(None, second))
+    assert eyes.drawn == len(drawn) == 1
+    assert_allclose(drawn[0].eye, (2.5, 3.2, 2.5))
+    blind = TableEyes(Table(12), "walkthrough")
+    with pytest.raises(KeyError, match=r"viewpoint \(0, 0, 0\) is in no table"):
+        blind.look(None, first)
+
+
+def small_study():
+    """The demo study: two levels, four tasks, a small world."""
+    return load("demo")
+
+
+def shown(level):
+    """Draws without a renderer: large and clear, every second object hidden in standard."""
+
+    def draw(scene, camera):
+        local = (scene.centers - camera.eye) @ camera.rotation
+        depth = np.maximum(-local[:, 2], 1e-6)
+        half = np.tan(camera.fov_y / 2)
+        x, y = local[:, 0] / depth / half / 2, local[:, 1] / depth / half / 2
+        seen = (local[:, 2] < -0.5) & (np.abs(x) < ASPECT / 2) & (np.abs(y) < 0.5)
+        if level == "standard":
+            # What is hidden changes with the side one looks from.
+            side = round(0.37 * float(np.abs(camera.eye).sum())) % 4
+            seen &= np.arange(len(seen)) % 4 != side
+        seen |= np.array([o.kind.endswith("wall") for o in scene.objects])
+        position = np.where(seen[:, None], np.stack([ASPECT / 2 + x, 0.5 - y], axis=1), np.nan)
+        on = seen.astype(float)
+        return Visibility(np.where(seen, 300, 0), on, position, 0.5 * on, 0.01 * on)
+
+    return draw
+
+
+def trial_of(study, task, level):
+    from experiment.design import session_for
+
+    sets = session_for(1, study.design.factors())
+    return next(t for s in sets for t in s.trials if (t.task, t.transparency) == (task, level))
+
+
+@pytest.mark.parametrize("task", ["count", "pattern", "unique", "count_in_building"])
+@pytest.mark.parametrize("level", ["standard", "dynamic"])
+def test_on_the_lattice_tables_lead_to_the_same_events(task, level):
+    """Without motor noise a participant stands on the lattice: eyes and tables agree exactly."""
+    study = small_study()
+    trial = trial_of(study, task, level)
+    runs = []
+    for lattice in (True, False):
+        pool = Pool(study, 2, shown)
+        if not lattice:
+            pool.eyes = lambda name, trial, scene: _OpenEyes(shown(trial.transparency))
+        person = SimulatedParticipant(np.random.default_rng(3), without=["motor_noise"])
+        runs.append(play_trial(person, pool, trial, 0.0, ASPECT, keep=True)[0])
+    with_tables, with_eyes = runs
+    assert len(with_tables.events) > 10
+    assert with_tables.events == with_eyes.events
+    assert with_tables.outcome == with_eyes.outcome
+
+
+class _OpenEyes:
+    """Looks from where the camera is."""
+
+    def __init__(self, draw):
+        self.look = draw
+
+
+def test_tables_made_beforehand_play_the_same_without_drawing(tmp_path):
+    study = small_study()
+    making = Pool(study, 2, shown)
+    first = play_session(study, 1, 5, making)
+    assert all(len(k) in (2, 3) for t in making.tables.values() for k in t.rows)
+    making.save(tmp_path / "pool.npz")
+    assert making.looks > 10
+    using = Pool(study, 2)
+    using.load(tmp_path / "pool.npz")
+    again = play_session(study, 1, 5, using)
+    rows = [[trial_row(study, 1, t) for t in s] for s in (first, again)]
+    assert rows[0] == rows[1]
+    assert len({r["row_id"] for r in rows[0]}) == len(rows[0]) == 8
+
+
+def test_a_table_belongs_to_its_scene_and_technique():
+    study = small_study()
+    _, state = Pool(study, 2).begin(trial_of(study, "count", "dynamic"), ASPECT)
+    scene = state.scene
+    moved = scene.objects[0].transform.copy()
+    moved[0, 3] += 0.001
+    objects = (type(scene.objects[0])(scene.objects[0].mesh, moved), *scene.objects[1:])
+    other = type(scene)(objects)
+    names = {fingerprint(scene, "a"), fingerprint(other, "a"), fingerprint(scene, "b")}
+    assert len(names) == 3
+
+
+def test_an_empty_pool_is_refused():
+    with pytest.raises(ValueError, match=r"pool = 0: expected at least 1 scene a task"):
+        Pool(small_study(), 0)
