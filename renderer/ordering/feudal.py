@@ -100,7 +100,7 @@ def _assemble(fragments: Fragments, nodes: list[Node], tested: int, closed: bool
     apart = [node for node in nodes if node.gap is not None]
     for i, node in enumerate(apart):
         node.switch = len(planes) + i
-    planes = np.concatenate([planes, *(_gap_plane(node.gap) for node in apart)])
+    planes = np.concatenate([planes, *(node.gap[None] for node in apart)])
     flat = np.flatnonzero(~fragments.solid[source])
     made = program(nodes, planes, drawn.bounds, flat, closed)
     stats = Stats(
@@ -117,9 +117,3 @@ def _assemble(fragments: Fragments, nodes: list[Node], tested: int, closed: bool
     )
     return PreparedFeudal(drawn, tuple(nodes), made, stats, fragments)
 
-
-def _gap_plane(gap: tuple[int, float]) -> Floats:
-    """(1, 4) plane across an axis, its front towards higher coordinates."""
-    plane = np.zeros((1, 4))
-    plane[0, gap[0]], plane[0, 3] = 1.0, -gap[1]
-    return plane

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.feudal_gaps import bounds_of, widest_parting
+from renderer.ordering.feudal_gaps import in_front, widest_parting
 from renderer.ordering.feudal_relations import Relations
 from renderer.ordering.fragments import BEHIND, COPLANAR, CUT, IN_FRONT
-from renderer.ordering.polygons import Integers
+from renderer.ordering.polygons import Floats, Integers
 
 
 @dataclass(slots=True)
@@ -19,15 +19,15 @@ class Node:
 
     `levels` are pairs (F_j, B_j) of polygons with absolute front and back priority. `switch` is
     the polygon whose plane parts the rest, `coplanar` (O_k) it and all in its plane, `children`
-    the connecting nodes in front of it and behind. -1: none. `gap` is (axis, coordinate) of a
-    switch that is no polygon's plane.
+    the connecting nodes in front of it and behind. -1: none. `gap` (4,) is the
+    plane of a switch that is no polygon's.
     """
 
     levels: list[tuple[Integers, Integers]] = field(default_factory=list)
     switch: int = -1
     coplanar: Integers = field(default_factory=lambda: np.empty(0, np.int64))
     children: list[int] = field(default_factory=lambda: [-1, -1])
-    gap: tuple[int, float] | None = None
+    gap: Floats | None = None
 
 
 @dataclass(slots=True)
@@ -126,17 +126,16 @@ def _hang(nodes: list[Node], node: Node, sides: list[Integers]) -> list[tuple[in
     return work
 
 
-def _gap(relations: Relations, group: Integers) -> tuple[int, float] | None:
-    return widest_parting(*bounds_of(relations.fragments, group)) if len(group) > 1 else None
+def _gap(relations: Relations, group: Integers) -> Floats | None:
+    return widest_parting(relations.fragments, group) if len(group) > 1 else None
 
 
 def part(
-    relations: Relations, nodes: list[Node], node: Node, gap: tuple[int, float], group: Integers
+    relations: Relations, nodes: list[Node], node: Node, gap: Floats, group: Integers
 ) -> list[tuple[int, Integers]]:
     """Put a gap under a connecting node as its switch; returns the new nodes with their groups."""
     node.gap = gap
-    low, _ = bounds_of(relations.fragments, group)
-    front = low[:, gap[0]] > gap[1]
+    front = in_front(relations.fragments, group, gap)
     return _hang(nodes, node, [group[front], group[~front]])
 
 
@@ -163,7 +162,7 @@ def build_dynamic(relations: Relations, order: Integers, gaps: bool = False) -> 
 
 def _peel(
     relations: Relations, node: Node, group: Integers, gaps: bool
-) -> tuple[int, tuple[int, float] | None, Integers]:
+) -> tuple[int, Floats | None, Integers]:
     """Rows of a group in turn: absolute priority leaves at once, a separating plane ends it.
 
     Returns the separating polygon (-1: none), the gap that parts the group, and the group.

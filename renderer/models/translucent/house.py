@@ -31,7 +31,7 @@ def faces() -> Faces:
         *windows,
         *_porch(),
         *_tower(),
-        *turned(_garden(), 0.3, (0.0, 7.0)),
+        *_garden(),
     ]
 
 
@@ -50,7 +50,7 @@ def _roofs() -> Faces:
     parts = prism(wing, 2, -6.6, 0.9) + prism(tail, 2, 1.0, 6.6)
     for z in (-4.4, -1.6):
         parts += prism(
-            [(6.2, z - 0.6), (6.2, z + 0.6), (7.2, z + 0.6), (7.8, z), (7.2, z - 0.6)], 0, 3.3, 4.2
+            [(6.2, z - 0.6), (6.2, z + 0.6), (7.2, z + 0.6), (7.8, z), (7.2, z - 0.6)], 0, 3.65, 4.4
         )
     for x, z in ((-0.5, -3.5), (1.0, 4.0)):
         parts += box((x - 0.5, 9.5, z - 0.4), (x + 0.5, 10.8, z + 0.4))
@@ -102,7 +102,7 @@ def _porch() -> Faces:
     steps = [
         (5.9, 0.0), (5.9, 0.14), (5.5, 0.14), (5.5, 0.28), (5.1, 0.28), (5.1, 0.4), (3.3, 0.4), (3.3, 0.0),
     ]  # fmt: skip
-    roof = [(3.2, -2.5), (3.2, 0.1), (3.3, 0.1), (3.7, -1.2), (3.3, -2.5)]
+    roof = [(3.15, -2.5), (3.15, 0.1), (3.2, 0.1), (3.42, -1.2), (3.2, -2.5)]
     parts = box((3.02, 0.45, -1.8), (3.12, 2.7, -0.6)) + prism(steps, 2, -2.4, 0.0)
     for x in (3.6, 4.8):
         for z in (-2.2, -0.2):
@@ -120,9 +120,9 @@ def _tower() -> Faces:
     middle = np.array([3.4, -3.6])
     wall = [(float(z) + middle[0], float(x) + middle[1]) for z, x in ring]
     parts = prism(wall, 1, 0.0, 3.6, 0.95) + prism(wall, 1, 3.7, 7.4, 0.95)
-    for i in range(19):
+    for i in range(26):
         a, b = 0.6 * i, 0.6 * i + 0.7
-        step = [(0.15, 0.0), (1.5, 0.0), (1.5 * np.cos(b - a), 1.5 * np.sin(b - a))]
+        step = [(0.15, 0.0), (1.35, 0.0), (1.35 * np.cos(b - a), 1.35 * np.sin(b - a))]
         placed = [
             (
                 float(u * np.cos(a) - v * np.sin(a)) + middle[0],
@@ -130,7 +130,7 @@ def _tower() -> Faces:
             )
             for u, v in step
         ]
-        parts += prism(placed, 1, 0.4 + 0.35 * i, 0.6 + 0.35 * i, 0.9)
+        parts += prism(placed, 1, 0.3 + 0.26 * i, 0.45 + 0.26 * i, 0.85)
     parts += cone(disc((middle[0], middle[1]), 2.3, 12, 0.3), 1, 7.5, 10.4)
     arc = [(1.1 * np.cos(a), 2.0 + 1.1 * np.sin(a)) for a in np.linspace(0, np.pi, 7)]
     arch = [(1.1, 0.0), *arc, (-1.1, 0.0), (-1.5, 0.0), (-1.5, 3.5), (1.5, 3.5), (1.5, 0.0)]
@@ -141,10 +141,5 @@ def _tower() -> Faces:
 
 
 def _garden() -> Faces:
-    """A fence of five pointed pickets and a tub."""
-    parts = prism(disc((7.2, 4.6), 0.5, 6, 0.15), 1, 0.0, 0.7, 1.3)
-    for i in range(5):
-        z = -5.5 + 1.9 * i
-        picket = [(0.0, z - 0.12), (0.0, z + 0.12), (1.0, z + 0.12), (1.25, z), (1.0, z - 0.12)]
-        parts += prism(picket, 0, 7.0, 7.08, 0.9)
-    return parts
+    """A tub."""
+    return prism(disc((7.2, 4.6), 0.5, 6, 0.15), 1, 0.0, 0.7, 1.3)

@@ -6,10 +6,12 @@ fixed while only the BSP baseline had run on it.
 
 from __future__ import annotations
 
+import numpy as np
+
 from renderer.models.translucent.solids import Faces, box, disc, prism, turned
 
 # The upper part stands turned on its foot, in radians.
-SWIVEL = 0.35
+SWIVEL = 0.5
 
 
 def faces() -> Faces:
@@ -17,13 +19,12 @@ def faces() -> Faces:
     return [
         *_foot(),
         *turned([*_body(), *_jaws(), *_screw()], SWIVEL),
-        *_bolts(),
     ]
 
 
 def _foot() -> Faces:
-    """Swivel plate, three lugs, turntable and the four ribs that stiffen it: 78."""
-    plate = prism(disc((0, 0), 7.0, 14, 0.3), 1, 0.0, 1.2, 0.93)
+    """Swivel plate, two lugs and turntable."""
+    plate = prism(disc((0, 0), 7.0, 12, 0.3), 1, 0.0, 1.2, 0.93)
     table = prism(disc((0, 0), 5.2, 10, 0.2), 1, 1.3, 2.4, 0.9)
     lug = [
         (-1.3, 7.1),
@@ -36,15 +37,11 @@ def _foot() -> Faces:
         (-1.3, 8.6),
     ]
     lugs = prism(lug, 1, 0.2, 1.0, 0.9) + prism([(-z, -x) for z, x in lug], 1, 0.2, 1.0, 0.9)
-    ribs: Faces = []
-    for sign in (-1.0, 1.0):
-        web = [(2.5, sign * 2.05), (2.5, sign * 4.6), (4.3, sign * 2.05)]
-        ribs += prism(web, 0, -3.0, -2.5) + prism(web, 0, 2.5, 3.0)
-    return plate + table + lugs + ribs
+    return plate + table + lugs
 
 
 def _body() -> Faces:
-    """The channel the slide runs in, the anvil behind it, and the pads beside it."""
+    """The channel the slide runs in, its ribs, the anvil behind it, and the pads beside it."""
     channel = [
         (2.5, -2.0), (2.5, 2.0), (7.0, 2.0), (7.0, 1.4), (4.0, 1.4), (4.0, -1.4), (7.0, -1.4), (7.0, -2.0),
     ]  # fmt: skip
@@ -53,7 +50,11 @@ def _body() -> Faces:
     ]  # fmt: skip
     horn = prism([(-11.5, 5.2), (-9.1, 4.4), (-9.1, 6.4), (-11.5, 5.9)], 2, -0.7, 0.7, 0.6)
     pads = box((-4.0, 4.6, 2.1), (4.0, 5.4, 2.6)) + box((-4.0, 4.6, -2.6), (4.0, 5.4, -2.1))
-    return (
+    ribs: Faces = []
+    for sign in (-1.0, 1.0):
+        web = [(2.5, sign * 2.05), (2.5, sign * 4.6), (4.3, sign * 2.05)]
+        ribs += prism(web, 0, -3.0, -2.5, 0.8) + prism(web, 0, 2.5, 3.0, 0.8)
+    return ribs + (
         prism([(y, z) for y, z in channel], 0, -5.0, 5.0)
         + prism(anvil, 2, -1.8, 1.8, 0.85)
         + horn
@@ -68,15 +69,8 @@ def _jaws() -> Faces:
     ]  # fmt: skip
     moving = [(8.6 - x, y) for x, y in fixed]
     slide = [
-        (4.1, -1.2),
-        (5.0, -1.2),
-        (5.0, -0.7),
-        (5.9, -0.7),
-        (5.9, 0.7),
-        (5.0, 0.7),
-        (5.0, 1.2),
-        (4.1, 1.2),
-    ]
+        (4.6, -1.2), (5.5, -1.2), (5.5, -0.7), (6.4, -0.7), (6.4, 0.7), (5.5, 0.7), (5.5, 1.2), (4.6, 1.2),
+    ]  # fmt: skip
     tooth = 0.55
     saw = [(-1.3, 10.9), (-1.3, 8.6)]
     for i in range(4):
@@ -92,17 +86,17 @@ def _jaws() -> Faces:
 
 
 def _screw() -> Faces:
-    """Threads, collar, head and the handle with its two knobs."""
+    """A winding thread in two slit nuts, the handle with its knobs, and two guide rods."""
     parts: Faces = []
-    for i in range(6):
-        parts += prism(
-            disc((3.3, 0.0), 0.62 if i % 2 else 0.45, 8, 0.5 * (i % 2)),
-            0,
-            6.0 + 0.9 * i,
-            6.85 + 0.9 * i,
-        )
-    parts += prism(disc((3.3, 0.0), 1.1, 6), 0, 11.5, 12.6)
-    parts += prism(disc((3.3, 0.0), 0.9, 8, 0.5), 0, 12.9, 14.2)
+    for i in range(12):
+        a, b = 1.1 * i, 1.1 * i + 1.3
+        flight = [(0.1, a), (0.62, a), (0.62, b)]
+        wedge = [(3.3 + r * float(np.cos(t)), r * float(np.sin(t))) for r, t in flight]
+        parts += prism(wedge, 0, 6.0 + 0.45 * i, 6.35 + 0.45 * i, 0.75)
+    angles = np.linspace(0.3, 2 * np.pi - 0.3, 8) + 0.9
+    ring = [(3.3 + 1.1 * float(np.cos(a)), 1.1 * float(np.sin(a))) for a in angles]
+    ring += [(3.3 + 0.8 * float(np.cos(a)), 0.8 * float(np.sin(a))) for a in angles[::-1]]
+    parts += prism(ring, 0, 6.1, 8.6, 0.97) + prism(ring, 0, 8.8, 11.2, 0.97)
     handle: Faces = []
     for sign in (-1.0, 1.0):
         handle += prism(disc((13.5, 3.3), 0.3, 6, 0.35), 2, *sorted((sign * 1.0, sign * 6.0)))
@@ -110,12 +104,4 @@ def _screw() -> Faces:
     parts += turned(handle, 0.6, (3.3, 0.0), axis=0)
     for z in (-2.45, 2.45):
         parts += prism(disc((5.9, z), 0.35, 7, 0.3), 0, -8.4, 11.0, 0.6)
-    return parts
-
-
-def _bolts() -> Faces:
-    """Hexagonal bolts on washers, around the plate."""
-    parts: Faces = []
-    for x, z in ((4.2, 4.2), (-4.2, 4.2)):
-        parts += prism(disc((z, x), 0.55, 6, 0.2 if x > 0 else 0.6), 1, 1.25, 2.1)
     return parts
