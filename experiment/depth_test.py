@@ -34,7 +34,7 @@ class DepthTest:
             Choice(f"pair_{n}", "depth.question", tuple(f"kind.{kind}" for kind in pair))
             for n, pair in enumerate(self.pairs)
         )
-        picture = Picture(self.view, technique)
+        picture = Picture(self.view, technique, height=0.42)
         return Page("depth test", "depth.title", (Paragraph("depth.text"), picture, *choices))
 
     def score(self, answers: dict[str, str]) -> int:

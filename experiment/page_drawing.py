@@ -92,7 +92,8 @@ class PageDrawing:
             case PlatePicture():
                 _plate(block.plate, 0.42 * height)
             case Picture():
-                wide, high = int(0.45 * height * 4 / 3), int(0.45 * height)
+                high = int(block.height * height)
+                wide = high * 4 // 3
                 reference = imgui.ImTextureRef(self.picture(block, wide, high))
                 size = imgui.ImVec2(wide, high)
                 imgui.image(reference, size, imgui.ImVec2(0, 1), imgui.ImVec2(1, 0))
@@ -129,8 +130,14 @@ class PageDrawing:
         imgui.text_disabled(self.texts.get(scale.high))
 
     def _choice(self, choice: Choice, form: Form) -> None:
+        """Options side by side where they fit, else one below the other."""
         imgui.text_wrapped(self.texts.get(choice.text))
+        gap = imgui.get_frame_height() + 3 * imgui.get_style().item_spacing.x
+        widths = [imgui.calc_text_size(self.texts.get(o)).x + gap for o in choice.options]
+        beside = sum(widths) <= imgui.get_content_region_avail().x
         for number, option in enumerate(choice.options):
+            if number and beside:
+                imgui.same_line(0, 2 * imgui.get_style().item_spacing.x)
             chosen = form.answers.get(choice.name) == str(number)
             if imgui.radio_button(f"{self.texts.get(option)}##{choice.name}", chosen):
                 form.answers[choice.name] = str(number)

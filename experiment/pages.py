@@ -55,10 +55,11 @@ class TextField:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A live picture of a trial's view, in the study's technique."""
+    """A live picture of a trial's view, in the study's technique; height in screen heights."""
 
     view: View
     technique: object = Standard()
+    height: float = 0.36
 
 
 @dataclass(frozen=True, eq=False)
