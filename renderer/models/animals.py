@@ -39,10 +39,44 @@ def _stripes(places: Array) -> Array:
     return np.clip(1.6 * wave, 0, 1) * np.clip((y - 0.27) * 9, 0, 1)
 
 
+CAT_FUR: Color = (0.88, 0.52, 0.20)
+CAT_LIGHT: Color = (0.97, 0.90, 0.80)
+
+
+def _cat_half(side: int, fore: float, hind: float) -> list[Limb]:
+    """Ear and legs of one side; `fore` and `hind` are how far behind the paws stand."""
+    x, fur = 0.085 * side, CAT_FUR
+    front = [(x, 0.36, -0.24), (x, 0.2, -0.25 + fore / 2), (x, 0.055, -0.25 + fore)]
+    back = [(x, 0.38, 0.27), (x * 1.1, 0.24, 0.24 + hind / 2), (x, 0.16, 0.36 + hind),
+            (x, 0.055, 0.33 + hind)]  # fmt: skip
+    ear = [(x * 0.95, 0.755, -0.41), (x * 1.28, 0.885, -0.405)]
+    return [
+        *chain(front, [0.075, 0.05, 0.042], fur),
+        _paw(x, 0.035, -0.25 + fore, 0.042, CAT_LIGHT),
+        *chain(back, [0.115, 0.075, 0.045, 0.042], fur),
+        _paw(x, 0.035, 0.33 + hind, 0.042, CAT_LIGHT),
+        *chain(ear, [0.07, 0.006], fur, soft=0.02, flat=(1, 1, 0.5)),
+    ]
+
+
+def _paw(x: float, y: float, z: float, radius: float, color: Color) -> Limb:
+    end = (x, y - 0.003, z - 0.055)
+    return Limb((x, y, z), end, radius, radius * 0.86, color, soft=0.02)
+
+
+def whiskers(y: float, z: float, spread: tuple[float, ...]) -> list[Shape]:
+    """Pairs of whiskers from either side of a muzzle at (±.05, y, z)."""
+    pairs = []
+    for d in spread:
+        tip = (0.24, y - 0.015 + 2.4 * d, z + 0.01)
+        hair = [(0.05, y, z), (0.14, y + 0.005 + d, z - 0.015), tip]
+        pairs.append(sweep(hair, [0.004, 0.003, 0.001], WHITE, 4).both())
+    return pairs
+
+
 def cat() -> Shape:
     """A ginger tabby, tail up."""
-    fur, light, pink = (0.88, 0.52, 0.20), (0.97, 0.90, 0.80), (0.93, 0.60, 0.58)
-    dark = (0.55, 0.25, 0.07)
+    fur, light, pink, dark = CAT_FUR, CAT_LIGHT, (0.93, 0.60, 0.58), (0.55, 0.25, 0.07)
     limbs = [
         *chain([(0, 0.44, 0.30), (0, 0.43, 0.05), (0, 0.45, -0.22)], [0.135, 0.15, 0.13], fur,
                flat=(0.86, 1, 1)),
@@ -54,56 +88,35 @@ def cat() -> Shape:
         Limb((0, 0.57, -0.53), (0, 0.58, -0.50), 0.035, 0.05, light, soft=0.03),
         Limb((0, 0.68, -0.545), (0, 0.645, -0.58), 0.03, 0.02, fur, soft=0.04),
         Limb((0, 0.45, -0.33), (0, 0.38, -0.30), 0.07, 0.06, light, soft=0.06),
+        *_cat_half(1, -0.06, 0.05),
+        *_cat_half(-1, 0.05, -0.06),
     ]  # fmt: skip
-    for side, fore, hind in ((1, -0.06, 0.05), (-1, 0.05, -0.06)):
-        x = 0.085 * side
-        limbs += chain(
-            [(x, 0.36, -0.24), (x, 0.2, -0.25 + fore / 2), (x, 0.055, -0.25 + fore)],
-            [0.075, 0.05, 0.042],
-            fur,
-        )
-        limbs += [
-            Limb((x, 0.035, -0.25 + fore), (x, 0.032, -0.30 + fore), 0.042, 0.036, light, soft=0.02)
-        ]
-        limbs += chain(
-            [
-                (x, 0.38, 0.27),
-                (x * 1.1, 0.24, 0.24 + hind / 2),
-                (x, 0.16, 0.36 + hind),
-                (x, 0.055, 0.33 + hind),
-            ],
-            [0.115, 0.075, 0.045, 0.042],
-            fur,
-        )
-        limbs += [
-            Limb((x, 0.035, 0.33 + hind), (x, 0.032, 0.27 + hind), 0.042, 0.036, light, soft=0.02)
-        ]
-        limbs += [
-            Limb(
-                (x * 0.95, 0.755, -0.41),
-                (x * 1.28, 0.885, -0.405),
-                0.07,
-                0.006,
-                fur,
-                (1, 1, 0.5),
-                0.02,
-            )
-        ]
     tail = curve([(0, 0.50, 0.38), (0, 0.53, 0.52), (0.02, 0.66, 0.60), (0.03, 0.84, 0.58),
                   (0.03, 0.98, 0.62), (0.03, 1.05, 0.70)], 7)  # fmt: skip
-    limbs += chain(
-        [tuple(p) for p in tail], [0.05, 0.043, 0.04, 0.038, 0.037, 0.036, 0.03], fur, soft=0.04
-    )
+    limbs += chain(tail, [0.05, 0.043, 0.04, 0.038, 0.037, 0.036, 0.03], fur, soft=0.04)
     coat = body(limbs, 0.0215).tinted(dark, _stripes)
     inner = ball((0.036, 0.055, 0.012), pink, 10).turned("z", -14).at(0.094, 0.80, -0.438).both()
     nose = ball((0.024, 0.016, 0.016), pink, 8).at(0, 0.648, -0.597)
-    whiskers = [
-        sweep([(0.05, 0.615, -0.585), (0.14, 0.62 + d, -0.60), (0.24, 0.60 + 2.4 * d, -0.575)],
-              [0.004, 0.003, 0.001], WHITE, 4).both()
-        for d in (-0.02, 0.01, 0.035)
-    ]  # fmt: skip
     eyes = eye_pair(0.066, 0.695, -0.545, 0.033, (0.55, 0.75, 0.20))
-    return assemble(coat, inner, nose, eyes, *whiskers, size=1.3)
+    hairs = whiskers(0.615, -0.585, (-0.02, 0.01, 0.035))
+    return assemble(coat, inner, nose, eyes, *hairs, size=1.3)
+
+
+def _dog_half(side: int, fore: float, hind: float) -> list[Limb]:
+    """Ear and legs of one side; `fore` and `hind` are how far behind the paws stand."""
+    x, e, tan, white = 0.11 * side, 0.01 * side, (0.70, 0.42, 0.18), WHITE
+    front = [(x, 0.52, -0.25), (x, 0.30, -0.24 + fore / 2), (x, 0.07, -0.26 + fore)]
+    knee = (x * 1.1, 0.38, 0.30 + hind / 2)
+    ear = [(10 * e, 1.01, -0.46), (16.5 * e, 0.94, -0.47), (18 * e, 0.80, -0.49),
+           (17.5 * e, 0.74, -0.50)]  # fmt: skip
+    return [
+        *chain(front, [0.105, 0.062, 0.052], white),
+        _paw(x, 0.045, -0.26 + fore, 0.054, white),
+        *chain([(x, 0.55, 0.34), knee], [0.15, 0.10], tan),
+        *chain([knee, (x, 0.24, 0.44 + hind), (x, 0.07, 0.40 + hind)], [0.09, 0.056, 0.05], white),
+        _paw(x, 0.045, 0.40 + hind, 0.054, white),
+        *chain(ear, [0.05, 0.075, 0.085, 0.05], (0.48, 0.26, 0.10), soft=0.015, flat=(0.42, 1, 1)),
+    ]
 
 
 def dog() -> Shape:
@@ -118,49 +131,20 @@ def dog() -> Shape:
         Limb((0, 0.93, -0.49), (0, 0.92, -0.53), 0.135, 0.125, tan, soft=0.06),
         Limb((0, 0.865, -0.60), (0, 0.84, -0.78), 0.082, 0.066, white, soft=0.06),
         Limb((0, 0.81, -0.58), (0, 0.79, -0.72), 0.05, 0.04, white, soft=0.04),
+        *_dog_half(1, -0.09, 0.07),
+        *_dog_half(-1, 0.07, -0.09),
     ]  # fmt: skip
-    for side, fore, hind in ((1, -0.09, 0.07), (-1, 0.07, -0.09)):
-        x = 0.11 * side
-        limbs += chain(
-            [(x, 0.52, -0.25), (x, 0.30, -0.24 + fore / 2), (x, 0.07, -0.26 + fore)],
-            [0.105, 0.062, 0.052],
-            white,
-        )
-        limbs += [
-            Limb((x, 0.045, -0.26 + fore), (x, 0.042, -0.33 + fore), 0.054, 0.046, white, soft=0.02)
-        ]
-        limbs += chain([(x, 0.55, 0.34), (x * 1.1, 0.38, 0.30 + hind / 2)], [0.15, 0.10], tan)
-        limbs += chain(
-            [(x * 1.1, 0.38, 0.30 + hind / 2), (x, 0.24, 0.44 + hind), (x, 0.07, 0.40 + hind)],
-            [0.09, 0.056, 0.05],
-            white,
-        )
-        limbs += [
-            Limb((x, 0.045, 0.40 + hind), (x, 0.042, 0.33 + hind), 0.054, 0.046, white, soft=0.02)
-        ]
-        limbs += chain(
-            [
-                (0.10 * side, 1.01, -0.46),
-                (0.165 * side, 0.94, -0.47),
-                (0.18 * side, 0.80, -0.49),
-                (0.175 * side, 0.74, -0.50),
-            ],
-            [0.05, 0.075, 0.085, 0.05],
-            (0.48, 0.26, 0.10),
-            soft=0.015,
-            flat=(0.42, 1, 1),
-        )
     tail = curve([(0, 0.68, 0.46), (0, 0.80, 0.58), (0, 0.97, 0.62), (0, 1.10, 0.56)], 6)
-    limbs += chain([tuple(p) for p in tail], [0.055, 0.05, 0.045, 0.04, 0.035, 0.022], saddle)
+    limbs += chain(tail, [0.055, 0.05, 0.045, 0.04, 0.035, 0.022], saddle)
     coat = body(limbs, 0.027).tinted(white, lambda p: (p[:, 1] - 1.0) * 40 * (p[:, 2] > 0.45))
     nose = ball((0.045, 0.036, 0.035), BLACK, 10).at(0, 0.875, -0.845)
-    collar = sweep(curve_ring((0, 0.745, -0.36), (0, 0.62, -0.75), 0.15), 0.022, (0.80, 0.12, 0.10),
-                   6, closed=True)  # fmt: skip
+    band = _tilted_circle((0, 0.745, -0.36), (0, 0.62, -0.75), 0.15)
+    collar = sweep(band, 0.022, (0.80, 0.12, 0.10), 6, closed=True)
     eyes = eye_pair(0.073, 0.955, -0.635, 0.026, (0.25, 0.13, 0.05))
     return assemble(coat, nose, collar, eyes, size=1.45)
 
 
-def curve_ring(center: Point, axis: Point, radius: float, n: int = 24) -> Array:
+def _tilted_circle(center: Point, axis: Point, radius: float, n: int = 24) -> Array:
     """(n, 3) a circle about an axis that lies in the plane x = 0."""
     up = np.array(axis) / np.linalg.norm(axis)
     across = np.array([1.0, 0, 0])
@@ -169,9 +153,34 @@ def curve_ring(center: Point, axis: Point, radius: float, n: int = 24) -> Array:
     return np.array(center) + radius * (np.cos(angle) * across + np.sin(angle) * third)
 
 
+BAY: Color = (0.50, 0.25, 0.10)
+HORSE_BLACK: Color = (0.09, 0.07, 0.06)
+
+
+def _horse_half(side: int, fore: float, hind: float) -> list[Limb]:
+    """Ear and legs of one side; `fore` and `hind` are how far behind the hooves stand."""
+    x, bay, black = 0.16 * side, BAY, HORSE_BLACK
+    elbow, knee = (x, 0.92, -0.46 + fore * 0.3), (x, 0.58, -0.47 + fore * 0.8)
+    fetlock, hoof = (x, 0.18, -0.45 + fore * 1.2), (x, 0.06, -0.49 + fore * 1.25)
+    stifle, hock = (x * 1.05, 0.88, 0.46 + hind * 0.3), (x, 0.62, 0.66 + hind * 0.9)
+    pastern, rear_hoof = (x, 0.18, 0.62 + hind * 1.2), (x, 0.06, 0.58 + hind * 1.25)
+    ear = [(0.065 * side, 2.02, -0.91), (0.095 * side, 2.17, -0.92)]
+    return [
+        *chain([(x, 1.14, -0.46), elbow], [0.17, 0.10], bay),
+        *chain([elbow, knee], [0.095, 0.066], bay),
+        *chain([knee, fetlock], [0.066, 0.048], black),
+        *chain([fetlock, hoof], [0.058, 0.085], black, soft=0.03),
+        *chain([(x, 1.20, 0.52), stifle], [0.23, 0.13], bay),
+        *chain([stifle, hock], [0.12, 0.072], bay),
+        *chain([hock, pastern], [0.07, 0.05], black),
+        *chain([pastern, rear_hoof], [0.06, 0.085], black, soft=0.03),
+        *chain(ear, [0.045, 0.008], bay, soft=0.03, flat=(0.8, 1, 1)),
+    ]
+
+
 def horse() -> Shape:
     """A bay horse in walk, black mane and tail, white blaze."""
-    bay, black, muzzle = (0.50, 0.25, 0.10), (0.09, 0.07, 0.06), (0.22, 0.13, 0.10)
+    bay, black, muzzle = BAY, HORSE_BLACK, (0.22, 0.13, 0.10)
     limbs = [
         *chain([(0, 1.30, 0.52), (0, 1.24, 0.15), (0, 1.24, -0.15), (0, 1.27, -0.46)],
                [0.26, 0.27, 0.28, 0.25], bay, soft=0.12, flat=(0.88, 1, 1)),
@@ -181,59 +190,15 @@ def horse() -> Shape:
         *chain([(0, 1.93, -0.97), (0, 1.80, -1.12), (0, 1.62, -1.32)], [0.125, 0.105, 0.078], bay,
                soft=0.06, flat=(0.8, 1, 1)),
         Limb((0, 1.60, -1.33), (0, 1.57, -1.36), 0.078, 0.07, muzzle, (0.85, 1, 1), 0.03),
+        *_horse_half(1, -0.20, 0.12),
+        *_horse_half(-1, 0.13, -0.18),
     ]  # fmt: skip
-    for side, fore, hind in ((1, -0.20, 0.12), (-1, 0.13, -0.18)):
-        x = 0.16 * side
-        limbs += chain([(x, 1.14, -0.46), (x, 0.92, -0.46 + fore * 0.3)], [0.17, 0.10], bay)
-        limbs += chain(
-            [(x, 0.92, -0.46 + fore * 0.3), (x, 0.58, -0.47 + fore * 0.8)], [0.095, 0.066], bay
-        )
-        limbs += chain(
-            [(x, 0.58, -0.47 + fore * 0.8), (x, 0.18, -0.45 + fore * 1.2)], [0.066, 0.048], black
-        )
-        limbs += chain(
-            [(x, 0.18, -0.45 + fore * 1.2), (x, 0.06, -0.49 + fore * 1.25)],
-            [0.058, 0.085],
-            black,
-            soft=0.03,
-        )
-        limbs += chain([(x, 1.20, 0.52), (x * 1.05, 0.88, 0.46 + hind * 0.3)], [0.23, 0.13], bay)
-        limbs += chain(
-            [(x * 1.05, 0.88, 0.46 + hind * 0.3), (x, 0.62, 0.66 + hind * 0.9)], [0.12, 0.072], bay
-        )
-        limbs += chain(
-            [(x, 0.62, 0.66 + hind * 0.9), (x, 0.18, 0.62 + hind * 1.2)], [0.07, 0.05], black
-        )
-        limbs += chain(
-            [(x, 0.18, 0.62 + hind * 1.2), (x, 0.06, 0.58 + hind * 1.25)],
-            [0.06, 0.085],
-            black,
-            soft=0.03,
-        )
-        limbs += [
-            Limb(
-                (0.065 * side, 2.02, -0.91),
-                (0.095 * side, 2.17, -0.92),
-                0.045,
-                0.008,
-                bay,
-                (0.8, 1, 1),
-                0.03,
-            )
-        ]
     tail = curve([(0, 1.42, 0.74), (0, 1.38, 0.92), (0, 1.05, 1.02), (0, 0.62, 1.0)], 7)
-    limbs += chain(
-        [tuple(p) for p in tail], [0.06, 0.08, 0.09, 0.095, 0.09, 0.07, 0.03], black, 0.04
-    )
+    limbs += chain(tail, [0.06, 0.08, 0.09, 0.095, 0.09, 0.07, 0.03], black, soft=0.04)
     mane = curve([(0, 2.10, -0.97), (0, 2.06, -0.82), (0, 1.84, -0.70), (0, 1.62, -0.56),
                   (0, 1.50, -0.38)], 8)  # fmt: skip
-    limbs += chain(
-        [tuple(p) for p in mane],
-        [0.04, 0.075, 0.09, 0.10, 0.10, 0.10, 0.08, 0.04],
-        black,
-        soft=0.03,
-        flat=(0.55, 1, 1),
-    )
+    thickness = [0.04, 0.075, 0.09, 0.10, 0.10, 0.10, 0.08, 0.04]
+    limbs += chain(mane, thickness, black, soft=0.03, flat=(0.55, 1, 1))
     coat = body(limbs, 0.04).tinted(WHITE, _blaze)
     eyes = eye_pair(0.098, 1.91, -1.06, 0.025)
     nostrils = ball((0.014, 0.022, 0.022), BLACK, 8).at(0.052, 1.60, -1.395).both()

@@ -37,12 +37,17 @@ class Limb:
 
 
 def chain(
-    points: Sequence[Point], radii: Sequence[float], color: Color, soft: float = 0.05, **kw
+    points: Sequence[Point] | Array,
+    radii: Sequence[float] | Array,
+    color: Color,
+    soft: float = 0.05,
+    flat: Point = (1.0, 1.0, 1.0),
 ) -> list[Limb]:
-    """Limbs that join the points one after the other."""
+    """Limbs that join the points (k, 3) one after the other."""
+    at = [(float(x), float(y), float(z)) for x, y, z in points]
     return [
-        Limb(points[i], points[i + 1], radii[i], radii[i + 1], color, soft=soft, **kw)
-        for i in range(len(points) - 1)
+        Limb(at[i], at[i + 1], radii[i], radii[i + 1], color, flat, soft)
+        for i in range(len(at) - 1)
     ]
 
 

@@ -33,59 +33,50 @@ def _round_hull(z: Array, radius: Array, y: Array, color: Color, sides: int = 32
     return tube(rings, color)
 
 
-def plane() -> Shape:
-    """A passenger jet on its wheels."""
-    blue = (0.10, 0.28, 0.62)
-    z = np.array(
-        [
-            -2.2,
-            -2.17,
-            -2.08,
-            -1.95,
-            -1.75,
-            -1.5,
-            -1.2,
-            *np.linspace(-1.0, 0.9, 14),
-            1.2,
-            1.5,
-            1.8,
-            2.1,
-            2.3,
-        ]
-    )
-    r = np.interp(
-        z,
-        [-2.2, -2.17, -2.08, -1.95, -1.75, -1.5, -1.2, 0.9, 1.5, 2.1, 2.3],
-        [0, 0.07, 0.15, 0.21, 0.265, 0.295, 0.3, 0.3, 0.22, 0.09, 0.03],
-    )
+BLUE: Color = (0.10, 0.28, 0.62)
+SILVER: Color = (0.80, 0.82, 0.86)
+
+
+def _fuselage() -> Shape:
+    """White above, a blue band below the windows, grey underneath."""
+    places = [-2.2, -2.17, -2.08, -1.95, -1.75, -1.5, -1.2, 0.9, 1.5, 2.1, 2.3]
+    radii = [0, 0.07, 0.15, 0.21, 0.265, 0.295, 0.3, 0.3, 0.22, 0.09, 0.03]
+    z = np.array([*places[:7], *np.linspace(-1.0, 0.9, 14), 1.2, 1.5, 1.8, 2.1, 2.3])
     y = 0.75 + np.interp(z, [-2.2, -1.75, -1.2, 0.9, 2.3], [-0.07, -0.02, 0, 0, 0.16])
-    fuselage = _round_hull(z, r, y, WHITE)
 
     def steep(p: Array) -> Array:
         """Sine of the angle about the fuselage's middle line, so that borders follow its rings."""
         up = p[:, 1] - np.interp(p[:, 2], z, y)
         return up / np.hypot(p[:, 0], up)
 
-    fuselage = fuselage.painted((0.78, 0.80, 0.83), lambda p: steep(p) < -0.4)
-    fuselage = fuselage.painted(blue, lambda p: np.abs(steep(p) + 0.2) < 0.2)
+    tube_ = _round_hull(z, np.interp(z, places, radii), y, WHITE)
+    tube_ = tube_.painted((0.78, 0.80, 0.83), lambda p: steep(p) < -0.4)
+    return tube_.painted(BLUE, lambda p: np.abs(steep(p) + 0.2) < 0.2)
+
+
+def _jet() -> Shape:
+    """The engine under the right wing, with its pylon."""
+    case = [(0.15, -0.3), (0.17, 0.0), (0.16, 0.2), (0.13, 0.21), (0.11, -0.05), (0.11, -0.3)]
+    core = [(0, -0.42), (0.06, -0.32), (0.10, -0.2), (0.10, 0.09), (0.02, 0.16), (0, 0.165)]
+    engine = join(
+        ring(case, BLUE, 28, sharp=60),
+        disc(0.115, 0.02, DARK, 24).at(y=0.1),
+        lathe(core, STEEL, 20),
+    ).turned("x", -90)
+    pylon = box((0.03, 0.16, 0.4), WHITE, 0.01).at(0.82, 0.58, -0.02)
+    return join(engine.at(0.82, 0.43, -0.18), pylon)
+
+
+def plane() -> Shape:
+    """A passenger jet on its wheels."""
     nose = box((0.34, 0.085, 0.16), GLASS, 0.02).turned("x", -38).at(y=0.885, z=-1.93)
     panes = [(0.285, 0.82, v) for v in np.linspace(-1.4, 1.1, 26)]
     windows = copies(pillow((0.045, 0.075, 0.045), GLASS, 0.6, 8), panes).both()
-    main = wing(
-        (0.12, 0.60, -0.55), 1.05, (2.05, 0.78, 0.62), 0.34, 0.12, (0.80, 0.82, 0.86), 10, 24
-    )
-    tip = wing((2.03, 0.78, 0.61), 0.34, (2.16, 1.0, 0.82), 0.2, 0.1, blue, 4, 16)
-    tail = wing((0.05, 0.90, 1.62), 0.52, (0.82, 0.98, 2.02), 0.25, 0.1, (0.80, 0.82, 0.86), 6, 20)
-    fin = wing((0, 0, 1.45), 0.75, (0.95, 0, 2.1), 0.38, 0.09, blue, 8, 20)
+    main = wing((0.12, 0.60, -0.55), 1.05, (2.05, 0.78, 0.62), 0.34, 0.12, SILVER, 10, 24)
+    tip = wing((2.03, 0.78, 0.61), 0.34, (2.16, 1.0, 0.82), 0.2, 0.1, BLUE, 4, 16)
+    tail = wing((0.05, 0.90, 1.62), 0.52, (0.82, 0.98, 2.02), 0.25, 0.1, SILVER, 6, 20)
+    fin = wing((0, 0, 1.45), 0.75, (0.95, 0, 2.1), 0.38, 0.09, BLUE, 8, 20)
     fin = fin.turned("z", 90).at(y=0.9)
-    engine = join(
-        ring([(0.15, -0.3), (0.17, 0.0), (0.16, 0.2), (0.13, 0.21), (0.11, -0.05), (0.11, -0.3)],
-             blue, 28, sharp=60),
-        disc(0.115, 0.02, DARK, 24).at(y=0.1),
-        lathe([(0, -0.42), (0.06, -0.32), (0.10, -0.2), (0.10, 0.09), (0.02, 0.16), (0, 0.165)],
-              STEEL, 20),
-    ).turned("x", -90).at(0.82, 0.43, -0.18)  # fmt: skip
-    pylon = box((0.03, 0.16, 0.4), WHITE, 0.01).at(0.82, 0.58, -0.02)
     leg = join(tyre(0.12, 0.08, 0.06, 20, 2), disc(0.065, 0.09, STEEL, 16).turned("z", 90))
     gear = join(
         leg.at(0.28, 0.12, 0.25),
@@ -93,8 +84,8 @@ def plane() -> Shape:
         rod((0.34, 0.1, 0.25), (0.34, 0.6, 0.2), 0.025, STEEL),
     )
     front = join(leg.at(0.05, 0.12, -1.5), rod((0.0, 0.12, -1.5), (0, 0.55, -1.5), 0.025, STEEL))
-    both = join(windows, join(main, tip, tail, engine, pylon, gear).both())
-    return assemble(fuselage, nose, both, fin, front, size=2.0)
+    sides = join(main, tip, tail, _jet(), gear).both()
+    return assemble(_fuselage(), nose, windows, sides, fin, front, size=2.0)
 
 
 def boat() -> Shape:

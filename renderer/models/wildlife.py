@@ -4,50 +4,49 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.animals import BLACK, WHITE, eye_pair, mirrored
+from renderer.models.animals import BLACK, WHITE, eye_pair, mirrored, whiskers
 from renderer.models.blend import Limb as L
 from renderer.models.blend import body, chain
-from renderer.models.shapes import Shape, assemble
+from renderer.models.shapes import Color, Shape, assemble
 from renderer.models.surfaces import ball, curve, sweep
+
+HIDE: Color = (0.50, 0.50, 0.53)
+
+
+def _elephant_half(side: int, fore: float, hind: float) -> list[L]:
+    """Ear, legs and toes of one side; `fore` and `hind` are how far behind the feet stand."""
+    x, ear, nail = 0.30 * side, (0.44, 0.43, 0.46), (0.85, 0.82, 0.75)
+    front = [(x, 1.15, -0.45), (x, 0.6, -0.47 + fore / 2), (x, 0.1, -0.45 + fore)]
+    back = [(x, 1.1, 0.55), (x, 0.62, 0.56 + hind / 2), (x, 0.1, 0.62 + hind)]
+    toes = [(x + dx, 0.05, z - 0.15) for z in (front[2][2], back[2][2]) for dx in (-0.09, 0, 0.09)]
+    flap = [
+        L((0.36, 1.66, -0.78), (0.72, 1.62, -0.60), 0.2, 0.24, ear, (1, 1, 0.34), 0.06),
+        L((0.40, 1.40, -0.76), (0.70, 1.32, -0.60), 0.24, 0.2, ear, (1, 1, 0.34), 0.06),
+        L((0.50, 1.12, -0.70), (0.58, 1.06, -0.66), 0.16, 0.12, ear, (1, 1, 0.4), 0.06),
+    ]
+    return [
+        *chain(front, [0.27, 0.185, 0.175], HIDE, soft=0.08),
+        *chain(back, [0.32, 0.19, 0.175], HIDE, soft=0.08),
+        *(L(toe, toe, 0.05, 0.05, nail, soft=0.01) for toe in toes),
+        *(flap if side > 0 else mirrored(flap)),
+    ]
 
 
 def elephant() -> Shape:
     """An African elephant: wide ears, trunk, tusks."""
-    grey, ear, nail = (0.50, 0.50, 0.53), (0.44, 0.43, 0.46), (0.85, 0.82, 0.75)
+    grey = HIDE
+    trunk = curve([(0, 1.55, -1.15), (0, 1.25, -1.36), (0, 0.85, -1.42), (0, 0.45, -1.42),
+                   (0, 0.28, -1.56), (0, 0.34, -1.72)], 10)  # fmt: skip
     limbs = [
         *chain([(0, 1.30, 0.55), (0, 1.36, 0.0), (0, 1.34, -0.40)], [0.50, 0.58, 0.52], grey,
                soft=0.15, flat=(0.86, 1, 1)),
         L((0, 1.62, -0.92), (0, 1.50, -0.86), 0.33, 0.34, grey, (0.92, 1, 1), 0.15),
         L((0, 1.86, -0.90), (0, 1.84, -0.86), 0.2, 0.2, grey, (1.2, 1, 1), 0.15),
         L((0, 1.28, -1.02), (0, 1.22, -1.05), 0.14, 0.1, grey, soft=0.1),
+        *chain(trunk, np.linspace(0.2, 0.07, 10), grey, soft=0.06),
+        *_elephant_half(1, -0.14, 0.08),
+        *_elephant_half(-1, 0.10, -0.12),
     ]  # fmt: skip
-    trunk = curve([(0, 1.55, -1.15), (0, 1.25, -1.36), (0, 0.85, -1.42), (0, 0.45, -1.42),
-                   (0, 0.28, -1.56), (0, 0.34, -1.72)], 10)  # fmt: skip
-    limbs += chain([tuple(p) for p in trunk], np.linspace(0.2, 0.07, 10), grey, soft=0.06)
-    for side, fore, hind in ((1, -0.14, 0.08), (-1, 0.10, -0.12)):
-        x = 0.30 * side
-        limbs += chain(
-            [(x, 1.15, -0.45), (x, 0.6, -0.47 + fore / 2), (x, 0.1, -0.45 + fore)],
-            [0.27, 0.185, 0.175],
-            grey,
-            soft=0.08,
-        )
-        limbs += chain(
-            [(x, 1.1, 0.55), (x, 0.62, 0.56 + hind / 2), (x, 0.1, 0.62 + hind)],
-            [0.32, 0.19, 0.175],
-            grey,
-            soft=0.08,
-        )
-        for z in (-0.45 + fore, 0.62 + hind):
-            toes = [(x + dx, 0.05, z - 0.15) for dx in (-0.09, 0, 0.09)]
-            limbs += [L(toe, toe, 0.05, 0.05, nail, soft=0.01) for toe in toes]
-    flap = [
-        L((0.36, 1.66, -0.78), (0.72, 1.62, -0.60), 0.2, 0.24, ear, (1, 1, 0.34), 0.06),
-        L((0.40, 1.40, -0.76), (0.70, 1.32, -0.60), 0.24, 0.2, ear, (1, 1, 0.34), 0.06),
-        L((0.50, 1.12, -0.70), (0.58, 1.06, -0.66), 0.16, 0.12, ear, (1, 1, 0.4), 0.06),
-    ]
-    limbs += flap + mirrored(flap)
-    hide = body(limbs, 0.062)
     bow = curve(
         [(0.19, 1.32, -1.1), (0.22, 1.12, -1.3), (0.21, 1.05, -1.52), (0.17, 1.1, -1.72)], 14
     )
@@ -55,7 +54,8 @@ def elephant() -> Shape:
     bow = curve([(0, 1.45, 1.0), (0, 1.2, 1.14), (0, 0.8, 1.14)], 10)
     tail = sweep(bow, np.linspace(0.05, 0.02, 10), grey)
     tuft = ball((0.05, 0.12, 0.05), BLACK, 12).at(0, 0.74, 1.14)
-    return assemble(hide, tusk, tail, tuft, eye_pair(0.285, 1.66, -1.10, 0.04), size=1.9)
+    eyes = eye_pair(0.285, 1.66, -1.10, 0.04)
+    return assemble(body(limbs, 0.062), tusk, tail, tuft, eyes, size=1.9)
 
 
 def rabbit() -> Shape:
@@ -80,15 +80,9 @@ def rabbit() -> Shape:
     ]  # fmt: skip
     tail = L((0, 0.30, 0.50), (0, 0.31, 0.51), 0.12, 0.11, light, soft=0.02)
     coat = body([*limbs, *half, *mirrored(half), tail], 0.03)
-    inner = (
-        ball((0.035, 0.19, 0.012), pink, 14).turned("x", 10).turned("z", -7).at(0.094, 1.16, -0.282)
-    )
+    inner = ball((0.035, 0.19, 0.012), pink, 14).turned("x", 10).turned("z", -7)
+    inner = inner.at(0.094, 1.16, -0.282)
     nose = ball((0.026, 0.018, 0.018), pink, 10).at(0, 0.715, -0.582)
-    whiskers = [
-        sweep([(0.06, 0.675, -0.575), (0.16, 0.68 + d, -0.58), (0.25, 0.66 + 2 * d, -0.54)],
-              [0.004, 0.003, 0.001], WHITE, 4).both()
-        for d in (-0.02, 0.015)
-    ]  # fmt: skip
-    return assemble(
-        coat, inner.both(), nose, eye_pair(0.118, 0.79, -0.445, 0.036), *whiskers, size=1.3
-    )
+    eyes = eye_pair(0.118, 0.79, -0.445, 0.036)
+    hairs = whiskers(0.675, -0.575, (-0.02, 0.015))
+    return assemble(coat, inner.both(), nose, eyes, *hairs, size=1.3)
