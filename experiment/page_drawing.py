@@ -131,7 +131,8 @@ class PageDrawing:
 
     def _choice(self, choice: Choice, form: Form) -> None:
         """Options side by side where they fit, else one below the other."""
-        imgui.text_wrapped(self.texts.get(choice.text))
+        if choice.text:
+            imgui.text_wrapped(self.texts.get(choice.text))
         gap = imgui.get_frame_height() + 3 * imgui.get_style().item_spacing.x
         widths = [imgui.calc_text_size(self.texts.get(o)).x + gap for o in choice.options]
         beside = sum(widths) <= imgui.get_content_region_avail().x

@@ -36,7 +36,10 @@ class Scale:
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several options, each a text key; the answer is the option's position."""
+    """One of several options, each a text key; the answer is the option's position.
+
+    An empty `text` leaves the question to a paragraph before.
+    """
 
     name: str
     text: str
