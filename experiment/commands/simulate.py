@@ -1,4 +1,4 @@
-"""`seethrough simulate`: simulated participants play a study through the real session code."""
+"""`seethrough simulate`: simulated participants play a study."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from pathlib import Path
 
 from experiment.clock import SimulatedClock
 from experiment.config import Study, load
-from experiment.design import SIMULATED, generator
+from experiment.design import SIMULATED, generator, session_for
 from experiment.errors import InputError
-from experiment.offscreen import OffscreenDisplay
+from experiment.participants.effects import EFFECTS, checked
 from experiment.participants.participant import SimulatedParticipant
+from experiment.participants.profile import AVERAGE, PROFILES, Profile
+from experiment.participants.profile_file import find
 from experiment.progress import Progress
-from experiment.provenance import provenance
-from experiment.recorder import FileRecorder, Who
-from experiment.session import World, run_session
-from experiment.simulated_input import SimulatedInput
-from renderer.gpu.context import standalone
 from tasks.catalog import TASKS
+
+MOST_WORKERS = 256
+POOL = 200  # scenes a task in data mode
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,6 +26,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--participants", type=int, metavar="N", help="default: the study's number")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="default: 1")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="data folder")
+    parser.add_argument(
+        "--profile", default="average", help=f"{', '.join(PROFILES)}, or a profile file (TOML)"
+    )
+    parser.add_argument(
+        "--without", default="", metavar="E,…", help=f"effects to leave out: {', '.join(EFFECTS)}"
+    )
+    parser.add_argument(
+        "--explain", action="store_true", help="print which effects each trial used, and why"
+    )
+    parser.add_argument(
+        "--mode",
+        choices=("visual", "data"),
+        default="visual",
+        help="visual: the real session, drawn and looked at; data: from visibility tables",
+    )
+    data = parser.add_argument_group("data mode")
+    data.add_argument(
+        "--tables", type=Path, metavar="FILE", help="visibility tables, kept"
+    )
+    data.add_argument("--pool", type=int, default=POOL, metavar="K", help="scenes a task")
+    data.add_argument("--workers", type=int, default=1, metavar="W", help="processes; default: 1")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -36,43 +57,104 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"--participants = {count}: expected at least 1")
     if arguments.seed < 0:
         raise InputError(f"--seed = {arguments.seed}: expected a number that is not negative")
-    simulate(study, count, arguments.seed, arguments.out)
+    try:
+        without = checked(e for e in arguments.without.split(",") if e)
+    except ValueError as error:
+        raise InputError(str(error)) from None
+    profile = find(arguments.profile)
+    if arguments.mode == "data":
+        _data_mode(arguments, study, count, profile, without)
+    else:
+        if arguments.workers != 1 or arguments.tables is not None:
+            raise InputError("--workers and --tables: expected with --mode data only")
+        simulate(study, count, arguments.seed, arguments.out, profile, without, arguments.explain)
     print(f"{count} simulated participants in {arguments.out}")
     return 0
 
 
-def simulate(study: Study, count: int, seed: int, out: Path) -> None:
+def simulate(
+    study: Study,
+    count: int,
+    seed: int,
+    out: Path,
+    profile: Profile = AVERAGE,
+    without: frozenset[str] = frozenset(),
+    explain: bool = False,
+) -> None:
     """Play `count` sessions into the data folder `out`. Raises InputError if they are there."""
+    from renderer.gpu.context import standalone
+
     context = standalone()
-    trials = sum(len(s.trials) for s in _sets(study)) * count
+    trials = sum(len(s.trials) for s in session_for(1, study.design.factors())) * count
     with Progress("simulating", trials) as progress:
         for slot in range(1, count + 1):
-            _one(study, slot, seed, out, context, progress)
+            person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
+            _one(study, slot, seed, out, context, progress, person, explain)
 
 
-def _sets(study: Study):  # type: ignore[no-untyped-def]
-    from experiment.design import session_for
+def _one(  # type: ignore[no-untyped-def]
+    study: Study, slot: int, seed: int, out: Path, context, progress, person, explain: bool
+) -> None:
+    from experiment.offscreen import OffscreenDisplay
+    from experiment.provenance import provenance
+    from experiment.recorder import FileRecorder, Who
+    from experiment.session import World, run_session
+    from experiment.simulated_input import SimulatedInput
 
-    return session_for(1, study.design.factors())
-
-
-def _one(study: Study, slot: int, seed: int, out: Path, context, progress: Progress) -> None:  # type: ignore[no-untyped-def]
     clock = SimulatedClock()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
-    participant = SimulatedParticipant(generator(seed, (SIMULATED, slot)))
-    who = Who(
-        study.study.name,
-        f"S{slot:02d}",
-        "simulated",
-        slot,
-        provenance(study, display.describe(), simulation_seed=seed),
+    described = provenance(
+        study,
+        display.describe(),
+        simulation_seed=seed,
+        profile=person.person.profile.name,
+        without=sorted(person.person.without),
     )
-    world = World(
-        display,
-        SimulatedInput(participant, display, clock),
-        clock,
-        FileRecorder(out, who),
-        TASKS,
-        lambda record: progress.step(f"S{slot:02d} {record.trial.task}"),
-    )
+    who = Who(study.study.name, f"S{slot:02d}", "simulated", slot, described)
+
+    def ended(record) -> None:  # type: ignore[no-untyped-def]
+        progress.step(f"S{slot:02d} {record.trial.task}")
+        if explain:
+            _explain(f"S{slot:02d} trial {record.trial.number} {record.trial.task}", person)
+
+    session_input = SimulatedInput(person, display, clock)
+    world = World(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
     run_session(study, slot, world)
+
+
+def _explain(trial: str, person: SimulatedParticipant) -> None:
+    print(trial)
+    for use in person.effects.values():
+        print(f"  {'used    ' if use.used else 'not used'} {use.effect:13s} {use.reason}")
+
+
+def _data_mode(
+    arguments: argparse.Namespace,
+    study: Study,
+    count: int,
+    profile: Profile,
+    without: frozenset[str],
+) -> None:
+    from experiment.participants import batch as b
+
+    if not 1 <= arguments.workers <= MOST_WORKERS:
+        raise InputError(
+            f"--workers = {arguments.workers}: expected a number from 1 to {MOST_WORKERS}"
+        )
+    if arguments.pool < 1:
+        raise InputError(f"--pool = {arguments.pool}: expected at least 1 scene a task")
+    if arguments.explain:
+        raise InputError("--explain: expected with --mode visual only")
+    tables = arguments.tables or arguments.out.with_name(arguments.out.name + "-tables.npz")
+    batch = b.Batch(arguments.study, arguments.seed, arguments.pool, tables, profile, without)
+    chunks = b.missing_chunks(arguments.out, study, count)
+    if not tables.exists():
+        looks = len(b.abstract_trials(study)) * arguments.pool
+        with Progress("making tables", looks) as progress:
+            b.fill(batch, progress)
+    slots = [slot for chunk in chunks for slot in chunk]
+    with Progress("simulating", len(chunks)) as progress:
+        results = b.play(batch, slots, arguments.workers)
+        for chunk, rows in zip(chunks, results, strict=True):
+            b.write(arguments.out, batch, study, chunk, rows)
+            progress.step(f"S{chunk[0]}–S{chunk[-1]}")

@@ -15,7 +15,9 @@ import numpy as np
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, Trial, generator
 from experiment.participants.tables import Draw, Table, TableEyes, load, save
+from renderer.camera import Camera
 from renderer.scene import Scene
+from renderer.visibility import Visibility
 from tasks.catalog import TASKS
 
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
@@ -39,11 +41,15 @@ class Pool:
 
     def begin(self, trial: Trial, aspect: float) -> tuple[str, Any]:
         """The name of a trial's scene in the pool, and the trial's first state in it."""
+        rng = generator(self.study.study.seed, trial.stream)
+        return self.scene(trial, int(rng.integers(self.size)), aspect)
+
+    def scene(self, trial: Trial, which: int, aspect: float) -> tuple[str, Any]:
+        """As `begin`, in the pool's world number `which` (walkthrough: in the trial's own)."""
         task = TASKS[trial.task]
         rng = generator(self.study.study.seed, trial.stream)
         if trial.scenario == "abstract":
             parameters: Any = self.study.abstract
-            which = int(rng.integers(self.size))
             stream: tuple[int, ...] = (STUDY_SCENES, POOL, sorted(TASKS).index(trial.task), which)
         else:
             parameters, stream = self.study.walkthrough, trial.stream
@@ -88,21 +94,32 @@ def fingerprint(scene: Scene, technique: object) -> str:
     return digest.hexdigest()[:12]
 
 
-def renderer_draw(study: Study, aspect: float) -> Any:
-    """`draw` for a pool: small id pictures from the real renderer, in a context of its own."""
-    from experiment.looking import HEIGHT
-    from renderer.gpu.context import standalone
-    from renderer.gpu.renderer import Renderer
-    from renderer.techniques.standard import Standard
+class LazyDraw:
+    """`draw` for a pool: small id pictures from the real renderer.
 
-    size = (round(HEIGHT * aspect), HEIGHT)
-    renderer = Renderer(standalone(), size)
+    The context is made when something must be drawn for the first time.
+    """
 
-    def level_draw(level: str) -> Draw:
-        technique = study.dynamic if level == "dynamic" else Standard()
-        return lambda scene, camera: renderer.look(scene, camera, technique, size)
+    def __init__(self, study: Study, aspect: float) -> None:
+        from experiment.looking import HEIGHT
 
-    return level_draw
+        self.study, self.size = study, (round(HEIGHT * aspect), HEIGHT)
+        self._renderer: Any = None
+
+    def __call__(self, level: str) -> Draw:
+        """What draws for a transparency level."""
+        from renderer.techniques.standard import Standard
+
+        technique = self.study.dynamic if level == "dynamic" else Standard()
+        return lambda scene, camera: self._look(scene, camera, technique)
+
+    def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:
+        if self._renderer is None:
+            from renderer.gpu.context import standalone
+            from renderer.gpu.renderer import Renderer
+
+            self._renderer = Renderer(standalone(), self.size)
+        return self._renderer.look(scene, camera, technique, self.size)
 
 
 def same(a: Any, b: Any) -> bool:

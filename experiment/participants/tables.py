@@ -47,6 +47,13 @@ def orbit_camera(camera: Camera, key: Key) -> Camera:
     return Camera(rotation[:, 2] * distance, rotation, camera.fov_y, camera.near, camera.far)
 
 
+def views_of(task: str, camera: Camera) -> list[Camera]:
+    """The lattice viewpoints that the abstract tasks are looked at from."""
+    heights = (-TILT, TILT) if task == "count" else (FROM_ABOVE,)
+    keys = [(yaw, PITCHES.index(h)) for h in heights for yaw in range(YAWS)]
+    return [camera, *(orbit_camera(camera, key) for key in keys)]
+
+
 def walk_key(camera: Camera) -> Key:
     """The nearest lattice viewpoint of a walk: cell in x, cell in z, heading."""
     r, eye = camera.rotation, camera.eye

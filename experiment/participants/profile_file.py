@@ -1,0 +1,70 @@
+"""Profiles as files: constants with the provenance of where they come from."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, fields, replace
+from pathlib import Path
+from typing import Any
+
+from experiment.errors import InputError
+from experiment.participants.profile import AVERAGE, PROFILES, Profile
+
+
+def find(name: str) -> Profile:
+    """A profile by its name, or from a TOML file. Raises InputError."""
+    if name in PROFILES:
+        return PROFILES[name]
+    path = Path(name)
+    if not path.is_file():
+        raise InputError(
+            f"--profile = {name}: expected one of {', '.join(PROFILES)}, or a profile file"
+        )
+    return read(path)
+
+
+def read(path: Path) -> Profile:
+    """The profile in a file: [profile] holds what differs from the average one."""
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: {error}") from None
+    values = content.get("profile", {})
+    if not isinstance(values, dict):
+        raise InputError(f"{path}: profile = {values}: expected a table")
+    known = {f.name for f in fields(Profile)}
+    for key, value in values.items():
+        if key not in known:
+            raise InputError(f"{path}: profile.{key}: unknown; known: {', '.join(sorted(known))}")
+        wanted = str if key == "name" else (int, float)
+        if isinstance(value, bool) or not isinstance(value, wanted):
+            raise InputError(f"{path}: profile.{key} = {value!r}: expected a {_word(wanted)}")
+    try:
+        return replace(AVERAGE, **{"name": path.stem, **values})
+    except ValueError as error:
+        raise InputError(f"{path}: profile.{error}") from None
+
+
+def write(path: Path, profile: Profile, provenance: Mapping[str, Any]) -> None:
+    """Write what differs from the average profile, and where it comes from."""
+    average = asdict(AVERAGE)
+    lines = ["# A profile of simulated participants: a tool for planning studies, never evidence."]
+    lines += ["", "[profile]"]
+    lines += [f"{k} = {_toml(v)}" for k, v in asdict(profile).items() if v != average[k]]
+    lines += ["", "[provenance]"]
+    lines += [f"{k} = {_toml(v)}" for k, v in provenance.items()]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _word(kind: Any) -> str:
+    return "text" if kind is str else "number"
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, str):
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+        return f'"{escaped}"'
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_toml(v) for v in value) + "]"
+    return repr(value)
