@@ -6,21 +6,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, generator
-from experiment.pages import Choice, Page, Paragraph, Picture
+from experiment.pages import Choice, Page, Picture
 from renderer.camera import Camera
+from renderer.scene import Object
 from renderer.transforms import rotation_y
 from tasks.base import View
 from tasks.catalog import TASKS
 
 PAIRS = 3
-RATIO = 1.25  # the farther of a pair is at least this much farther: ours
+RATIO = 1.2  # the farther of a pair is at least this much farther: ours
 STREAM = (STUDY_SCENES, 99)
 MOST_SCENES = 60
-HEADINGS = 16
-SMALLEST = 0.06  # radius of a thing over its depth: some 7° across, a fortieth of the picture
+HEADINGS = 24
+SMALLEST = 0.08  # of half the picture's height: radius of a thing that can be recognised
+APART = 0.6  # of the sum of two radii: things that stand apart in the picture
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,15 +34,20 @@ class DepthTest:
     pairs: tuple[tuple[str, str], ...]
     nearer: tuple[int, ...]
 
-    def page(self, technique: object) -> Page:
-        """The picture and a choice for each pair."""
-        choices = tuple(
-            Choice(f"pair_{n}", "", tuple(f"kind.{kind}" for kind in pair))
+    def pages(self, technique: object) -> list[Page]:
+        """The picture once for each pair, large."""
+        picture = Picture(self.view, technique, height=0.6)
+        return [
+            Page(
+                f"depth test {n}",
+                "depth.title",
+                (
+                    picture,
+                    Choice(f"pair_{n}", "depth.question", tuple(f"kind.{kind}" for kind in pair)),
+                ),
+            )
             for n, pair in enumerate(self.pairs)
-        )
-        picture = Picture(self.view, technique, height=0.42)
-        text, question = Paragraph("depth.text"), Paragraph("depth.question")
-        return Page("depth test", "depth.title", (text, picture, question, *choices))
+        ]
 
     def score(self, answers: dict[str, str]) -> int:
         """How many pairs are right, of three."""
@@ -76,23 +84,35 @@ def _around(camera: Camera) -> list[Camera]:
 
 
 def _depths(view: View, aspect: float) -> dict[str, float]:
-    """View depth of each kind that occurs just once in the picture, large and well inside it."""
-    inside: dict[str, list[float]] = {}
-    for center, thing in zip(view.scene.centers, view.scene.objects, strict=True):
-        if not thing.target:
-            continue
-        x, y, depth = _on_picture(view.camera, center, aspect)
-        if depth > view.camera.near and abs(x) < 1.15 and abs(y) < 1.15:
-            radius = thing.mesh.radius * np.linalg.norm(thing.transform[:3, 0])
-            fits = abs(x) < 0.85 and abs(y) < 0.85 and radius >= SMALLEST * depth
-            inside.setdefault(thing.kind, []).append(depth if fits else np.nan)
-    return {k: d[0] for k, d in inside.items() if len(d) == 1 and np.isfinite(d[0])}
+    """View depth of each kind that occurs just once in the picture, large, whole and by itself."""
+    things = [i for i, o in enumerate(view.scene.objects) if o.target]
+    centers = view.scene.centers[things]
+    kinds = np.array([view.scene.objects[i].kind for i in things])
+    depth = view.camera.depth(centers)
+    ahead = depth > view.camera.near
+    size = np.array([_radius(view.scene.objects[i]) for i in things]) / np.where(ahead, depth, 1)
+    size /= np.tan(view.camera.fov_y / 2)  # half-heights of the picture
+    place = _on_picture(view.camera, centers)
+    shown = ahead & (np.abs(place) < [aspect * 1.15, 1.15]).all(axis=1)
+    whole = shown & (np.abs(place) + size[:, None] < [aspect, 1.0]).all(axis=1)
+    found = {}
+    for i in np.nonzero(whole & (size >= SMALLEST))[0]:
+        apart = np.linalg.norm(place - place[i], axis=1) >= APART * (size + size[i])
+        apart[i] = True
+        if apart[shown].all() and (kinds[shown] == kinds[i]).sum() == 1:
+            found[str(kinds[i])] = float(depth[i])
+    return found
 
 
-def _on_picture(camera: Camera, point: np.ndarray, aspect: float) -> tuple[float, float, float]:
-    depth = float(camera.depth(point[None])[0])
-    clip = camera.projection(aspect) @ camera.view() @ np.append(point, 1.0)
-    return clip[0] / abs(clip[3]), clip[1] / abs(clip[3]), depth
+def _radius(thing: Object) -> float:
+    return thing.mesh.radius * float(np.linalg.norm(thing.transform[:3, 0]))
+
+
+def _on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 2) places in half-heights of the picture from its middle."""
+    seen = (points - camera.eye) @ camera.rotation
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
 
 
 def _pairs(names: list[str], depths: dict[str, float]) -> tuple[tuple[str, str], ...]:

@@ -57,7 +57,9 @@ def after(study: Study, person: Input, aspect: float) -> list[Row]:
                 rows.append(_row("sus", f"{blocks.sus_score(answers):g}", transparency=level))
         elif block == "depth_test":
             test = depth_test(study, aspect)
-            answers = person.ask(test.page(study.dynamic))
+            answers = {}
+            for page in test.pages(study.dynamic):
+                answers |= person.ask(page)
             rows.append(_row("depth_test", str(test.score(answers))))
         elif block == "remarks":
             text = person.ask(blocks.remarks()).get("remarks", "")
