@@ -32,10 +32,13 @@ _CELL = (
     Column("scenario", "text", "scenario factor", levels=("abstract", "walkthrough")),
 )
 
+_TRIAL = Column("trial", "integer", "position of the trial in the session, from 1")
+_TEXT = Column("text", "text", "free text: an answer, or the experimenter's note")
+
 TRIALS = (
     *_WHO,
     Column("slot", "integer", "row of the counterbalanced design, from 1"),
-    Column("trial", "integer", "position of the trial in the session, from 1"),
+    _TRIAL,
     Column("block", "integer", "position of the condition in the session, from 1"),
     Column("task_set", "integer", "position of the task set in the session, from 1"),
     Column("trial_in_set", "integer", "position of the trial in its task set, from 1"),
@@ -65,6 +68,9 @@ TRIALS = (
     Column("started", "text", "when the first frame was shown, UTC, ISO 8601"),
     Column("events_file", "text", "the trial's input events, beside this table"),
     Column("camera_file", "text", "the trial's camera path, beside this table"),
+    Column("events_sha256", "text", "hash of the events file"),
+    Column("camera_sha256", "text", "hash of the camera file"),
+    Column("chain", "text", "hash of the row before and this row: nothing was changed since"),
 )
 
 QUESTIONNAIRE = (
@@ -78,14 +84,14 @@ QUESTIONNAIRE = (
     ),
     *_CELL,
     Column("value", "number", "the answer as a number"),
-    Column("text", "text", "the answer as text, for free text"),
+    _TEXT,
 )
 
 NOTES = (
     *_WHO,
-    Column("trial", "integer", "position of the trial the note was taken in, from 1"),
+    _TRIAL,
     Column("written", "text", "when, UTC, ISO 8601"),
-    Column("text", "text", "the experimenter's note"),
+    _TEXT,
 )
 
 TABLES = {"trials": TRIALS, "questionnaire": QUESTIONNAIRE, "notes": NOTES}

@@ -32,7 +32,8 @@ def stem_of(study: str, participant: str, session: int = 1) -> str:
 
 def taken(data: Path, source: str) -> frozenset[str]:
     """Ids of the participants of a source that have files."""
-    return frozenset(p.name for p in (data / "data" / source).glob("*"))
+    found = (p.name for p in (data / "data" / source).glob("*"))
+    return frozenset(name for name in found if PARTICIPANT.fullmatch(name))
 
 
 def next_free(data: Path, source: str) -> str:

@@ -1,12 +1,18 @@
-"""Files and folders that only their owner can read, made exclusively, on disk when done."""
+"""Files and folders that only their owner can read; whole on disk, or not there.
+
+Nothing is ever overwritten. What UTF-8 cannot hold (half a character) becomes a question mark.
+"""
 
 from __future__ import annotations
 
+import errno
 import os
 from pathlib import Path
-from typing import TextIO
+
+from experiment.errors import InputError
 
 FOLDER, FILE = 0o700, 0o600
+NO_LINKS = (errno.EPERM, errno.ENOTSUP, errno.EMLINK, errno.ENOSYS)
 
 
 def make_folder(path: Path) -> None:
@@ -16,35 +22,63 @@ def make_folder(path: Path) -> None:
     """
     if path.is_dir():
         return
+    if path.exists():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(path))
     make_folder(path.parent)
     path.mkdir(mode=FOLDER, exist_ok=True)
 
 
-def open_new(path: Path) -> TextIO:
-    """A new text file for writing. Raises FileExistsError: nothing is ever overwritten.
-
-    What UTF-8 cannot hold (half a character from a keyboard) becomes a question mark.
-    """
-    return open(path, "x", encoding="utf-8", errors="replace", newline="", opener=_private)
-
-
 def write_new(path: Path, text: str) -> None:
-    """A new file with all of `text`, on disk when this returns; none if it cannot be whole."""
-    file = open_new(path)
+    """A new file with all of `text`, on disk when this returns, or none. Raises OSError.
+
+    FileExistsError where there is one, also from another process. The name appears last, so a
+    crash leaves no half file.
+    """
+    half = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        with file:
-            file.write(text)
-            sync(file)
-    except OSError:
-        path.unlink()
-        raise
+        file = os.open(half, os.O_WRONLY | os.O_CREAT | os.O_EXCL, FILE)
+        try:
+            write(file, text.encode("utf-8", "replace"))
+            os.fsync(file)
+        finally:
+            os.close(file)
+        _name(half, path)
+        _sync_folder(path.parent)
+    finally:
+        half.unlink(missing_ok=True)
 
 
-def sync(file: TextIO) -> None:
-    """Everything written to the file is on disk when this returns."""
-    file.flush()
-    os.fsync(file.fileno())
+def _name(half: Path, path: Path) -> None:
+    """Give a whole file its name, unless there is one; some disks know no links."""
+    try:
+        os.link(half, path)
+    except OSError as error:
+        if error.errno not in NO_LINKS:
+            raise
+        if path.exists():
+            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(path)) from None
+        os.rename(half, path)
 
 
-def _private(path: str, flags: int) -> int:
-    return os.open(path, flags, FILE)
+def _sync_folder(path: Path) -> None:
+    """New names are on disk too. Windows cannot open folders, and needs not."""
+    if os.name == "posix":
+        folder = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+
+
+def write(file: int, data: bytes) -> None:
+    """All of `data`. Raises OSError, also where a disk that fills up takes only the beginning."""
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(file, rest) :]
+
+
+def refused(error: OSError, path: Path) -> InputError:
+    """The line for a file that can't be written."""
+    return InputError(
+        f"{path}: cannot be written: {error.strerror}; every completed trial is saved"
+    )

@@ -6,22 +6,27 @@ crash. The folder's layout is in CONVENTIONS.md, the columns in experiment/colum
 
 from __future__ import annotations
 
-import csv
+import errno
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
-from experiment.columns import NOTES, QUESTIONNAIRE, TABLES, TRIALS, Column
+from experiment.chain import end_of, file_hash, latest_table, start_of
+from experiment.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
+from experiment.dataset import describe_dataset
 from experiment.design import Trial
 from experiment.errors import InputError
 from experiment.folders import folder_of, next_free, stem_of
+from experiment.private import make_folder, refused, write_new
+from experiment.record_files import Table, Traces, header_of, mend
 from experiment.trial import TrialRecord
 from tasks.base import View
-from tasks.events import Event, Tick
+from tasks.events import Event
 
 
 @dataclass(frozen=True)
@@ -59,8 +64,7 @@ class FileRecorder:
         self.stem = stem_of(who.study, who.participant, who.session)
         describe_dataset(data, who.study)
         try:
-            self.folder.mkdir(parents=True, exist_ok=who.session > 1)
-            (self.folder / "traces").mkdir(exist_ok=who.session > 1)
+            self._trials = self._begin()
         except FileExistsError:
             raise InputError(
                 f"{self.folder}: participant {who.participant} exists already; "
@@ -68,13 +72,32 @@ class FileRecorder:
             ) from None
         except OSError as error:
             raise InputError(f"{self.folder}: cannot be written: {error.strerror}") from None
-        self._json("trials_data.json", {"started": now(), **asdict(who)})
-        self._trials = _Table(self.folder / f"{self.stem}_trials_data.csv", TRIALS)
-        self._questions: _Table | None = None
-        self._notes: _Table | None = None
+        self._questions: Table | None = None
+        self._notes: Table | None = None
+        self._chained = {self._file("trials_data.csv").name, self._file("trials_data.json").name}
         self._rows = self._asked = self._noted = 0
-        self._traces: _Traces | None = None
+        self._traces: Traces | None = None
         self._started = ""
+
+    def _begin(self) -> Table:
+        """Folder, sidecar and table. Whoever writes the sidecar first has the session."""
+        sidecar, table = (self._file(f"trials_data.{kind}") for kind in ("json", "csv"))
+        if sidecar.exists():
+            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(sidecar))
+        make_folder(self.folder / "traces")
+        content: dict[str, Any] = {"started": self._now(), **asdict(self.who), "chain": {}}
+        before = latest_table(self.folder)
+        if before is not None:
+            content["mended"] = mend(self.folder)
+            content["chain"]["follows"] = end_of(before)
+        start = start_of(content, header_of(TRIALS))
+        content["chain"]["start"] = start
+        write_new(sidecar, _json(content))
+        try:
+            return Table(table, TRIALS, start)
+        except OSError:
+            sidecar.unlink()  # no session began
+            raise
 
     def trial_begins(self, trial: Trial) -> None:
         """Open the traces of a trial; those of an unfinished one are kept as they are."""
@@ -86,7 +109,7 @@ class FileRecorder:
         attempt = self._attempts.get(trial.number, 0) + 1
         if attempt > 1 and not trial.training:
             name += f"_attempt-{attempt}"
-        self._traces = _Traces(self.folder / "traces", name)
+        self._traces = Traces(self.folder / "traces", name)
         self._started = self._now()
 
     def event(self, event: Event) -> None:
@@ -105,6 +128,8 @@ class FileRecorder:
         self._traces.close()
         number = record.trial.number
         self._rows += 1
+        events, camera = self._traces.events, self._traces.camera
+        self._chained |= {events.path.name, camera.path.name}
         self._attempts[number] = attempt = self._attempts.get(number, 0) + 1
         self._trials.append(
             {
@@ -113,8 +138,10 @@ class FileRecorder:
                 "slot": self.who.slot,
                 "attempt": attempt,
                 "started": self._started,
-                "events_file": f"traces/{self._traces.events_name}",
-                "camera_file": f"traces/{self._traces.camera_name}",
+                "events_file": f"traces/{events.path.name}",
+                "events_sha256": events.sha256,
+                "camera_file": f"traces/{camera.path.name}",
+                "camera_sha256": camera.sha256,
             }
         )
 
@@ -122,28 +149,54 @@ class FileRecorder:
         """Append rows of the questionnaire; they are on disk when this returns."""
         for row in rows:
             if self._questions is None:
-                path = self.folder / f"{self.stem}_questionnaire_data.csv"
-                self._questions = _Table(path, QUESTIONNAIRE)
+                self._questions = self._another("questionnaire", QUESTIONNAIRE)
             self._asked += 1
             self._questions.append({**self._identity(f"question{self._asked:03d}"), **row})
 
     def note(self, trial: Trial | None, text: str) -> None:
         """Append a note of the experimenter's; it is on disk when this returns."""
         if self._notes is None:
-            self._notes = _Table(self.folder / f"{self.stem}_notes_data.csv", NOTES)
+            self._notes = self._another("notes", NOTES)
         self._noted += 1
         number = trial.number if trial and not trial.training else None
         row = {"trial": number, "written": self._now(), "text": text}
         self._notes.append({**self._identity(f"note{self._noted:03d}"), **row})
 
+    def _another(self, name: str, columns: tuple[Column, ...]) -> Table:
+        path = self._file(f"{name}_data.csv")
+        try:
+            return Table(path, columns)
+        except OSError as error:
+            raise refused(error, path) from None
+
     def close(self, status: str) -> None:
         """Close the files and note how the session ended: `complete`, `left` or `time limit`."""
-        if self._traces:
-            self._traces.close()
-        for table in (self._trials, self._questions, self._notes):
-            if table is not None:
-                table.close()
-        self._json("end.json", {"ended": self._now(), "status": status, "trials": self._rows})
+        with ExitStack() as last:  # from the last to the first; an error in one stops no other
+            last.callback(self._end, status)
+            for file in (self._trials, self._questions, self._notes, self._traces):
+                if file is not None:
+                    last.callback(file.close)
+
+    def _end(self, status: str) -> None:
+        """The end file: how it ended, the chain's end, and hashes of what is not in the chain."""
+        mine = [*self.folder.glob(f"{self.stem}_*"), *self._all_traces()]
+        files = {
+            path.relative_to(self.folder).as_posix(): file_hash(path)
+            for path in sorted(mine)
+            if path.name not in self._chained
+        }
+        content = {"ended": self._now(), "status": status, "trials": self._rows}
+        path = self._file("end.json")
+        try:
+            write_new(path, _json({**content, "chain": self._trials.chain, "files": files}))
+        except OSError as error:
+            raise refused(error, path) from None
+
+    def _all_traces(self) -> Iterator[Path]:
+        return (self.folder / "traces").glob(f"session-{self.who.session}_*")
+
+    def _file(self, name: str) -> Path:
+        return self.folder / f"{self.stem}_{name}"
 
     def _identity(self, row: str) -> dict[str, Any]:
         who = self.who
@@ -155,8 +208,9 @@ class FileRecorder:
             "source": who.source,
         }
 
-    def _json(self, name: str, content: Mapping[str, Any]) -> None:
-        _write_new(self.folder / f"{self.stem}_{name}", json.dumps(content, indent=2) + "\n")
+
+def _json(content: Mapping[str, Any]) -> str:
+    return json.dumps(content, indent=2) + "\n"
 
 
 def _trial_row(record: TrialRecord) -> dict[str, Any]:
@@ -183,114 +237,3 @@ def _trial_row(record: TrialRecord) -> dict[str, Any]:
     if outcome is not None:
         row |= asdict(outcome)
     return row
-
-
-class _Table:
-    """A CSV file that grows by whole, fsynced rows."""
-
-    def __init__(self, path: Path, columns: tuple[Column, ...]) -> None:
-        self._names = [c.name for c in columns]
-        self._file: TextIO = _open_new(path)
-        self._writer = csv.writer(self._file, lineterminator="\n")
-        self._write(self._names)
-
-    def append(self, row: Mapping[str, Any]) -> None:
-        """One row; columns that are not given stay empty. Unknown columns raise KeyError."""
-        unknown = set(row) - set(self._names)
-        if unknown:
-            raise KeyError(f"columns not declared: {sorted(unknown)}")
-        self._write([_cell(row.get(name)) for name in self._names])
-
-    def _write(self, cells: list[str]) -> None:
-        self._writer.writerow(cells)
-        self._file.flush()
-        os.fsync(self._file.fileno())
-
-    def close(self) -> None:
-        self._file.close()
-
-
-class _Traces:
-    """What happened between a trial's first frame and its end, in two files of its own."""
-
-    def __init__(self, folder: Path, name: str) -> None:
-        self.events_name, self.camera_name = f"{name}_events.csv", f"{name}_camera.csv"
-        self._events = _open_new(folder / self.events_name)
-        self._camera = _open_new(folder / self.camera_name)
-        self._events.write("time,event,x,y,dx,dy,dragging,key\n")
-        self._camera.write("time,eye_x,eye_y,eye_z,forward_x,forward_y,forward_z,digest\n")
-        self._last_camera: Any = None
-
-    def event(self, event: Event) -> None:
-        if isinstance(event, Tick):
-            kind, rest = "tick", ",,,,,"
-        else:
-            values = asdict(event)
-            kind = type(event).__name__
-            names = ("x", "y", "dx", "dy", "dragging", "key")
-            rest = ",".join(_cell(values.get(n)) for n in names)
-        self._events.write(f"{event.time!r},{kind},{rest}\n")
-
-    def frame(self, time: float, view: View, digest: str) -> None:
-        camera = view.camera
-        values = [] if camera is self._last_camera else [*camera.eye, *camera.forward]
-        cells = [repr(float(v)) for v in values] or [""] * 6
-        self._camera.write(",".join([repr(time), *cells, digest]) + "\n")
-        self._last_camera = camera
-
-    def close(self) -> None:
-        """Flush to disk; closing twice does no harm."""
-        for file in (self._events, self._camera):
-            if not file.closed:
-                file.flush()
-                os.fsync(file.fileno())
-                file.close()
-
-
-def describe_dataset(data: Path, study: str) -> None:
-    """Psych-DS: what the folder holds, and every column of every table in it."""
-    path = data / "dataset_description.json"
-    if path.exists():
-        return
-    columns = {c.name: c for table in TABLES.values() for c in table}
-    content = {
-        "@context": "https://schema.org/",
-        "@type": "Dataset",
-        "name": study,
-        "description": f"Trials and questionnaires of the study {study}, recorded by Seethrough.",
-        "variableMeasured": [
-            {
-                "@type": "PropertyValue",
-                "name": c.name,
-                "description": c.description,
-                **({"unitText": c.unit} if c.unit else {}),
-            }
-            for c in columns.values()
-        ],
-    }
-    try:
-        data.mkdir(parents=True, exist_ok=True)
-        _write_new(path, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
-    except FileExistsError:
-        return  # another station described the study first: the same words
-    except OSError as error:
-        raise InputError(f"{data}: cannot be written: {error.strerror}") from None
-
-
-def _cell(value: Any) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return repr(value) if isinstance(value, float) else str(value)
-
-
-def _open_new(path: Path) -> TextIO:
-    return open(path, "x", encoding="utf-8", newline="")
-
-
-def _write_new(path: Path, text: str) -> None:
-    with _open_new(path) as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())

@@ -12,7 +12,7 @@ from pathlib import Path
 from experiment.config import Study
 from experiment.design import TaskSet, session_for
 from experiment.errors import InputError
-from experiment.recorder import folder_of, next_free
+from experiment.folders import folder_of, next_free
 
 
 @dataclass(frozen=True)

@@ -244,7 +244,7 @@ def test_what_is_no_ledger_is_one_line(tmp_path):
     with pytest.raises(InputError, match=r"ledger\.sqlite: the ledger cannot be used: file is not"):
         opened(tmp_path)
     (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match=r"file: cannot be written: File exists"):
+    with pytest.raises(InputError, match=r"file: cannot be written: Not a directory"):
         opened(tmp_path / "file" / "study")
 
 

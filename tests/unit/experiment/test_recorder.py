@@ -10,7 +10,8 @@ import pytest
 from experiment.columns import TABLES, TRIALS
 from experiment.design import Trial
 from experiment.errors import InputError
-from experiment.recorder import FileRecorder, Who, check_participant, next_free, stem_of
+from experiment.folders import check_participant, next_free, stem_of
+from experiment.recorder import FileRecorder, Who
 from experiment.trial import TrialRecord
 from renderer.camera import look_at
 from renderer.scene import Scene

@@ -1,0 +1,128 @@
+"""The hash chain over a trial table's rows: a changed byte is found and named.
+
+Each row's last cell is SHA-256(the cell before it in the chain + the row's text without its own
+cell and the comma before that), in hexadecimal. The chain starts with a hash of the sidecar and the
+table's header, ends in the session's end file, and goes on from one session of a participant to
+the next. A row holds the hashes of its traces; the end file those of the session's other tables.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+TRIALS_TABLE, SIDECAR, END = "_trials_data.csv", "_trials_data.json", "_end.json"
+
+
+def link(before: str, text: str) -> str:
+    """The chain's value for a row."""
+    return hashlib.sha256((before + text).encode("utf-8", "replace")).hexdigest()
+
+
+def start_of(sidecar: Mapping[str, Any], header: str) -> str:
+    """Where a session's chain starts: its sidecar (but for `chain.start` itself) and header."""
+    chain = {key: value for key, value in sidecar.get("chain", {}).items() if key != "start"}
+    plain = json.dumps({**sidecar, "chain": chain}, sort_keys=True, ensure_ascii=False)
+    return link(plain, header)
+
+
+def file_hash(path: Path) -> str:
+    """SHA-256 of a file's bytes."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def end_of(table: Path) -> str:
+    """Where a table's chain ends: its last whole row, or its start if it has none."""
+    lines = table.read_text(encoding="utf-8", errors="replace").split("\n")[1:-1]
+    start = str(_json(table.with_suffix(".json")).get("chain", {}).get("start", ""))
+    return lines[-1].rpartition(",")[2] if lines else start
+
+
+def latest_table(folder: Path) -> Path | None:
+    """The trial table of a participant's latest session."""
+    return max(folder.glob(f"*{TRIALS_TABLE}"), key=_session, default=None)
+
+
+def verify(folder: Path) -> list[str]:
+    """What is not as it was written in a participant's folder: `file: row N: …`, [] if all is.
+
+    A table that a crash left without an end file is verified as far as it goes.
+    """
+    problems: list[str] = []
+    before = ""
+    tables = sorted(folder.glob(f"*{TRIALS_TABLE}"), key=_session)
+    for table in tables:
+        sidecar = _json(table.with_suffix(".json"))
+        found = sidecar.get("chain", {})
+        if not found:
+            problems.append(f"{table.name}: no chain: the sidecar names none")
+            continue
+        if found.get("follows", "") != before:
+            name = table.with_suffix(".json").name
+            problems.append(f"{name}: does not follow the session before")
+        problems += _verify_table(table, sidecar)
+        before = end_of(table)
+        problems += _verify_end(folder, table, before)
+    return problems
+
+
+def _verify_table(table: Path, sidecar: Mapping[str, Any]) -> Iterator[str]:
+    header, *lines = table.read_bytes().decode("utf-8", "replace").split("\n")
+    before = sidecar["chain"].get("start", "")
+    if start_of(sidecar, header) != before:
+        yield f"{table.with_suffix('.json').name}: changed, or the header of {table.name}"
+    traces = [
+        (header.split(",").index(f"{t}_file"), header.split(",").index(f"{t}_sha256"))
+        for t in ("events", "camera")
+        if f"{t}_file" in header
+    ]
+    for number, line in enumerate(lines[:-1], start=2):
+        text, _, value = line.rpartition(",")
+        if value != link(before, text):
+            yield f"{table.name}: row {number}: changed, or a row before it removed"
+        else:
+            yield from _verify_traces(table, number, next(csv.reader([line])), traces)
+        before = value
+    if lines and lines[-1]:
+        yield f"{table.name}: row {len(lines) + 1}: half-written"
+
+
+def _verify_traces(
+    table: Path, number: int, cells: list[str], traces: list[tuple[int, int]]
+) -> Iterator[str]:
+    for name, digest in traces:
+        path = table.parent / cells[name]
+        if not path.is_file() or file_hash(path) != cells[digest]:
+            what = "changed" if path.is_file() else "missing"
+            yield f"{cells[name]}: {what} (the trial in row {number} of {table.name})"
+
+
+def _verify_end(folder: Path, table: Path, last: str) -> Iterator[str]:
+    path = folder / table.name.replace(TRIALS_TABLE, END)
+    if not path.is_file():
+        return
+    end = _json(path)
+    if end.get("chain") != last:
+        yield f"{table.name}: rows at the end removed or added, or {path.name} changed"
+    for name, digest in end.get("files", {}).items():
+        other = folder / name
+        if not other.is_file() or file_hash(other) != digest:
+            yield f"{name}: {'changed' if other.is_file() else 'missing'}"
+
+
+def _session(table: Path) -> tuple[int, str]:
+    """Sessions in their order: session-10 comes after session-9."""
+    number = table.name.partition("_session-")[2].partition("_")[0]
+    return (int(number) if number.isdigit() else 0, table.name)
+
+
+def _json(path: Path) -> dict[str, Any]:
+    try:
+        value = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return value if isinstance(value, dict) else {}

@@ -1,0 +1,189 @@
+"""The growing files of a session: tables of whole, fsynced rows, and a trial's traces.
+
+A disk that fills up or goes away becomes one line (InputError); what was completed before stays
+whole, a row that could not be written whole is taken back.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import os
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from experiment.chain import link
+from experiment.columns import Column
+from experiment.private import FILE, refused, write, write_new
+from tasks.base import View
+from tasks.events import Event, Tick
+
+CHUNK = 1 << 16  # bytes of traces that are kept before they are written
+
+
+class Table:
+    """A CSV file that grows by whole, fsynced rows; `chain` starts its last column, if given."""
+
+    def __init__(self, path: Path, columns: tuple[Column, ...], chain: str | None = None) -> None:
+        self.path = path
+        self.chain = chain
+        self._names = [c.name for c in columns]
+        write_new(path, header_of(columns) + "\n")
+        self._file: int | None = os.open(path, os.O_WRONLY | os.O_APPEND)
+
+    def append(self, row: Mapping[str, Any]) -> None:
+        """One row; columns that are not given stay empty. Unknown columns raise KeyError."""
+        unknown = set(row) - set(self._names)
+        if unknown:
+            raise KeyError(f"columns not declared: {sorted(unknown)}")
+        cells = [cell(row.get(name)) for name in self._names]
+        if self.chain is None:
+            self._write(csv_line(cells))
+            return
+        text = csv_line(cells[:-1])
+        value = link(self.chain, text)
+        self._write(f"{text},{value}")
+        self.chain = value
+
+    def _write(self, line: str) -> None:
+        assert self._file is not None
+        size = os.fstat(self._file).st_size
+        try:
+            write(self._file, (line + "\n").encode("utf-8", "replace"))
+            os.fsync(self._file)
+        except OSError as error:
+            with suppress(OSError):  # the disk is gone altogether: nothing can be taken back
+                os.ftruncate(self._file, size)
+            raise refused(error, self.path) from None
+
+    def close(self) -> None:
+        """Closing twice does no harm."""
+        if self._file is not None:
+            os.close(self._file)
+            self._file = None
+
+
+class Trace:
+    """A file that is written in pieces and hashed on the way."""
+
+    def __init__(self, path: Path, header: str) -> None:
+        self.path = path
+        self._hash = hashlib.sha256()
+        self._kept: list[str] = [header]
+        self._size = 0
+        try:
+            self._file: int | None = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, FILE)
+        except OSError as error:
+            raise refused(error, path) from None
+
+    def line(self, text: str) -> None:
+        """One line more."""
+        self._kept.append(text)
+        self._size += len(text)
+        if self._size > CHUNK:
+            self._write()
+
+    def close(self) -> None:
+        """On disk when this returns; closing twice does no harm."""
+        if self._file is None:
+            return
+        try:
+            self._write()
+            os.fsync(self._file)
+        except OSError as error:
+            raise refused(error, self.path) from None
+        finally:
+            os.close(self._file)
+            self._file = None
+
+    @property
+    def sha256(self) -> str:
+        """Of what was written."""
+        return self._hash.hexdigest()
+
+    def _write(self) -> None:
+        assert self._file is not None
+        data = "".join(f"{line}\n" for line in self._kept).encode("utf-8", "replace")
+        self._kept.clear()
+        self._size = 0
+        try:
+            write(self._file, data)
+        except OSError as error:
+            raise refused(error, self.path) from None
+        self._hash.update(data)
+
+
+class Traces:
+    """What happened between a trial's first frame and its end, in two files of its own."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self.events = Trace(folder / f"{name}_events.csv", "time,event,x,y,dx,dy,dragging,key")
+        eye, forward = "eye_x,eye_y,eye_z", "forward_x,forward_y,forward_z"
+        self.camera = Trace(folder / f"{name}_camera.csv", f"time,{eye},{forward},digest")
+        self._last_camera: Any = None
+
+    def event(self, event: Event) -> None:
+        """One input event."""
+        if isinstance(event, Tick):
+            kind, rest = "tick", ",,,,,"
+        else:
+            values = asdict(event)
+            kind = type(event).__name__
+            names = ("x", "y", "dx", "dy", "dragging", "key")
+            rest = ",".join(cell(values.get(n)) for n in names)
+        self.events.line(f"{event.time!r},{kind},{rest}")
+
+    def frame(self, time: float, view: View, digest: str) -> None:
+        """One frame; a camera that stands is written once."""
+        camera = view.camera
+        values = [] if camera is self._last_camera else [*camera.eye, *camera.forward]
+        cells = [repr(float(v)) for v in values] or [""] * 6
+        self.camera.line(",".join([repr(time), *cells, digest]))
+        self._last_camera = camera
+
+    def close(self) -> None:
+        """Both files are on disk; closing twice does no harm."""
+        try:
+            self.events.close()
+        finally:
+            self.camera.close()
+
+
+def header_of(columns: tuple[Column, ...]) -> str:
+    """A table's first line."""
+    return ",".join(c.name for c in columns)
+
+
+def cell(value: Any) -> str:
+    """A value as its column's type is written (CONVENTIONS.md, tables)."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return repr(value)
+    # A null byte ends the text for some readers of CSV.
+    return str(value).replace("\0", "�")
+
+
+def csv_line(cells: list[str]) -> str:
+    """A row, quoted where it must be, without its line's end."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="").writerow(cells)
+    return text.getvalue()
+
+
+def mend(folder: Path) -> dict[str, int]:
+    """Cut off rows that a crash left half-written: {file: bytes cut}. Raises OSError."""
+    cut = {}
+    for path in sorted(folder.glob("*_data.csv")):
+        data = path.read_bytes()
+        whole = data.rfind(b"\n") + 1
+        if whole < len(data):
+            os.truncate(path, whole)
+            cut[path.name] = len(data) - whole
+    return cut
