@@ -36,7 +36,7 @@ class DepthTest:
 
     def pages(self, technique: object) -> list[Page]:
         """The picture once for each pair, large."""
-        picture = Picture(self.view, technique, height=0.6)
+        picture = Picture(self.view, technique, height=0.56)
         return [
             Page(
                 f"depth test {n}",

@@ -1,0 +1,106 @@
+"""Draws every page and task of the published session into docs/pictures/guide/, for the guide.
+
+python docs/make_guide_pictures.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+from PIL import Image
+
+from experiment import questionnaire
+from experiment.config import load
+from experiment.design import Trial, session_for
+from experiment.display import Leave
+from experiment.page_drawing import Form
+from experiment.pages import Page
+from experiment.session import _instruction, _page
+from experiment.stage import Stage
+from experiment.texts import Texts
+from experiment.trial import LEAVE, MENU, TrialRun
+from renderer.gpu.context import standalone
+from tasks.catalog import TASKS
+from tasks.events import KeyPress
+
+SIZE = (800, 600)
+OUT = Path(__file__).parent / "pictures" / "guide"
+
+
+class Camera:
+    """Draws pages and views offscreen and keeps the pictures."""
+
+    def __init__(self) -> None:
+        self.study = load("published")
+        context = standalone()
+        self.stage = Stage(context, SIZE, Texts(self.study.study.language, self.study.texts), 4)
+        self.target = context.framebuffer([context.texture(SIZE, 4)])
+
+    def keep(self, name: str) -> None:
+        """Write the picture as a small PNG."""
+        pixels = np.frombuffer(self.target.read(components=3, alignment=1), np.uint8)
+        picture = Image.fromarray(pixels.reshape(SIZE[1], SIZE[0], 3)[::-1])
+        picture = picture.quantize(128, dither=Image.Dither.NONE)
+        picture.save(OUT / f"{name}.png", optimize=True)
+        print(OUT / f"{name}.png")
+
+    def page(self, page: Page, name: str | None = None) -> None:
+        """A page; drawn a few times, because ImGui settles its layout over two frames."""
+        form = Form(page)
+        for _ in range(4):
+            self.stage.draw_form(form, self.target, 1 / 60)
+        self.keep(name or page.name.replace(" ", "-"))
+
+    def ask(self, page: Page) -> dict[str, str]:
+        """Stands in for a participant: keeps each page once, answers with the first option."""
+        if not (OUT / f"{page.name.replace(' ', '-')}.png").exists():
+            self.page(page)
+        return {"button": "0", "age": "", **dict.fromkeys(page.required, "0")}
+
+
+def main() -> None:
+    """Every page in the order of a session."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    for old in OUT.glob("*.png"):
+        old.unlink()
+    camera = Camera()
+    study = camera.study
+    camera.page(_page("welcome"))
+    try:
+        questionnaire.before(study, 1, camera)  # type: ignore[arg-type]
+    except Leave:
+        raise AssertionError("the first option was to agree") from None
+    run = TrialRun(study, SimpleNamespace(display=camera.stage, tasks=TASKS))  # type: ignore[arg-type]
+    task_sets = session_for(1, study.design.factors())
+    shown = set()
+    for number, task_set in enumerate(task_sets):
+        camera.stage.done = number / len(task_sets)
+        trial = task_set.trials[0]
+        if trial.transparency == "dynamic" or trial.task not in shown:
+            shown.add(trial.task)
+            camera.page(_instruction(trial, 8, run), f"instruction-{trial.task}")
+            _task(camera, run, trial)
+    for page in (_page("ready"), _page("pause"), LEAVE, MENU):
+        camera.page(page)
+    camera.stage.done = 1.0
+    questionnaire.after(study, camera, camera.stage.aspect)  # type: ignore[arg-type]
+    camera.page(_page("thanks"))
+
+
+def _task(camera: Camera, run: TrialRun, trial: Trial) -> None:
+    task, state = TASKS[trial.task], run.begin(trial)
+    steps = [("", ())]
+    if trial.task == "unique":
+        steps.append(("-mark", ("space", "right", "right", "up")))
+    for suffix, keys in steps:
+        for key in keys:
+            state = task.on_event(state, KeyPress(0.0, key))
+        for _ in range(3):
+            camera.stage.draw_view(task.view(state), run.technique(trial), camera.target, 1 / 60)  # type: ignore[arg-type]
+        camera.keep(f"task-{trial.task}{suffix}")
+
+
+if __name__ == "__main__":
+    main()
