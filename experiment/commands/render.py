@@ -53,7 +53,7 @@ def jeep(seed: int, aspect: float) -> tuple[Scene, Camera]:
     """The jeep with its inner parts as targets, the same for every seed."""
     from renderer.models.jeep import jeep_scene
 
-    return jeep_scene(), look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.6)
+    return jeep_scene(), look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.47)
 
 
 SCENES: dict[str, Callable[[int, float], tuple[Scene, Camera]]] = {
