@@ -32,7 +32,7 @@ SAMPLE, BALANCE = 16, 0.25
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PreparedBsp:
-    """A BSP tree. `cuts` keeps every fragment there ever was, for whoever wants to redo the cuts."""
+    """A BSP tree. `cuts` keeps every fragment there ever was, so that cuts can be redone."""
 
     drawable: Drawable
     tree: Tree

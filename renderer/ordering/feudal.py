@@ -55,14 +55,12 @@ def prepare(
     closed: bool = False,
     rng: np.random.Generator | None = None,
     tolerance: float = 0.0,
-    gaps: bool = False,
 ) -> PreparedFeudal:
     """Build the tree.
 
     `closed` culls the faces that look away (the paper's "forward" ones): right for opaque closed
     volumes; translucent ones show their far walls and are prepared open. `rng` shuffles the input
-    of the dynamic version; without one a fixed stream does. `gaps` looks for separating planes
-    between polygons too, not only among their own (ours, `feudal_gaps`). Raises ValueError for polygons that
+    of the dynamic version; without one a fixed stream does. Raises ValueError for polygons that
     `polygons.check` refuses, for an unknown version, and for more than 20,000 polygons.
     """
     if version not in VERSIONS:
@@ -73,10 +71,10 @@ def prepare(
     relations = Relations(fragments)
     group = np.flatnonzero(fragments.solid)
     if version == "static":
-        nodes = build_static(relations, group, gaps)
+        nodes = build_static(relations, group)
     else:
         generator = rng or np.random.default_rng(np.random.SeedSequence(3))
-        nodes = build_dynamic(relations, generator.permutation(group), gaps)
+        nodes = build_dynamic(relations, generator.permutation(group))
     return _assemble(fragments, nodes, relations.tested, closed)
 
 
@@ -97,10 +95,6 @@ def _assemble(fragments: Fragments, nodes: list[Node], tested: int, closed: bool
     drawn = drawable(fragments.polygons(kept), source, fragments.planes)
     rows = fragments.planes[source]
     planes = np.column_stack([rows[:, 3:6], -(rows[:, 3:6] * rows[:, :3]).sum(axis=1)])
-    apart = [node for node in nodes if node.gap is not None]
-    for i, node in enumerate(apart):
-        node.switch = len(planes) + i
-    planes = np.concatenate([planes, *(node.gap[None] for node in apart)])
     flat = np.flatnonzero(~fragments.solid[source])
     made = program(nodes, planes, drawn.bounds, flat, closed)
     stats = Stats(
@@ -112,8 +106,6 @@ def _assemble(fragments: Fragments, nodes: list[Node], tested: int, closed: bool
         nodes={
             "connecting": len(nodes),
             "switch": sum(n.switch >= 0 for n in nodes),
-            "gap": len(apart),
         },
     )
     return PreparedFeudal(drawn, tuple(nodes), made, stats, fragments)
-

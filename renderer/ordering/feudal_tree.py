@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.feudal_gaps import in_front, widest_parting
 from renderer.ordering.feudal_relations import Relations
 from renderer.ordering.fragments import BEHIND, COPLANAR, CUT, IN_FRONT
-from renderer.ordering.polygons import Floats, Integers
+from renderer.ordering.polygons import Integers
 
 
 @dataclass(slots=True)
@@ -19,15 +18,13 @@ class Node:
 
     `levels` are pairs (F_j, B_j) of polygons with absolute front and back priority. `switch` is
     the polygon whose plane parts the rest, `coplanar` (O_k) it and all in its plane, `children`
-    the connecting nodes in front of it and behind. -1: none. `gap` (4,) is the
-    plane of a switch that is no polygon's.
+    the connecting nodes in front of it and behind. -1: none.
     """
 
     levels: list[tuple[Integers, Integers]] = field(default_factory=list)
     switch: int = -1
     coplanar: Integers = field(default_factory=lambda: np.empty(0, np.int64))
     children: list[int] = field(default_factory=lambda: [-1, -1])
-    gap: Floats | None = None
 
 
 @dataclass(slots=True)
@@ -43,8 +40,16 @@ class _Counts:
         kinds = (IN_FRONT, BEHIND, CUT)
         return cls(*(np.count_nonzero(codes == kind, axis=1) for kind in kinds))
 
-    def without(self, codes: NDArray[np.int8], kept: NDArray[np.bool_]) -> _Counts:
-        gone = _Counts.of(codes[np.ix_(kept, ~kept)])
+    def joined(self, other: _Counts) -> _Counts:
+        return _Counts(
+            np.concatenate([self.front, other.front]),
+            np.concatenate([self.back, other.back]),
+            np.concatenate([self.cut, other.cut]),
+        )
+
+    def without(self, leaving: NDArray[np.int8], kept: NDArray[np.bool_]) -> _Counts:
+        """Rows that stay, less the columns that leave: codes (rows, leaving)."""
+        gone = _Counts.of(leaving[kept])
         return _Counts(
             self.front[kept] - gone.front, self.back[kept] - gone.back, self.cut[kept] - gone.cut
         )
@@ -59,22 +64,17 @@ class _Counts:
         return (self.front == 0) & (self.cut == 0) & (self.back > 0)
 
 
-def build_static(relations: Relations, group: Integers, gaps: bool = False) -> list[Node]:
-    """The whole table first, then the tree (002, "The Static Preprocessing Phase").
-
-    With `gaps`, a group that no plane of its own parts is parted at a gap before it is cut.
-    """
+def build_static(relations: Relations, group: Integers) -> list[Node]:
+    """The whole table first, then the tree (002, "The Static Preprocessing Phase")."""
     for polygon in group:
         if not relations.known[polygon]:
             relations.compute(int(polygon), group)
     nodes = [Node()]
-    settle(relations, nodes, [(0, group)], gaps)
+    settle(relations, nodes, [(0, group)])
     return nodes
 
 
-def settle(
-    relations: Relations, nodes: list[Node], work: list[tuple[int, Integers]], gaps: bool
-) -> None:
+def settle(relations: Relations, nodes: list[Node], work: list[tuple[int, Integers]]) -> None:
     """Build what is below connecting nodes whose groups have all their rows (procedures 2 to 4)."""
     while work:
         at, group = work.pop()
@@ -87,14 +87,11 @@ def settle(
                 break
             node.levels.append((group[front], group[back]))
             kept = ~(back | front)
-            counts = counts.without(codes, kept)
+            counts = counts.without(codes[:, ~kept], kept)
             group, codes = group[kept], codes[np.ix_(kept, kept)]
         if len(group):
             # A separating plane cuts none; else the plane that cuts fewest. Then the most balanced.
             best = np.lexsort((group, np.abs(counts.front - counts.back), counts.cut))[0]
-            if gaps and counts.cut[best] > 0 and (gap := _gap(relations, group)) is not None:
-                work += part(relations, nodes, node, gap, group)
-                continue
             work += divide(relations, nodes, node, int(group[best]), group)
 
 
@@ -126,79 +123,51 @@ def _hang(nodes: list[Node], node: Node, sides: list[Integers]) -> list[tuple[in
     return work
 
 
-def _gap(relations: Relations, group: Integers) -> Floats | None:
-    return widest_parting(relations.fragments, group) if len(group) > 1 else None
-
-
-def part(
-    relations: Relations, nodes: list[Node], node: Node, gap: Floats, group: Integers
-) -> list[tuple[int, Integers]]:
-    """Put a gap under a connecting node as its switch; returns the new nodes with their groups."""
-    node.gap = gap
-    front = in_front(relations.fragments, group, gap)
-    return _hang(nodes, node, [group[front], group[~front]])
-
-
-def build_dynamic(relations: Relations, order: Integers, gaps: bool = False) -> list[Node]:
+def build_dynamic(relations: Relations, order: Integers) -> list[Node]:
     """A row at a time, using each as soon as it is there (002, "The Dynamic Preprocessing Phase").
 
-    `order` is the input in the random order the paper asks for. With `gaps`, a group is parted at
-    a gap before a row of it is computed.
+    `order` is the input in the random order the paper asks for.
     """
     nodes = [Node()]
     work, rest = [(0, order)], []
     while work:
         at, group = work.pop()
-        switch, gap, group = _peel(relations, nodes[at], group, gaps)
-        if gap is not None:
-            work += part(relations, nodes, nodes[at], gap, group)
-        elif switch >= 0:
+        switch, group = _peel(relations, nodes[at], group)
+        if switch >= 0:
             work += divide(relations, nodes, nodes[at], switch, group)
         elif len(group):
             rest.append((at, group))
-    settle(relations, nodes, rest, gaps)
+    settle(relations, nodes, rest)
     return nodes
 
 
-def _peel(
-    relations: Relations, node: Node, group: Integers, gaps: bool
-) -> tuple[int, Floats | None, Integers]:
+def _peel(relations: Relations, node: Node, group: Integers) -> tuple[int, Integers]:
     """Rows of a group in turn: absolute priority leaves at once, a separating plane ends it.
 
-    Returns the separating polygon (-1: none), the gap that parts the group, and the group.
+    Returns the separating polygon, or -1 when every row is there and none is left, and the group.
     """
+    known = group[relations.known[group]]
+    counts = _Counts.of(relations.codes[np.ix_(known, group)])
     while len(group):
-        found = _usable(relations, group)
-        if found is None:
-            if gaps and (gap := _gap(relations, group)) is not None:
-                return -1, gap, group
+        usable = np.flatnonzero(counts.cut == 0)
+        if not len(usable):
             unknown = np.flatnonzero(~relations.known[group])
             if not len(unknown):
                 break
             relations.compute(int(group[unknown[0]]), group)
+            fresh = group[unknown][relations.known[group[unknown]]]
+            known = np.concatenate([known, fresh])
+            counts = counts.joined(_Counts.of(relations.codes[np.ix_(fresh, group)]))
             continue
-        polygon, kind = found
-        if kind == "separating":
-            return polygon, None, group
+        polygon = int(known[usable[0]])
+        if not (counts.absolute_back | counts.absolute_front)[usable[0]]:
+            return polygon, group
         row = relations.codes[polygon, group]
         coplanar = group[row == COPLANAR]
         alike = relations.same_way(polygon, coplanar)
         bunches = (coplanar[alike], coplanar[~alike])
-        node.levels.append(bunches if kind == "front" else bunches[::-1])
-        group = group[row != COPLANAR]
-    return -1, None, group
-
-
-def _usable(relations: Relations, group: Integers) -> tuple[int, str] | None:
-    """The first known row, in the group's order, with absolute priority or a separating plane."""
-    known = group[relations.known[group]]
-    if not len(known):
-        return None
-    counts = _Counts.of(relations.codes[np.ix_(known, group)])
-    usable = np.flatnonzero(counts.cut == 0)
-    if not len(usable):
-        return None
-    first = usable[0]
-    if counts.back[first] == 0:
-        return int(known[first]), "back"
-    return int(known[first]), "front" if counts.front[first] == 0 else "separating"
+        node.levels.append(bunches[::-1] if counts.absolute_back[usable[0]] else bunches)
+        kept = ~np.isin(known, coplanar)
+        counts = counts.without(relations.codes[np.ix_(known, coplanar)], kept)
+        known, group = known[kept], group[row != COPLANAR]
+    return -1, group

@@ -56,7 +56,7 @@ class Fragments:
         code = np.empty(len(fragments), np.int8)
         open_ = np.empty((2, int(self.count[fragments].sum())), np.int64)
         waiting = classify(
-            fragments, splitters, self.start, self.count, self.source, self.rows, self.fresh,
+            fragments, splitters, self.start, self.count, self.source, self.rows,
             self.planes, self.plane_of, self.slack, self.sign, code, open_,
         )  # fmt: skip
         if waiting:
@@ -81,8 +81,8 @@ class Fragments:
         out = np.empty((2, 2 * corners + 2), np.int64)
         begin = int(self.used[1])
         made = cut(
-            fragments, splitters, self.halves, self.start, self.count, self.source, self.rows, self.fresh,
-            self.planes, self.sign, self.used, self.parent, self.cutter, out,
+            fragments, splitters, self.halves, self.start, self.count, self.source, self.rows,
+            self.fresh, self.planes, self.sign, self.used, self.parent, self.cutter, out,
         )  # fmt: skip
         return np.arange(begin, begin + made), out[0, :made].copy(), out[1, :made].copy()
 

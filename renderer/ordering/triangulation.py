@@ -73,7 +73,7 @@ def clip_ears(corners: Floats) -> NDArray[np.int64]:
 
 
 def _ear(corners: Floats, left: list[int]) -> int:
-    """Position of the corner to clip: the ear with the widest smallest height, else the flattest."""
+    """Position of the corner to clip: the widest ear, else the flattest corner."""
     points = corners[left]
     before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
     turn = _cross(points - before, after - points)
