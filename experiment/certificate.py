@@ -31,7 +31,7 @@ HEADINGS = 4
 # Shows every penetrable occluder half: a target's pixels are then those it would have alone, down
 # to six things in front of it (a share of 1/64 is the least that counts).
 UNCOVERED = DynamicTransparency(alpha_target=0.5, alpha_edge=1.0, width=0.0)
-LESS = 0.98  # a distractor that keeps less of its area than this hides part of a target
+LOST = 0.4  # pixels; a distractor hides part of a target if it gives up half of one or more
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,8 @@ class Certifier:
         whole = alone.pixels[scene.targets].astype(float)
         with np.errstate(invalid="ignore"):
             fraction = np.where(whole > 0, plain.pixels[scene.targets] / whole, np.nan)
-        hides = (alone.area < LESS * plain.area) & ~scene.targets
+        pixels = self._looking.size[0] * self._looking.size[1]
+        hides = ((plain.area - alone.area) * pixels > LOST) & ~scene.targets
         return np.minimum(fraction, 1.0), int(hides.sum()), int(plain.visible.sum())
 
 

@@ -1,0 +1,149 @@
+"""The difficulty certificate: on scenes whose answer is known, and how it fails."""
+
+import csv
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from experiment import cli
+from experiment.certificate import Certifier, Difficulty, Match, matches, walking_path, worst
+from experiment.config import parse
+from experiment.design import Trial, session_for
+from renderer import geometry
+from renderer.camera import look_at
+from renderer.gpu.context import standalone
+from renderer.scene import Object, Scene
+
+STUDY = """
+[study]
+name = "small"
+title = "x"
+description = "x"
+participants = 2
+seed = 5
+[design]
+trials = 1
+tasks = ["count", "unique"]
+[abstract]
+side = 50.0
+objects = 60
+target_share = [0.3, 0.4]
+[walkthrough]
+grid = 6
+objects = 8
+count = [1, 3]
+types = ["chair", "table", "cat"]
+[display]
+width = 320
+height = 240
+"""
+
+
+@pytest.fixture
+def study_file(tmp_path):
+    path = tmp_path / "small.toml"
+    path.write_text(STUDY)
+    return path
+
+
+def at(x, y, z):
+    matrix = np.eye(4)
+    matrix[:3, 3] = (x, y, z)
+    return matrix
+
+
+def test_a_half_hidden_target_is_half_visible_and_its_occluder_counted():
+    cube = geometry.box(2.0, 2.0, 2.0)
+    wall = geometry.box(10.0, 10.0, 0.1)
+    scene = Scene(
+        (
+            Object(cube, at(0, 0, 0), (1, 0, 0), target=True),
+            Object(wall, at(5.0, 0, 3.0), (0, 0, 1)),  # its edge at x = 0 halves the target
+            Object(cube, at(-6, 4, 0), (0, 1, 0)),  # hides nothing
+        )
+    )
+    study = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
+                             "seed": 1}}, "x")  # fmt: skip
+    certifier = Certifier(study, standalone())
+    camera = look_at(np.array([0.0, 0.0, 30.0]), np.zeros(3))
+    fraction, occluders, clutter = certifier._both(scene, camera)
+    # The id picture has 150 rows: the target is some 9 pixels wide, its edge is known to ± 1/2.
+    assert fraction[0] == pytest.approx(0.5, abs=0.06)
+    assert (occluders, clutter) == (1, 3)
+
+
+def test_targets_out_of_view_have_no_fraction():
+    cube = geometry.box(2.0, 2.0, 2.0)
+    scene = Scene((Object(cube, at(0, 0, 60), target=True), Object(cube, at(0, 0, 0))))
+    study = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
+                             "seed": 1}}, "x")  # fmt: skip
+    certifier = Certifier(study, standalone())
+    camera = look_at(np.array([0.0, 0.0, 30.0]), np.zeros(3))
+    fraction, _, _ = certifier._both(scene, camera)
+    assert np.isnan(fraction[0])
+
+
+def test_the_walking_path_goes_to_the_nearest_next():
+    scene = SimpleNamespace(centers=np.array([[3.0, 1, 0], [0, 1, 4.0], [0, 1, 9.0], [9, 9, 9]]))
+    building = SimpleNamespace(scene=scene, asked_objects=[0, 1, 2], start=(0.0, 0.0))
+    assert walking_path(building) == 3.0 + 5.0 + 5.0
+
+
+def difficulty(task, level, visible, scene="s"):
+    trial = Trial(1, 1, 1, 1, level, "abstract", task, scene, (1,))
+    return Difficulty(trial, 10, visible, 0, 1.0, 5.0, 0.0)
+
+
+def test_levels_match_within_the_tolerance_and_the_farthest_trial_is_named():
+    study = parse(
+        {
+            "study": {"name": "a", "title": "a", "description": "a", "participants": 1, "seed": 1},
+            "design": {"tasks": ["count", "pattern"], "tolerance": 0.05},
+        },
+        "x",
+    )
+    measured = [
+        difficulty("count", "standard", 0.50),
+        difficulty("count", "dynamic", 0.54),
+        difficulty("pattern", "standard", 0.50),
+        difficulty("pattern", "dynamic", 0.52, "good"),
+        difficulty("pattern", "dynamic", 0.70, "bad"),
+    ]
+    count, pattern = matches(study, measured)
+    assert count.ok and count.difference == pytest.approx(0.04)
+    assert not pattern.ok and pattern.difference == pytest.approx(0.11)
+    assert worst(pattern, measured).trial.scene == "bad"
+    assert isinstance(pattern, Match)
+
+
+def test_check_fails_names_the_trial_finds_redraws_and_they_match(study_file, tmp_path, capsys):
+    strict = tmp_path / "strict.toml"
+    strict.write_text(
+        study_file.read_text().replace("trials = 1\n", "trials = 1\ntolerance = 0.02\n")
+    )
+    words = ["--seconds", "0"]
+    assert cli.main(["check", str(strict), "--redraw", *words]) == 1
+    said = capsys.readouterr().out
+    assert "NOT MATCHED" in said and "farthest off: stream-1-" in said
+    line = next(s for s in said.splitlines() if "in [design]: redraw" in s)
+    redraw = line.partition("in [design]: ")[2]
+    mended = tmp_path / "mended.toml"
+    mended.write_text(
+        strict.read_text().replace("tolerance = 0.02\n", f"tolerance = 0.02\n{redraw}\n")
+    )
+    out = tmp_path / "certificate.csv"
+    assert cli.main(["check", str(mended), "--certificate", str(out), *words]) == 0
+    assert "NOT MATCHED" not in capsys.readouterr().out
+    with open(out, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 8 and all(0 < float(r["visible"]) <= 1 for r in rows)
+
+
+def test_a_scene_drawn_again_comes_from_another_stream():
+    study = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
+                             "seed": 1}}, "x")  # fmt: skip
+    first = session_for(1, study.design.factors())[0].trials[0]
+    again = study.design.model_copy(update={"redraw": (first.scene, first.scene)})
+    second = session_for(1, again.factors())[0].trials[0]
+    assert second.stream == (*first.stream, 2) and second.scene == first.scene
