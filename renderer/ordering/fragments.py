@@ -57,7 +57,7 @@ class Fragments:
         open_ = np.empty((2, int(self.count[fragments].sum())), np.int64)
         waiting = classify(
             fragments, splitters, self.start, self.count, self.source, self.rows,
-            self.planes, self.plane_of, self.slack, self.sign, code, open_,
+            self.fresh, self.planes, self.plane_of, self.slack, self.sign, code, open_,
         )  # fmt: skip
         if waiting:
             at, who = open_[:, :waiting]
