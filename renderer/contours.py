@@ -1,10 +1,9 @@
-"""The outline of any closed mesh as loops on the screen, and the triangles that make masks of it.
+"""How far each pixel lies from the outline of a closed mesh, without drawing the mesh.
 
 Summed over the front-facing triangles, every edge inside the outline is run through once in each
 direction; what is left over are directed loops, and how often they wind round a pixel says how
-many front faces cover it (Stokes' theorem on the screen). So triangles
-that fill the loops, counted by their turn, cover the target, and they are far fewer than the mesh
-has; a skirt on the outer side of the loops carries the distance (masks.py).
+many front faces cover it (Stokes' theorem on the screen). Distances are Euclidean, to the outer
+side of the loops: exact, and the work grows with the outline instead of with the mesh.
 """
 
 from __future__ import annotations
@@ -18,10 +17,9 @@ from numpy.typing import NDArray
 from renderer.silhouettes import Topology
 
 # Pixels by which an outline may be moved where short edges are joined to one: a mask of 10 pixels
-# is off by 0.3 % there, less than a step of 1/255.
-STRAIGHT = 0.03
-SMALL_TURN = 0.25  # radians: up to here one triangle is enough for a corner of the skirt
-VERTEX = 8  # of a skirt: x, y in pixels, offset from the outline x, y, two probes x, y
+# is off by at most 1 % there, and a colour by a step of 1/255 or two.
+STRAIGHT = 0.1
+FAR = 60000.0  # where there is nothing within reach
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,24 +48,65 @@ def half_edges(shape: Topology) -> HalfEdges:
     return HalfEdges(np.stack([low[new], high[new]], axis=1), first, owner, signs)
 
 
-def loops(
+def distances(
     shape: Topology,
     edges: HalfEdges,
-    eye: NDArray[np.float64],
-    turn: NDArray[np.float64],
-    move: NDArray[np.float64],
+    pose: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     lens: tuple[float, float, float],
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Pixels (v, 2) of the mesh's points, and directed edges (k, 2) of the outline's loops.
+    tile: tuple[int, int, int, int],
+    reach: float,
+    straight: float = STRAIGHT,
+) -> NDArray[np.float32]:
+    """Distance in pixels (height, width) from a target's outline, −1 on the target itself.
 
-    `eye` is in mesh space; camera coordinates are turn · p + move; `lens` is the scale in pixels
-    and the picture's centre x, y. Every point must lie in front of the eye. The target lies to
-    the left of an edge on the screen as one sees it. Points that no loop uses are not projected.
+    `pose`: the eye in mesh space, and turn (3, 3) and move (3,), so that camera coordinates are
+    turn · p + move; every point must lie in front of the eye. `lens`: the scale in pixels, and
+    the picture's centre x, y. `tile`: left, top, width, height in pixels, what of the window to
+    fill. Pixels farther than `reach` have FAR. Outlines may be moved by `straight` pixels.
     """
-    return _loops(
+    return _distances(
         shape.points, shape.planes, edges.ends, edges.first, edges.faces, edges.signs,
-        eye, turn, move, np.array(lens),
+        *pose, np.array(lens), np.array(tile), reach, straight,
     )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def _distances(
+    points, planes, ends, first, faces, signs, eye, turn, move, lens, tile, reach, straight
+):  # type: ignore[no-untyped-def]
+    pixels, edges = _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens)
+    for v in range(len(pixels)):
+        pixels[v, 0] -= tile[0]
+        pixels[v, 1] -= tile[1]
+    out = np.full((tile[3], tile[2]), FAR, np.float32)
+    _cover(pixels, edges, out)
+    way, starts, meets = _walks(edges, len(pixels))
+    _skirt(pixels, way, starts, meets, reach, straight, out)
+    return out
+
+
+@njit(cache=True, nogil=True)
+def _cover(pixels, edges, out):  # type: ignore[no-untyped-def]
+    """Put −1 where the edges wind round a pixel's centre."""
+    height, width = out.shape
+    change = np.zeros((height, width + 1), np.int32)
+    for e in range(len(edges)):
+        ax, ay = pixels[edges[e, 0], 0], pixels[edges[e, 0], 1]
+        bx, by = pixels[edges[e, 1], 0], pixels[edges[e, 1], 1]
+        sign = 1
+        if ay > by:
+            ax, ay, bx, by, sign = bx, by, ax, ay, -1
+        low, high = max(np.ceil(ay - 0.5), 0.0), min(np.ceil(by - 0.5), float(height))
+        for row in range(int(min(low, float(height))), int(max(high, 0.0))):
+            x = ax + (row + 0.5 - ay) / (by - ay) * (bx - ax)
+            column = int(min(max(np.ceil(x - 0.5), 0.0), width))
+            change[row, column] += sign
+    for row in range(height):
+        turns = 0
+        for column in range(width):
+            turns += change[row, column]
+            if turns != 0:
+                out[row, column] = -1.0
 
 
 @njit(cache=True, nogil=True)
@@ -111,7 +150,7 @@ def _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens):  #
 
 
 @njit(cache=True, nogil=True)
-def walks(edges, count):  # type: ignore[no-untyped-def]
+def _walks(edges, count):  # type: ignore[no-untyped-def]
     """Closed walks that together take each directed edge (k, 2) once: points (k,), where each walk
     begins (w + 1,), and for each of `count` points whether it is met more than once."""
     n = len(edges)
@@ -143,76 +182,7 @@ def walks(edges, count):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def winding(pixels, points, starts, out):  # type: ignore[no-untyped-def]
-    """Triangles (3 rows each of out (v, 2)) that turn as often round a pixel as the walks do.
-
-    Each walk is halved again and again, so that most triangles are small. Returns the rows.
-    """
-    k = 0
-    stack = np.empty((64, 2), np.int64)
-    for w in range(len(starts) - 1):
-        base, size = starts[w], starts[w + 1] - starts[w]
-        stack[0, 0], stack[0, 1] = 0, size
-        top = 1
-        while top:
-            top -= 1
-            i, j = stack[top, 0], stack[top, 1]
-            if j - i < 2:
-                continue
-            m = (i + j) // 2
-            if not (i == 0 and j == size):
-                for v in (i, m, j):
-                    p = points[base + v % size]
-                    out[k, 0], out[k, 1] = pixels[p, 0], pixels[p, 1]
-                    k += 1
-            stack[top, 0], stack[top, 1] = i, m
-            stack[top + 1, 0], stack[top + 1, 1] = m, j
-            top += 2
-    return k
-
-
-@njit(cache=True, nogil=True)
-def _put(out, k, x, y, ox, oy, ax, ay, bx, by):  # type: ignore[no-untyped-def]
-    out[k, 0], out[k, 1], out[k, 2], out[k, 3] = x, y, ox, oy
-    out[k, 4], out[k, 5], out[k, 6], out[k, 7] = ax, ay, bx, by
-    return k + 1
-
-
-@njit(cache=True, nogil=True)
-def _corner(out, k, px, py, ax, ay, bx, by, width):  # type: ignore[no-untyped-def]
-    """A skirt round a corner from unit normal a to b, where it turns outwards."""
-    turn = np.arctan2(ay * bx - ax * by, ax * bx + ay * by)
-    if turn <= 0:
-        return k
-    pieces = 1 if turn < SMALL_TURN else int(np.ceil(turn / 0.8))
-    reach = width / np.cos(turn / pieces / 2)
-    ox, oy = ax * reach, ay * reach
-    for t in range(pieces):
-        angle = -turn * (t + 1) / pieces
-        c, s = np.cos(angle), np.sin(angle)
-        qx, qy = reach * (c * ax - s * ay), reach * (s * ax + c * ay)
-        probe = (px + ax, py + ay, px + bx, py + by)
-        k = _put(out, k, px, py, 0.0, 0.0, *probe)
-        k = _put(out, k, px + ox, py + oy, ox, oy, *probe)
-        k = _put(out, k, px + qx, py + qy, qx, qy, *probe)
-        ox, oy = qx, qy
-    return k
-
-
-@njit(cache=True, nogil=True)
-def _round(out, k, px, py, width):  # type: ignore[no-untyped-def]
-    """A skirt all round a point where walks meet; never left out (its probes lie far apart)."""
-    reach = width / np.cos(np.pi / 8)
-    for t in range(8):
-        k = _put(out, k, px, py, 0.0, 0.0, -1e4, 0.0, 1e4, 0.0)
-        for side in (t, t + 1):
-            ox, oy = reach * np.cos(side * np.pi / 4), reach * np.sin(side * np.pi / 4)
-            k = _put(out, k, px + ox, py + oy, ox, oy, -1e4, 0.0, 1e4, 0.0)
-    return k
-
-
-@njit(cache=True, nogil=True)
-def _straight(pixels, points, base, size, i, j):  # type: ignore[no-untyped-def]
+def _straight(pixels, points, base, size, i, j, slack):  # type: ignore[no-untyped-def]
     """Whether the points between i and j of a walk lie along the way, and hardly beside it."""
     ax, ay = pixels[points[base + i], 0], pixels[points[base + i], 1]
     b = points[base + j % size]
@@ -225,20 +195,20 @@ def _straight(pixels, points, base, size, i, j):  # type: ignore[no-untyped-def]
     for v in range(i + 1, j):
         x, y = pixels[points[base + v], 0] - ax, pixels[points[base + v], 1] - ay
         along = x * dx + y * dy
-        if along < last or along > length or abs(x * dy - y * dx) > STRAIGHT:
+        if along < last - slack or along > length + slack or abs(x * dy - y * dx) > slack:
             return False
-        last = along
+        last = max(last, along)
     return True
 
 
 @njit(cache=True, nogil=True)
-def _stretches(pixels, points, base, size, meets, ends):  # type: ignore[no-untyped-def]
+def _stretches(pixels, points, base, size, meets, slack, ends):  # type: ignore[no-untyped-def]
     """Where the nearly straight stretches of a walk end, into `ends`; returns how many."""
     n = i = 0
     while i < size:
         j = i + 1
         while j < size and j - i < 48 and not meets[points[base + j]]:
-            if not _straight(pixels, points, base, size, i, j + 1):
+            if not _straight(pixels, points, base, size, i, j + 1, slack):
                 break
             j += 1
         ends[n] = j
@@ -248,49 +218,102 @@ def _stretches(pixels, points, base, size, meets, ends):  # type: ignore[no-unty
 
 
 @njit(cache=True, nogil=True)
-def skirt(pixels, points, starts, meets, width, out):  # type: ignore[no-untyped-def]
-    """The skirt outside the walks, into out (v, 8); returns the rows.
+def _hidden(px, py, qx, qy, nx, ny, out):  # type: ignore[no-untyped-def]
+    """Whether the target also covers the outer side of a stretch, a pixel away from it."""
+    height, width = out.shape
+    steps = 2 + int(min(np.hypot(qx - px, qy - py), 1e6))
+    for t in range(steps + 1):
+        x, y = px + (qx - px) * t / steps + nx, py + (qy - py) * t / steps + ny
+        if not (0 <= x < width and 0 <= y < height) or out[int(y), int(x)] >= 0:
+            return False
+    return True
 
-    A quad on the outer side of each stretch and a fan at each corner that turns outwards; a full
-    round where walks meet. Pieces overlap: the least distance counts. A row is x, y, offset x, y,
-    and two points a pixel outside the outline: a piece may be left out if the target covers them
-    and the middle between them. `out` needs 48 rows for each point of the walks.
+
+@njit(cache=True, nogil=True)
+def _window(low, high, size):  # type: ignore[no-untyped-def]
+    """The pixels, of `size`, whose centres lie between two coordinates."""
+    first = int(min(max(np.ceil(low - 0.5), 0.0), float(size)))
+    return first, int(max(min(np.floor(high - 0.5) + 1.0, float(size)), 0.0))
+
+
+@njit(cache=True, nogil=True)
+def _beside(px, py, qx, qy, nx, ny, reach, out):  # type: ignore[no-untyped-def]
+    """Distances of the pixels on the outer side (nx, ny) of a stretch from p to q."""
+    height, width = out.shape
+    ox, oy, length = nx * reach, ny * reach, np.hypot(qx - px, qy - py)
+    first, last = _window(min(px, qx, px + ox, qx + ox), max(px, qx, px + ox, qx + ox), width)
+    top, bottom = _window(min(py, qy, py + oy, qy + oy), max(py, qy, py + oy, qy + oy), height)
+    for row in range(top, bottom):
+        for column in range(first, last):
+            x, y = column + 0.5 - px, row + 0.5 - py
+            d = x * nx + y * ny
+            if 0 <= d <= reach and d < out[row, column]:
+                along = x * ny - y * nx  # the stretch runs along (ny, −nx)
+                if -1e-9 <= along <= length + 1e-9:
+                    out[row, column] = d
+
+
+@njit(cache=True, nogil=True)
+def _about(px, py, ax, ay, bx, by, reach, out):  # type: ignore[no-untyped-def]
+    """Distances of the pixels round a corner p from normal a to b, if it turns outwards; of all
+    pixels round it where both are 0."""
+    height, width = out.shape
+    whole = ax == 0 and ay == 0
+    if not whole and ax * by - ay * bx >= 0 and ax * bx + ay * by > -0.999999:
+        return
+    low_x, high_x, low_y, high_y = px - reach, px + reach, py - reach, py + reach
+    cosine = ax * bx + ay * by
+    if not whole and cosine > 0:  # a turn of less than a right angle lies in the tangents' hull
+        mx, my = reach * (ax + bx) / (1 + cosine), reach * (ay + by) / (1 + cosine)
+        low_x = px + min(0.0, ax * reach, bx * reach, mx)
+        high_x = px + max(0.0, ax * reach, bx * reach, mx)
+        low_y = py + min(0.0, ay * reach, by * reach, my)
+        high_y = py + max(0.0, ay * reach, by * reach, my)
+    first, last = _window(low_x, high_x, width)
+    top, bottom = _window(low_y, high_y, height)
+    for row in range(top, bottom):
+        for column in range(first, last):
+            x, y = column + 0.5 - px, row + 0.5 - py
+            # Beyond the stretch before, which runs along (ay, −ax), and before the one after.
+            if not whole and (x * ay - y * ax < -1e-9 or x * by - y * bx > 1e-9):
+                continue
+            d = np.hypot(x, y)
+            if d <= reach and d < out[row, column]:
+                out[row, column] = d
+
+
+@njit(cache=True, nogil=True)
+def _skirt(pixels, points, starts, meets, reach, slack, out):  # type: ignore[no-untyped-def]
+    """Put the least distance into `out` for the pixels outside the walks.
+
+    Beside each stretch and round each corner that turns outwards; all round where walks meet;
+    nothing where the target covers both sides.
     """
-    k = 0
     ends = np.empty(len(points) + 1, np.int64)
-    normals = np.empty((len(points) + 1, 2))
+    normals = np.zeros((len(points) + 1, 2))
+    shown = np.empty(len(points) + 1, np.bool_)
     for w in range(len(starts) - 1):
         base, size = starts[w], starts[w + 1] - starts[w]
-        n = _stretches(pixels, points, base, size, meets, ends)
-        begin = 0
-        for e in range(n):
-            p, q = points[base + begin], points[base + ends[e] % size]
-            dx, dy = pixels[q, 0] - pixels[p, 0], pixels[q, 1] - pixels[p, 1]
-            length = np.hypot(dx, dy)
-            if length > 0:
-                normals[e, 0], normals[e, 1] = -dy / length, dx / length
-            else:
-                normals[e, 0], normals[e, 1] = 0.0, 0.0
-            begin = ends[e]
+        n = _stretches(pixels, points, base, size, meets, slack, ends)
         begin = 0
         for e in range(n):
             p, q = points[base + begin], points[base + ends[e] % size]
             begin = ends[e]
-            nx, ny = normals[e, 0], normals[e, 1]
-            mx, my = normals[(e + 1) % n, 0], normals[(e + 1) % n, 1]
             px, py, qx, qy = pixels[p, 0], pixels[p, 1], pixels[q, 0], pixels[q, 1]
-            whole = (nx == 0 and ny == 0) or (mx == 0 and my == 0)
-            if nx != 0 or ny != 0:
-                ox, oy = nx * width, ny * width
-                probe = (px + nx, py + ny, qx + nx, qy + ny)
-                k = _put(out, k, px, py, 0.0, 0.0, *probe)
-                k = _put(out, k, qx, qy, 0.0, 0.0, *probe)
-                k = _put(out, k, qx + ox, qy + oy, ox, oy, *probe)
-                k = _put(out, k, px, py, 0.0, 0.0, *probe)
-                k = _put(out, k, qx + ox, qy + oy, ox, oy, *probe)
-                k = _put(out, k, px + ox, py + oy, ox, oy, *probe)
-            if whole or meets[q]:
-                k = _round(out, k, qx, qy, width)
-            else:
-                k = _corner(out, k, qx, qy, nx, ny, mx, my, width)
-    return k
+            length = np.hypot(qx - px, qy - py)
+            nx = ny = 0.0
+            if length > 0:
+                nx, ny = -(qy - py) / length, (qx - px) / length
+            normals[e, 0], normals[e, 1] = nx, ny
+            shown[e] = not _hidden(px, py, qx, qy, nx, ny, out)
+            if shown[e] and length > 0:
+                _beside(px, py, qx, qy, nx, ny, reach, out)
+        for e in range(n):
+            after = (e + 1) % n
+            if not (shown[e] or shown[after]):
+                continue
+            q = points[base + ends[e] % size]
+            ax, ay, bx, by = normals[e, 0], normals[e, 1], normals[after, 0], normals[after, 1]
+            if meets[q] or (ax == 0 and ay == 0) or (bx == 0 and by == 0):
+                ax = ay = bx = by = 0.0
+            _about(pixels[q, 0], pixels[q, 1], ax, ay, bx, by, reach, out)

@@ -59,8 +59,8 @@ class FramePlan:
     what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
     parts of the picture (left, top, right, bottom) to sort by pixel. `wide` are blended objects
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
-    else. `boxes` are the extents of all objects. `reasons` (n,) say why each object is drawn as it is, `behind` (n,) which target
-    it is that makes it blend (−1: none).
+    else. `boxes` are the extents of all objects. `reasons` (n,) say why each object is drawn as it
+    is, `behind` (n,) which target it is that makes it blend (−1: none).
     """
 
     opaque: Indices
@@ -219,7 +219,44 @@ def _with_levels(
         parts = np.array([[0, 0, *size]])
     keep = np.zeros(len(blended), dtype=bool)
     keep[base.opaque] = True
-    return replace(base, opaque=np.nonzero(keep & ~blended)[0], levels=tuple(levels), exact=parts)
+    holes = _holes(reach[masked], size)
+    return replace(
+        base,
+        opaque=np.nonzero(keep & ~blended)[0],
+        levels=tuple(levels),
+        exact=parts,
+        wide=_wide(base, np.nonzero(blended)[0], holes, triangles, size),
+        holes=holes,
+    )
+
+
+def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
+    """(k, 4) whole pixels that each mask can cover."""
+    low = np.clip(np.floor(reach[:, :2]), 0, size)
+    high = np.clip(np.ceil(reach[:, 2:]), 0, size)
+    rows = np.concatenate([low, high], axis=1)[(low < high).all(axis=1)]
+    return rows.astype(np.int64)
+
+
+def _wide(
+    base: FramePlan,
+    blended: Indices,
+    holes: NDArray[np.int64],
+    triangles: Indices,
+    size: tuple[int, int],
+) -> Indices:
+    """Blended objects of few triangles that cover much of the picture outside all masks.
+
+    Drawing them twice costs little, blending all their pixels much.
+    """
+    if "outside" in base.without or not len(holes):
+        return blended[:0]
+    box = base.boxes.extents[blended]
+    low, high = np.clip(box[:, :2], 0, size), np.clip(box[:, 2:], 0, size)
+    scope = np.array([*holes[:, :2].min(axis=0), *holes[:, 2:].max(axis=0)])
+    inside = np.clip(np.minimum(high, scope[2:]) - np.maximum(low, scope[:2]), 0, None)
+    outside = (high - low).prod(axis=1) - inside.prod(axis=1)
+    return blended[outside > WORTH * triangles[blended]]
 
 
 def _parts(

@@ -17,7 +17,7 @@ from renderer.plan import FramePlan
 from renderer.techniques.dynamic import DynamicTransparency
 
 _FORMAT = ("2f 2f 1f 2f", "in_place", "in_offset", "in_kind", "in_extra")
-_UNITS = {"distances": 2, "rings": 3, "counts": 4, "turns": 11}
+_UNITS = {"distances": 2, "rings": 3, "counts": 4}
 
 
 class MaskPainter:

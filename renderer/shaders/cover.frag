@@ -1,6 +1,6 @@
-// Provides a mark: this pixel (or cell) lies on the target.
-layout(location = 0) out float turn;
+// Provides −1 for a pixel that lies on the target; as an opacity of 8 bits that is 0.
+layout(location = 0) out float mark;
 
 void main() {
-    turn = 1.0;
+    mark = -1.0;
 }

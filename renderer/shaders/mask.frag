@@ -1,8 +1,7 @@
 // Provides a target's alpha mask, to be multiplied into the frame's alpha (004 §V-D).
 // With CELLS instead a mask's entry for the exact picture: opacity, depth beside the target, the
 // target's number, and 1 where the mask is at its core.
-uniform sampler2D distances;  // Euclidean, in pixels, in tiles
-uniform sampler2D turns;      // not 0 on the target, in the same tiles
+uniform sampler2D distances;  // Euclidean, in pixels, −1 on the target, in tiles
 uniform sampler2D rings;      // the paper's masks, grids above each other
 uniform sampler2D counts;     // penetrable fragments in front of the farthest target
 uniform float alpha_target;
@@ -52,8 +51,7 @@ void main() {
         float r = length(offset / extra);
         d = r > 1.0 ? d * (1.0 - 1.0 / r) : 0.0;
     } else if (kind >= 0) {
-        ivec2 texel = pixel + ivec2(extra);
-        d = abs(texelFetch(turns, texel, 0).r) > 0.5 ? 0.0 : texelFetch(distances, texel, 0).r;
+        d = texelFetch(distances, pixel + ivec2(extra), 0).r;
     }
     float alpha = alpha_target;
     if (d > 0.0) {

@@ -1,7 +1,7 @@
 // Provides the paper's mask by ring growth: each cell takes the opacity of the nearest ring, by
 // the number of cells in the larger of the two directions (004 §V-D, algorithm 2). The grids of
 // several targets lie above each other.
-uniform sampler2D covers;  // not 0 in a cell on the target
+uniform sampler2D covers;  // < 0 in a cell on the target
 uniform int count;         // rings
 uniform int ring_size;
 uniform float alpha_target;
@@ -17,7 +17,7 @@ void main() {
         if (cell.y + y < low || cell.y + y >= low + ring_size) continue;
         for (int x = -count; x <= count; ++x) {
             if (cell.x + x < 0 || cell.x + x >= ring_size) continue;
-            if (texelFetch(covers, cell + ivec2(x, y), 0).r != 0.0) {
+            if (texelFetch(covers, cell + ivec2(x, y), 0).r < 0.0) {
                 nearest = min(nearest, max(abs(x), abs(y)));
             }
         }
