@@ -75,11 +75,9 @@ def _verify_table(table: Path, sidecar: Mapping[str, Any]) -> Iterator[str]:
     before = sidecar["chain"].get("start", "")
     if start_of(sidecar, header) != before:
         yield f"{table.with_suffix('.json').name}: changed, or the header of {table.name}"
-    traces = [
-        (header.split(",").index(f"{t}_file"), header.split(",").index(f"{t}_sha256"))
-        for t in ("events", "camera")
-        if f"{t}_file" in header
-    ]
+    names = header.split(",")
+    columns = [(f"{trace}_file", f"{trace}_sha256") for trace in ("events", "camera")]
+    traces = [(names.index(f), names.index(h)) for f, h in columns if {f, h} <= {*names}]
     for number, line in enumerate(lines[:-1], start=2):
         text, _, value = line.rpartition(",")
         if value != link(before, text):

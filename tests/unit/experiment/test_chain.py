@@ -78,7 +78,7 @@ def test_the_report_reads_the_same_chain(tmp_path):
         report_verifies(Source(table.name, changed), sidecar)
 
 
-@settings(max_examples=80, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_any_changed_byte_is_found_and_the_file_named(tmp_path_factory, data):
     folder = session(tmp_path_factory.mktemp("chain"))
