@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from numpy.random import Generator
 
@@ -58,14 +58,16 @@ class CountInBuilding:
         """The state after `event`. The pointer is captured: it turns, and clicks nothing."""
         pointer = isinstance(event, PointerPress | PointerRelease)
         entry = state.entry if pointer else state.entry.on_event(event)
-        return replace(state, walk=state.walk.on_event(event), entry=entry)
+        return CountInBuildingState(
+            state.building, state.walk.on_event(event), entry, state.picture
+        )
 
     def view(self, state: CountInBuildingState) -> View:
         """What to show for `state`."""
         hud = (
             Label("count_in_building.question", (0.26, 0.02)),
             inset(state.picture, state.walk.held.time or 0.0),
-            state.entry.elements()[0],
+            state.entry.field(),
         )
         return View(state.building.scene, state.walk.camera(), hud, captured=True)
 

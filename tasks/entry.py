@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease
 from tasks.hud import Button, Element, Entry, Rect
@@ -50,23 +51,28 @@ class NumberEntry:
         """Whether a pointer event belongs to the buttons and must not turn the view."""
         return isinstance(event, PointerMove) and event.dragging and self.pressed
 
-    def buttons(self) -> list[tuple[str, Rect]]:
+    def buttons(self) -> tuple[tuple[str, Rect], ...]:
         """Each key's name and place: three columns in the lower right corner of the view."""
-        left = self.aspect - EDGE - 3 * SIZE - 2 * GAP
-        top = 1 - EDGE - 4 * SIZE - 3 * GAP
-        step = SIZE + GAP
-        return [
-            (key, Rect(left + i % 3 * step, top + i // 3 * step, SIZE, SIZE))
-            for i, key in enumerate(KEYS)
-        ]
+        return _buttons(self.aspect)
+
+    def field(self) -> Entry:
+        """The typed number."""
+        first = self.buttons()[0][1]
+        return Entry(self.text, Rect(first.x, first.y - SIZE - GAP, 3 * SIZE + 2 * GAP, SIZE))
 
     def elements(self) -> tuple[Element, ...]:
         """The typed number above its buttons."""
-        buttons = self.buttons()
-        first = buttons[0][1]
-        field = Rect(first.x, first.y - SIZE - GAP, 3 * SIZE + 2 * GAP, SIZE)
         texts = {"backspace": "button.backspace", "enter": "button.confirm"}
-        return (
-            Entry(self.text, field),
-            *(Button(texts.get(key, key), rect) for key, rect in buttons),
-        )
+        buttons = (Button(texts.get(key, key), rect) for key, rect in self.buttons())
+        return (self.field(), *buttons)
+
+
+@lru_cache(maxsize=8)
+def _buttons(aspect: float) -> tuple[tuple[str, Rect], ...]:
+    left = aspect - EDGE - 3 * SIZE - 2 * GAP
+    top = 1 - EDGE - 4 * SIZE - 3 * GAP
+    step = SIZE + GAP
+    return tuple(
+        (key, Rect(left + i % 3 * step, top + i // 3 * step, SIZE, SIZE))
+        for i, key in enumerate(KEYS)
+    )

@@ -61,7 +61,8 @@ class Unique:
         if state.found:
             return replace(state, plan=state.plan.on_event(event))
         found = isinstance(event, KeyPress) and event.key in ("space", "enter")
-        return replace(state, walk=state.walk.on_event(event), found=found)
+        walked = state.walk.on_event(event)
+        return UniqueState(state.building, walked, state.plan, state.picture, found)
 
     def view(self, state: UniqueState) -> View:
         """What to show for `state`: the building, then its plan over it."""

@@ -6,7 +6,7 @@ and walls are remembered. Cells of five units, as wide as a step or two, are wha
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -28,6 +28,18 @@ class Layout:
     segments: NDArray[np.float64]
     owner: NDArray[np.int64]
     size: int
+    _blocked: dict[int, NDArray[np.bool_]] = field(default_factory=dict)
+
+    def cell(self, place: NDArray[np.float64]) -> int:
+        """The cell in which (or nearest to which) a place (2,) lies."""
+        i, j = np.clip((place / CELL + self.size / 2).astype(int), 0, self.size - 1)
+        return int(i * self.size + j)
+
+    def blocked(self, cell: int) -> NDArray[np.bool_]:
+        """(n segments, n cells) which wall segment hides which cell from the middle of `cell`."""
+        if cell not in self._blocked:
+            self._blocked[cell] = crossings(self.centers[cell], self.centers, self.segments).T
+        return self._blocked[cell]
 
 
 @lru_cache(maxsize=64)
@@ -110,10 +122,10 @@ class Known:
             self.walls, self._hidden = seen, None
 
     def hidden(self, eye: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(n,) cells whose middle a known wall hides from `eye` (2,), where one stands."""
+        """(n,) cells whose middle a known wall hides from the cell in which one stands."""
         if self._hidden is None:
-            segments = self.layout.segments[self.walls]
-            self._hidden = crossed(eye, self.layout.centers, segments)
+            blocked = self.layout.blocked(self.layout.cell(eye))
+            self._hidden = blocked[self.walls].any(axis=0)
         return self._hidden
 
     def inspect(self, quality: NDArray[np.float64]) -> None:
@@ -142,8 +154,13 @@ def crossed(
     A way through a segment's end crosses it: walls meet at their ends, and nobody sees between.
     A segment that only touches the eye or the point is not crossed.
     """
-    if len(segments) == 0:
-        return np.zeros(len(points), dtype=bool)
+    return crossings(eye, points, segments).any(axis=1)
+
+
+def crossings(
+    eye: NDArray[np.float64], points: NDArray[np.float64], segments: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(n, m) whether the way from `eye` to each point crosses each segment; see `crossed`."""
     a, b = segments[:, 0] - eye, segments[:, 1] - eye
     way = points - eye
     # The way separates the segment's ends, and the segment separates the way's ends.
@@ -152,7 +169,7 @@ def crossed(
     span = b - a
     at_eye = span[:, 1] * a[:, 0] - span[:, 0] * a[:, 1]
     at_point = at_eye + span[:, 0] * way[:, None, 1] - span[:, 1] * way[:, None, 0]
-    return ((side_a * side_b <= 0) & (at_eye * at_point < 0)).any(axis=1)
+    return (side_a * side_b <= 0) & (at_eye * at_point < 0)
 
 
 def bearing(way: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -40,6 +40,8 @@ THING = 1.5  # radius of a usual thing, for how well it would be seen from afar 
 REACH = 3  # cells about a place that count as worth going there for [ours]
 THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
 THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached it
+TURNS = apart(np.arange(1, DIRECTIONS) * STEP, 0.0)
+TURN_COST = 0.25 / STEP  # seconds a radian is thought to cost when choosing [ours]
 GOAL = 0.5  # a cell is a goal if it is unseen at least half as much as any [ours]
 LOOK = 1.0  # seconds that a look somewhere else is thought to cost when choosing [ours]
 
@@ -146,13 +148,10 @@ class Walker:
         way = centers - self.eye
         worth = self.known.gain(self.quality(way, self.eye))
         toward = bearing(way)
-        best, choice = 0.0, (STEP, None)
-        for k in range(1, DIRECTIONS):
-            turn = float(apart(k * STEP, 0.0))
-            inside = np.abs(apart(toward, self.yaw + turn)) < HALF_VIEW
-            rate = float(worth[inside].sum()) / (LOOK + abs(turn) / STEP * 0.25)
-            if rate > best:
-                best, choice = rate, (turn, None)
+        inside = np.abs(apart(toward - self.yaw, TURNS[:, None])) < HALF_VIEW
+        gains = (inside @ worth) / (LOOK + TURN_COST * np.abs(TURNS))
+        side = int(np.argmax(gains))
+        best, choice = float(gains[side]), (float(TURNS[side]), None)
         seconds = np.hypot(way[:, 0], way[:, 1]) / self.hands.speed + 3 * LOOK
         # Only what is unseen is worth going to: there, one will at least have seen that.
         unseen = self.known.unseen
