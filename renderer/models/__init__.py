@@ -1,7 +1,9 @@
 """Recognisable things, built from code.
 
-Every model stands on y = 0, is centred at x = z = 0, faces −z and is 1 to 2 units long, wide or
-high. `MODELS` maps each name to its builder; a builder makes its mesh once, so scenes share it.
+Every model stands on y = 0, is centred at x = z = 0, faces −z, and its longest side is 1 to 2
+units: what differs in size in the world does not in the study, where all must be found alike.
+`MODELS` maps each name to its builder; a builder makes its mesh once, so that scenes share it.
+The jeep, a scene of its own, is in `jeep`, a user's own files are read by `user`.
 """
 
 from __future__ import annotations
@@ -57,3 +59,13 @@ def _shaded(build: Callable[[], Shape]) -> Callable[[], Mesh]:
 
 
 MODELS: dict[str, Callable[[], Mesh]] = {build.__name__: _shaded(build) for build in BUILDERS}
+
+
+def proxy(name: str) -> Mesh:
+    """The model in 300 to 900 triangles, for outlines, masks and the simulated participant.
+
+    Closed, in the model's place, of its mean colour, made once. Raises KeyError for no model.
+    """
+    from renderer.models import proxies
+
+    return proxies.proxy(name)

@@ -144,15 +144,15 @@ def _on_deck(p: Array) -> Array:
 
 def _sail(tack: tuple, head: tuple, clew: tuple, belly: float, color: Color, n: int = 14):
     """A three-cornered sail that the wind fills towards +x."""
-    tack, head, clew = (np.array(c, float) for c in (tack, head, clew))
+    foot, peak, end = (np.array(c, float) for c in (tack, head, clew))
     s = np.linspace(0, 0.995, n)[:, None]
     along = np.linspace(0, 1, n)
-    luff, leech = tack + (head - tack) * s, clew + (head - clew) * s
+    luff, leech = foot + (peak - foot) * s, end + (peak - end) * s
     front = luff[:, None] * (1 - along[:, None]) + leech[:, None] * along[:, None]
     fill = belly * np.sin(np.pi * along) * (1 - s**2) + 0.01
     rings = np.concatenate([front, front[:, ::-1]], axis=1)
     rings[:, :n, 0] += fill
     rings[:, n:, 0] += fill[:, ::-1] - 0.02
-    if (np.cross(clew - tack, head - tack))[0] < 0:
+    if np.cross(end - foot, peak - foot)[0] < 0:
         rings = rings[:, ::-1]
     return tube(rings, color, sharp=60, strips=True)

@@ -6,6 +6,7 @@ The scene of paper 004's performance table ("an engine inside a jeep", about 115
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -68,7 +69,7 @@ def jeep() -> tuple[tuple[str, Mesh], ...]:
     starts = np.cumsum([0, *(len(p.vertices) for p in pieces.values())])
     placed = zip(pieces.items(), starts[:-1], starts[1:], strict=True)
     return tuple(
-        (name, shade(piece.bent(lambda _, a=a, b=b: whole.vertices[a:b])))
+        (name, shade(replace(piece, vertices=whole.vertices[a:b])))
         for (name, piece), a, b in placed
     )
 

@@ -107,7 +107,9 @@ def _outline_parts(whole: Shape, share: float = 0.0015) -> Shape:
 
 def _pictures(part: Shape) -> NDArray[np.bool_]:
     """(views, pixels) outlines of a part, all in the frame of 3 × 3 units about (0, 1, 0)."""
-    mesh = Mesh(part.vertices - (0, 0.75, 0), part.vertices, part.vertices, part.triangles)
+    mesh = Mesh(
+        part.vertices - (0, 0.75, 0), part.vertices, part.vertices, part.triangles.astype(np.int32)
+    )
     frame = np.array([[-1.5, -1.5], [1.5, 1.5]])
     views = [outline(mesh, yaw, pitch, 160, frame).covered.ravel() for yaw, pitch in VIEWS[::2]]
     return np.stack(views)

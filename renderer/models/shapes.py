@@ -124,11 +124,12 @@ def shade(whole: Shape) -> Mesh:
     """
     faces, angles = _areas_and_angles(whole)
     label = _vertex_corners(whole)
-    sharp = _sharp_vertices(whole, label)[whole.triangles]
-    near = np.flatnonzero(sharp.any(axis=1))
+    color = _color_numbers(whole.colors)
+    sharp = _sharp_vertices(whole, label, color)[whole.triangles]
+    near = np.flatnonzero(sharp[:, 0] | sharp[:, 1] | sharp[:, 2])
     if len(near):
         corners = (3 * near[:, None] + np.arange(3)).ravel()
-        group = corners[_corner_groups(_across_smooth_edges(whole, faces, near))]
+        group = corners[_corner_groups(_across_smooth_edges(whole, faces, color, near))]
         label[corners] = np.where(sharp[near].ravel(), group, label[corners])
     kept = label == np.arange(len(label))
     triangles = (np.cumsum(kept) - 1)[label]
@@ -148,7 +149,10 @@ def _areas_and_angles(whole: Shape) -> tuple[Array, Array]:
     a, b, c = (p[:, corner] for corner in whole.triangles.T)
     u, v, w = b - a, c - b, a - c
     faces = np.stack([u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2] for i in range(3)], axis=1)
-    cosines = np.stack([-(u * w).sum(axis=0), -(u * v).sum(axis=0), -(v * w).sum(axis=0)], axis=1)
+    dot = [u[0] * w[0], u[0] * v[0], v[0] * w[0]]
+    for i in (1, 2):
+        dot = [dot[0] + u[i] * w[i], dot[1] + u[i] * v[i], dot[2] + v[i] * w[i]]
+    cosines = -np.stack(dot, axis=1)
     return faces, np.arctan2(_lengths(faces)[:, None], cosines)
 
 
@@ -165,17 +169,25 @@ def _vertex_corners(whole: Shape) -> NDArray[np.int64]:
     return first[start]
 
 
-def _sharp_vertices(whole: Shape, first: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _color_numbers(colors: Array) -> NDArray[np.int64]:
+    """(3m,) one whole number for each corner's colour (m, 3, 3), to the thousandth."""
+    red, green, blue = (colors.reshape(-1, 3).T * 1023).astype(np.int64)
+    return (red << 20) + (green << 10) + blue
+
+
+def _sharp_vertices(
+    whole: Shape, first: NDArray[np.int64], color: NDArray[np.int64]
+) -> NDArray[np.bool_]:
     """(n,) vertices of triangles that may have sharp edges or a colour border."""
-    colors = whole.colors.reshape(-1, 3)
-    border = (colors != colors[first]).any(axis=1).reshape(-1, 3).any(axis=1)
+    border = (color != color[first]).reshape(-1, 3)
+    chosen = (whole.crease > -1) | border[:, 0] | border[:, 1] | border[:, 2]
     sharp = np.zeros(len(whole.vertices), bool)
-    sharp[whole.triangles[(whole.crease > -1) | border]] = True
+    sharp[whole.triangles[chosen]] = True
     return sharp
 
 
 def _across_smooth_edges(
-    whole: Shape, faces: Array, chosen: NDArray[np.int64]
+    whole: Shape, faces: Array, color: NDArray[np.int64], chosen: NDArray[np.int64]
 ) -> NDArray[np.int64]:
     """(3k,) for each corner of the chosen faces the next corner round its vertex, or itself where
     the edge is sharp.
@@ -197,8 +209,7 @@ def _across_smooth_edges(
     cosine = sum(unit[i][f] * unit[i][g] for i in range(3))
     smooth = cosine >= np.minimum(crease[f], crease[g])
     smooth &= start[here] == end[there]
-    rgb = (whole.colors[chosen].reshape(-1, 3) * 1023).astype(np.int64)
-    color = rgb @ np.array([1 << 20, 1 << 10, 1])
+    color = color.reshape(-1, 3)[chosen].ravel()
     here2, there2 = following[here], following[there]
     smooth &= (color[here] == color[there2]) & (color[here2] == color[there])
     onward = np.arange(len(start))

@@ -28,7 +28,8 @@ def tube(
     """
     rings = np.asarray(rings, float)
     n, m = rings.shape[:2]
-    same = np.abs(rings - rings[:, np.arange(m) - 1]).max(axis=2) < 1e-9
+    step = np.abs(rings - rings[:, np.arange(m) - 1])
+    same = step[..., 0] + step[..., 1] + step[..., 2] < 1e-9
     triangles = _tube_faces(n, m, closed, strips)
     vertices = rings.reshape(-1, 3)
     if not (closed or strips):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import logging
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -125,9 +125,9 @@ def _closed(triangles: NDArray[np.int64]) -> bool:
 
 def _colors(mesh: trimesh.Trimesh) -> Array:
     """(n, 3) of the vertices, grey where the file has none."""
-    if not mesh.visual.defined:
+    visual: Any = mesh.visual
+    if visual is None or not visual.defined:
         return np.tile(GREY, (len(mesh.vertices), 1))
-    visual = mesh.visual
     if visual.kind == "texture":
         visual = visual.to_color()
     colors = np.asarray(visual.vertex_colors, float).reshape(-1, 4)[:, :3] / 255

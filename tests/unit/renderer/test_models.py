@@ -5,9 +5,9 @@ import itertools
 import numpy as np
 import pytest
 
-from renderer.models import BUILDERS, MODELS
+from renderer.models import BUILDERS, MODELS, proxy
 from renderer.models.outline import outline
-from renderer.models.proxies import connected_parts, outline_error, proxy
+from renderer.models.proxies import connected_parts, outline_error
 from renderer.models.shapes import shade
 from renderer.models.sheet import contact_sheet_scene, grid
 from renderer.silhouettes import topology
