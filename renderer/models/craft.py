@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.models.shapes import Array, Color, Shape, assemble, join
 from renderer.models.surfaces import (
@@ -23,7 +24,7 @@ WHITE: Color = (0.94, 0.94, 0.95)
 DARK: Color = (0.12, 0.12, 0.13)
 
 
-def _round_hull(z: Array, radius: Array, y: Array, color: Color, sides: int = 32):
+def _round_hull(z: Array, radius: Array, y: Array, color: Color, sides: int = 32) -> Shape:
     """Circles along +z, their centres at the heights y."""
     flat = circle(sides)
     rings = np.empty((len(z), sides, 3))
@@ -136,13 +137,13 @@ def _section(z: float, width: float, deck: float, keel: float) -> Array:
     return np.column_stack([ring, np.full(len(ring), z)])
 
 
-def _on_deck(p: Array) -> Array:
+def _on_deck(p: Array) -> NDArray[np.bool_]:
     z = p[:, 2]
     t = (z + 1.5) / 2.8
     return p[:, 1] > 0.62 + 0.20 * (1 - t) ** 2 + 0.03 * t**2 - 0.004
 
 
-def _sail(tack: tuple, head: tuple, clew: tuple, belly: float, color: Color, n: int = 14):
+def _sail(tack: tuple, head: tuple, clew: tuple, belly: float, color: Color, n: int = 14) -> Shape:
     """A three-cornered sail that the wind fills towards +x."""
     foot, peak, end = (np.array(c, float) for c in (tack, head, clew))
     s = np.linspace(0, 0.995, n)[:, None]

@@ -186,7 +186,7 @@ def piano() -> Shape:
                     _keys(1.34), size=1.9)  # fmt: skip
 
 
-def _keys(width: float):
+def _keys(width: float) -> Shape:
     """52 white and 36 black keys, their middle at x = 0, their fronts at z = −0.71."""
     step = width / 52
     white = box((step * 0.9, 0.03, 0.24), (0.97, 0.96, 0.92)).at(y=0.765, z=-0.58)
