@@ -99,6 +99,7 @@ def compare(measures: Sequence[Measure], margin: float) -> Table:
             "measure": m.key,
             "label": m.label,
             "unit": m.unit,
+            "digits": m.digits,
             "n": len(m.standard),
             "mean_standard": float(m.standard.mean()),
             "sd_standard": _sd(m.standard),
@@ -139,6 +140,7 @@ def compare_logs(measures: Sequence[Measure]) -> Table:
             {
                 "measure": m.key,
                 "label": m.label,
+                "digits": m.digits,
                 "n": len(first),
                 "geometric_standard": float(np.exp(first.mean())),
                 "geometric_dynamic": float(np.exp(second.mean())),
@@ -182,17 +184,24 @@ _TEST = (
     Column("p", "p", "p"),
     Column("p_holm", "p (Holm)", "p", "over the tasks"),
     Column("ges", "η²G", "bound3", "generalised η²"),
-    Column("pes", "η²p", "bound3", "partial η²"),
+    Column("pes", "η²p", "bound2", "90 % interval", "pes_low", "pes_high"),
     Column("pes_low", "η²p from", "bound3", "90 % interval"),
     Column("pes_high", "η²p to", "bound3", "90 % interval"),
 )
 _DIFFERENCE = (
-    Column("difference", "difference", "sig3", "standard − dynamic"),
+    Column(
+        "difference",
+        "standard − dynamic",
+        "sig3",
+        "95 % interval",
+        "difference_low",
+        "difference_high",
+    ),
     Column("difference_low", "from", "sig3", "95 % interval"),
     Column("difference_high", "to", "sig3", "95 % interval"),
     Column("sd_difference", "s.d. of differences", "sig3"),
     Column("t", "t", "fixed2"),
-    Column("dz", "d_z", "fixed2"),
+    Column("dz", "d_z", "fixed2", "95 % interval", "dz_low", "dz_high"),
     Column("dz_low", "d_z from", "fixed2", "95 % interval"),
     Column("dz_high", "d_z to", "fixed2", "95 % interval"),
     Column("bf10", "BF₁₀", "sig3", "JZS, Cauchy scale √½"),
@@ -200,7 +209,7 @@ _DIFFERENCE = (
     Column("shapiro_p", "Shapiro p", "p", "of the differences"),
 )
 _RATIO = (
-    Column("ratio", "ratio", "fixed2", "dynamic / standard"),
+    Column("ratio", "dynamic / standard", "fixed2", "95 % interval", "ratio_low", "ratio_high"),
     Column("ratio_low", "ratio from", "fixed2", "95 % interval"),
     Column("ratio_high", "ratio to", "fixed2", "95 % interval"),
 )
@@ -209,10 +218,10 @@ COLUMNS = (
     Column("label", "measure"),
     Column("unit", "unit"),
     Column("n", "n", "int"),
-    Column("mean_standard", "M standard", "sig4"),
-    Column("sd_standard", "s.d.", "sig4"),
-    Column("mean_dynamic", "M dynamic", "sig4"),
-    Column("sd_dynamic", "s.d.", "sig4"),
+    Column("mean_standard", "M standard", "own"),
+    Column("sd_standard", "s.d.", "own"),
+    Column("mean_dynamic", "M dynamic", "own"),
+    Column("sd_dynamic", "s.d.", "own"),
     Column("r", "r", "bound2", "between the two conditions"),
     *_TEST,
     *_DIFFERENCE,
@@ -222,46 +231,20 @@ COLUMNS = (
     Column("low90", "90 % from", "sig3"),
     Column("high90", "90 % to", "sig3"),
 )
-SHOWN = (
-    "label",
-    "n",
-    "mean_standard",
-    "sd_standard",
-    "mean_dynamic",
-    "sd_dynamic",
-    "F",
-    "p",
-    "p_holm",
-    "pes",
-    "dz",
-    "dz_low",
-    "dz_high",
-    "bf10",
+SHOWN = tuple(
+    "label n mean_standard sd_standard mean_dynamic sd_dynamic F p p_holm pes dz bf10".split()
 )
 LOG_COLUMNS = (
     Column("measure", "measure"),
     Column("label", "measure"),
     Column("n", "n", "int"),
-    Column("geometric_standard", "standard", "sig4", "geometric mean, s"),
-    Column("geometric_dynamic", "dynamic", "sig4", "geometric mean, s"),
+    Column("geometric_standard", "standard", "own", "geometric mean, s"),
+    Column("geometric_dynamic", "dynamic", "own", "geometric mean, s"),
     *_RATIO,
     *_TEST,
     *_DIFFERENCE,
 )
-LOG_SHOWN = (
-    "label",
-    "n",
-    "geometric_standard",
-    "geometric_dynamic",
-    "ratio",
-    "ratio_low",
-    "ratio_high",
-    "F",
-    "p",
-    "p_holm",
-    "dz",
-    "bf10",
-)
+LOG_SHOWN = tuple("label n geometric_standard geometric_dynamic ratio F p p_holm dz bf10".split())
 
 
 def apa_f(table: Table, key: str) -> list[str | Cited]:
@@ -273,7 +256,7 @@ def apa_f(table: Table, key: str) -> list[str | Cited]:
     return [
         "F(",
         table.cite(key, "df1"),
-        ", ",
+        ",\u00a0",
         table.cite(key, "df2"),
         ") = ",
         table.cite(key, "F"),

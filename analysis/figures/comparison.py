@@ -51,8 +51,8 @@ def _bars_and_differences(
             _bar(left, tips, (i + side, m.label, level), values, half, text, m.unit)
         _differences(right, tips, i, m, interval)
     labels = [m.label.replace(" ", "\n", 1) for m in measures]
-    left.set_xticks(range(len(measures)), labels)
-    right.set_xticks(range(len(measures)), labels)
+    for axes in (left, right):
+        axes.set_xticks(range(len(measures)), labels, fontsize=8)
     left.set_ylabel(axis)
     left.set_title("means, 95 % within-participant intervals")
     right.set_title("standard − dynamic, per participant")

@@ -7,16 +7,23 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from analysis.page.numbers import show
+from analysis.stats.undefined import Undefined
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A table's column: its name in the CSV, its heading, and how its numbers are shown."""
+    """A table's column: its name in the CSV, its heading, and how its numbers are shown.
+
+    `low` and `high` name the columns of its interval, shown with it in one cell of the page. The
+    style `own` takes the row's `digits`.
+    """
 
     name: str
     label: str
     style: str = "text"
     about: str = ""
+    low: str = ""
+    high: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +50,24 @@ class Table:
 
     def cite(self, key: str, column: str, style: str = "") -> Cited:
         """A number of this table, for a sentence."""
-        value = self.row(key)[column]
-        return Cited(value, show(value, style or self.column(column).style), self.key, key, column)
+        row = self.row(key)
+        text = show(row[column], style or self.style(row, self.column(column)))
+        return Cited(row[column], text, self.key, key, column)
+
+    def style(self, row: Mapping[str, Any], column: Column) -> str:
+        """How this row's number in `column` is shown."""
+        return f"fixed{row['digits']}" if column.style == "own" else column.style
+
+    def text(self, row: Mapping[str, Any], column: Column) -> str:
+        """A cell as the page has it: the number, and its interval where it has one."""
+        value, style = row.get(column.name), self.style(row, column)
+        shown = show(value, style)
+        if not column.low or value is None or isinstance(value, Undefined):
+            return shown
+        low, high = row[column.low], row[column.high]
+        if low is None or (isinstance(low, Undefined) and isinstance(high, Undefined)):
+            return shown
+        return f"{shown} [{show(low, style)}, {show(high, style)}]"
 
 
 @dataclass(frozen=True, slots=True)

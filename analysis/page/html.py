@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from importlib.resources import files
 
@@ -9,10 +10,11 @@ from jinja2 import Environment, FunctionLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from analysis.page.blocks import Block, Cited, Figure, Fold, Prose, Report, Table
-from analysis.page.numbers import show
 from analysis.page.tables_csv import cell
 
 MOST_ROWS = 60
+_CITED = Markup('<data value="{}" data-from="{}" data-row="{}" data-column="{}">{}</data>')
+_SYMBOL = re.compile(r"(?<![\w<])([FtpnMr]|χ)(?=\(|²\(|\u00a0=|\s(?:&lt;|\(|$)|\u00a0$|$)")
 
 
 def _template(name: str) -> str:
@@ -28,7 +30,8 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     env.filters["prose"] = prose
-    env.globals.update(show=show, exact=cell, kind_of=kind_of, most_rows=MOST_ROWS)
+    env.filters["signs"] = signs
+    env.globals.update(exact=cell, kind_of=kind_of, most_rows=MOST_ROWS)
     return env
 
 
@@ -43,12 +46,19 @@ def prose(block: Prose) -> Markup:
     return Markup("").join(_run(run) for run in block.runs)
 
 
+def signs(text: str) -> Markup:
+    """Text with the field's symbols set as APA sets them, and numbers kept with their units."""
+    out = str(escape(re.sub(r" (?=[=%])|(?<==) |(?<=\bp) $", "\u00a0", text)))
+    out = out.replace("d_z", "<i>d</i><sub>z</sub>")
+    out = re.sub("η²([pG])", r"<i>η</i>²<sub>\1</sub>", out)
+    return Markup(_SYMBOL.sub(r"<i>\1</i>", out))
+
+
 def _run(run: str | Cited) -> Markup:
     if isinstance(run, str):
-        return escape(run)
-    return Markup(
-        '<data value="{}" data-from="{}" data-row="{}" data-column="{}">{}</data>'
-    ).format(cell(run.value), f"{run.table}.csv", run.row, run.column, run.text)
+        return signs(run)
+    text = run.text.replace(" ", "\u00a0") if len(run.text) < 16 else run.text
+    return _CITED.format(cell(run.value), f"{run.table}.csv", run.row, run.column, text)
 
 
 def as_html(report: Report, pictures: Mapping[str, str], version: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from analysis.page.blocks import Block, Cited, Figure, Prose, Report, Table
 from analysis.page.html import MOST_ROWS
-from analysis.page.numbers import show
 
 
 def as_markdown(report: Report) -> str:
@@ -39,9 +38,9 @@ def _run(run: str | Cited) -> str:
 
 def _table(table: Table) -> list[str]:
     columns = table.visible()
-    heads = [_plain(c.label) for c in columns]
+    heads = [_plain(f"{c.label} {c.about}".rstrip()) for c in columns]
     rule = ["---" if c.style == "text" else "---:" for c in columns]
-    rows = [[_plain(show(row[c.name], c.style)) for c in columns] for row in table.rows[:MOST_ROWS]]
+    rows = [[_plain(table.text(row, c)) for c in columns] for row in table.rows[:MOST_ROWS]]
     lines = [f"**{_plain(table.title)}**", ""]
     lines += [f"| {' | '.join(cells)} |" for cells in (heads, rule, *rows)]
     note = f"{table.note} " if table.note else ""

@@ -7,6 +7,7 @@ import math
 from analysis.stats.undefined import Undefined
 
 MINUS = "−"
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def fixed(value: float, digits: int) -> str:
@@ -34,7 +35,7 @@ def significant(value: float, digits: int = 3) -> str:
         return "0"
     exponent = math.floor(math.log10(abs(value)))
     if exponent >= 5 or exponent < -3:
-        return f"{fixed(value / 10.0**exponent, digits - 1)} × 10^{exponent}".replace("-", MINUS)
+        return f"{fixed(value / 10.0**exponent, digits - 1)} × 10{str(exponent).translate(_RAISED)}"
     return fixed(value, max(0, digits - 1 - exponent))
 
 

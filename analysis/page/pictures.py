@@ -93,14 +93,16 @@ def _svg(canvas: Any) -> str:
 
 def _marked(svg: str, tips: Tips, figure: Figure, inline: bool) -> str:
     """Title, description and marks; ids get the figure's key, so that many fit one page."""
-    key = figure.key
+    key = f"picture-{figure.key}"
     svg = re.sub(r'\b(id=")([^"]+")', rf"\1{key}-\2", svg)
     svg = re.sub(r'((?:xlink:)?href="#)', rf"\1{key}-", svg)
     svg = re.sub(r"(url\(#)", rf"\1{key}-", svg)
     start = svg.index("<svg")
     end = svg.index(">", start)
     names = f"{key}-title {key}-alt"
-    opening = f'{svg[start:end]} role="img" aria-labelledby="{names}">'
+    # marks inside a role="img" would be hidden from screen readers
+    role = "group" if inline else "img"
+    opening = f'{svg[start:end]} role="{role}" aria-labelledby="{names}">'
     opening = re.sub(r' (?:width|height)="[^"]+"', "", opening) if inline else opening
     about = (
         f'<title id="{key}-title">{escape(figure.title)}</title>'

@@ -7,10 +7,10 @@ from dataclasses import replace
 from analysis.comparison import Measure, apa_f, compare, measure
 from analysis.figures.comparison import bars_and_differences
 from analysis.measures import distance, over_tasks, relative_error, share_correct
-from analysis.page.blocks import Block, Column, Prose, Section, Table, say
+from analysis.page.blocks import Block, Prose, Section, Table, say
 from analysis.sections.context import Context
+from analysis.sections.ordinal import friedman_row, friedman_sentence, friedman_table
 from analysis.sections.tables import cell_table, keep, missing_note, name_of
-from analysis.stats.ranks import friedman
 from analysis.stats.undefined import is_defined
 
 CELLS_SHOWN = ("task", "transparency", "n", "trials", "mean", "sd", "median")
@@ -96,47 +96,6 @@ def _sentence(tests: Table, m: Measure, plan: object) -> Prose:
     return Prose((*start.runs, *end.runs))
 
 
-FRIEDMAN = (
-    Column("measure", "measure"),
-    Column("label", "measure"),
-    Column("n", "n", "int"),
-    Column("k", "k", "int"),
-    Column("mean_standard", "M standard", "fixed3"),
-    Column("mean_dynamic", "M dynamic", "fixed3"),
-    Column("chi2", "χ²", "fixed2"),
-    Column("df", "df", "int"),
-    Column("p", "p (χ²)", "p"),
-    Column("p_exact", "p (exact)", "p"),
-    Column("method", "by"),
-    Column("w", "Kendall W", "bound3"),
-    Column("w_low", "W from", "bound3", "95 % bootstrap interval"),
-    Column("w_high", "W to", "bound3", "95 % bootstrap interval"),
-)
-
-
-def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, object]:
-    """Friedman's test of the two levels; for k = 2 its exact p is the sign test's."""
-    import numpy as np
-
-    result = friedman(np.stack([m.standard, m.dynamic], axis=1), context.rng(purpose))
-    return {
-        "measure": m.key,
-        "label": m.label,
-        "n": result.n,
-        "k": result.k,
-        "mean_standard": float(m.standard.mean()),
-        "mean_dynamic": float(m.dynamic.mean()),
-        "chi2": result.chi2,
-        "df": result.df,
-        "p": result.p,
-        "p_exact": result.exact,
-        "method": result.method,
-        "w": result.w,
-        "w_low": result.w_interval[0],
-        "w_high": result.w_interval[1],
-    }
-
-
 def _correct(context: Context) -> list[Block]:
     cells = share_correct(context.trials)
     context.missing["share correct"] = cells.missing
@@ -149,5 +108,9 @@ def _correct(context: Context) -> list[Block]:
             rows.append(friedman_row(m, context, 10 + i))
     if not rows:
         return [table]
-    tests = Table("friedman_correct", "Right answers: Friedman tests", FRIEDMAN, tuple(rows))
-    return [table, tests]
+    tests = friedman_table("friedman_correct", "Right answers: Friedman tests", rows)
+    return [*(friedman_sentence(tests, str(r["measure"]), _said(r)) for r in rows), table, tests]
+
+
+def _said(row: dict[str, object]) -> str:
+    return f"Right answers, {row['label']}"

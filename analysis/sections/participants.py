@@ -5,7 +5,8 @@ from __future__ import annotations
 import pandas as pd
 
 from analysis.exclude import REPEATED, RULES
-from analysis.page.blocks import Block, Column, Prose, Section, Table, say
+from analysis.measures import design
+from analysis.page.blocks import Block, Column, Fold, Prose, Section, Table, say
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
 
@@ -44,15 +45,13 @@ def participants_section(context: Context) -> Section:
             total.cite("trials excluded", "count"),
         )
     )
+    counted = [total, _cells(context.trials), *([counts] if people <= 200 else [])]
     blocks += [
         *_deviations(context),
-        total,
-        _cells(context.trials),
         *_excluded(context),
         *_missing(context),
+        Fold("Trials by cell and by participant", tuple(counted)),
     ]
-    if people <= 200:
-        blocks.append(counts)
     if plan.exclude:
         said = "; ".join(f"{r}: {RULES[r][0] if r in RULES else 'by name'}" for r in plan.exclude)
         blocks.append(say(f"Exclusion rules: {said}.", kind="note"))
@@ -76,6 +75,8 @@ def _counts(context: Context) -> list[dict[str, object]]:
 
 def _cells(trials: pd.DataFrame) -> Table:
     sizes = trials.groupby(["task", "transparency"], observed=True).size()
+    levels = design(trials)
+    order = [(t, c) for t in levels["task"] for c in levels["transparency"] if (t, c) in sizes]
     return Table(
         "trials_by_cell",
         "Trials counted, by task and transparency",
@@ -86,8 +87,13 @@ def _cells(trials: pd.DataFrame) -> Table:
             Column("trials", "trials", "int"),
         ),
         tuple(
-            {"cell": f"{t}/{c}", "task": name_of(str(t)), "transparency": str(c), "trials": int(v)}
-            for (t, c), v in sizes.items()
+            {
+                "cell": f"{t}/{c}",
+                "task": name_of(t),
+                "transparency": c,
+                "trials": int(sizes[t, c]),
+            }
+            for t, c in order
         ),
         ("task", "transparency", "trials"),
     )

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from analysis.cells import Cells
 from analysis.comparison import Measure, measure
 from analysis.figures.comparison import ratings_figure
 from analysis.measures import answers, rating
 from analysis.page.blocks import Block, Column, Section, Table, say
-from analysis.sections.accuracy import FRIEDMAN, friedman_row
 from analysis.sections.context import Context
+from analysis.sections.ordinal import (
+    four_conditions,
+    friedman_row,
+    friedman_sentence,
+    friedman_table,
+)
 from analysis.sections.tables import keep, missing_note
 from analysis.stats.ranks import share_interval, sign_test
+from analysis.stats.undefined import ONE_PARTICIPANT, Undefined
 
 SINGLE = (
     Column("item", "item"),
     Column("n", "n", "int"),
-    Column("mean", "mean", "fixed2"),
+    Column("mean", "mean", "fixed2", "95 % interval of a share", "low", "high"),
     Column("sd", "s.d.", "fixed2"),
     Column("low", "from", "bound2", "95 % interval of the share"),
     Column("high", "to", "bound2", "95 % interval of the share"),
@@ -50,24 +58,14 @@ def _ratings(context: Context, cells: Cells) -> list[Block]:
     rows = [friedman_row(m, context, 30 + i) for i, m in enumerate([*overall, *each])]
     if not rows:
         return []
-    tests = Table("friedman_ratings", "Ratings (0–4): Friedman tests", FRIEDMAN, tuple(rows))
-    sentence = say(
-        "Overall rating (0–4): M = {} standard, {} dynamic, χ²({}) = {}, exact p {}.",
-        tests.cite("rating_overall", "mean_standard", "fixed2"),
-        tests.cite("rating_overall", "mean_dynamic", "fixed2"),
-        tests.cite("rating_overall", "df"),
-        tests.cite("rating_overall", "chi2"),
-        tests.cite("rating_overall", "p_exact"),
-    )
-    return [sentence, ratings_figure("ratings", each, cells.factors["scenario"]), tests]
+    tests = friedman_table("friedman_ratings", "Ratings (0–4): Friedman tests", rows)
+    sentence = friedman_sentence(tests, "rating_overall", "Overall rating (0–4)")
+    figure = ratings_figure("ratings", each, cells.factors["scenario"])
+    return [sentence, figure, tests, *four_conditions(context, cells, 50)]
 
 
 def _single(context: Context) -> list[Block]:
     """Items that were asked once."""
-    import numpy as np
-
-    from analysis.stats.undefined import ONE_PARTICIPANT, Undefined
-
     rows = []
     for item in ("preference", "depth_self_report", "depth_test"):
         values = answers(context.study.questionnaire, item)
@@ -89,12 +87,29 @@ def _single(context: Context) -> list[Block]:
         )
     if not rows:
         return []
+    table = Table(
+        "single_items",
+        "Preference and depth perception",
+        SINGLE,
+        tuple(rows),
+        tuple("item n mean sd p".split()),
+        "Preference: 1 dynamic, 0 standard or neutral; its interval is Clopper and Pearson's.",
+    )
+    return [*_preference(table), table]
+
+
+def _preference(table: Table) -> list[Block]:
+    if "preference" not in [r["item"] for r in table.rows]:
+        return []
+    p = table.cite("preference", "p")
     return [
-        Table(
-            "single_items",
-            "Preference and depth perception",
-            SINGLE,
-            tuple(rows),
-            note="Preference: 1 dynamic, 0 standard or neutral.",
+        say(
+            "A share of {} of {} participants prefer dynamic transparency, 95 % CI [{}, {}], sign "
+            f"test p {'' if p.text.startswith('<') else '= '}{{}}.",
+            table.cite("preference", "mean", "bound2"),
+            table.cite("preference", "n"),
+            table.cite("preference", "low"),
+            table.cite("preference", "high"),
+            p,
         )
     ]

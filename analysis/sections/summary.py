@@ -7,7 +7,7 @@ from analysis.page.blocks import Prose, Section, Table, say
 from analysis.sections.context import Context
 from analysis.stats.undefined import is_defined
 
-PLANNING = " (simulated participants: this says how the study would run, not how people do)"
+PLANNING = " (simulated participants)"
 
 
 def summary_section(

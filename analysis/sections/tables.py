@@ -12,7 +12,8 @@ from analysis.comparison import Measure
 from analysis.load.schema import TASK_CODES
 from analysis.page.blocks import Cited, Column, Prose, Table, say
 from analysis.stats.anova import Effect, repeated_measures
-from analysis.stats.undefined import ONE_PARTICIPANT, Undefined, is_defined
+from analysis.stats.distributions import bayes_factor_t
+from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
 
 EFFECTS = (
     Column("effect", "effect"),
@@ -26,25 +27,14 @@ EFFECTS = (
     Column("mauchly_w", "Mauchly W", "bound3"),
     Column("mauchly_p", "Mauchly p", "p"),
     Column("ges", "η²G", "bound3", "generalised η²"),
-    Column("pes", "η²p", "bound3", "partial η²"),
+    Column("pes", "η²p", "bound2", "90 % interval", "pes_low", "pes_high"),
     Column("pes_low", "from", "bound3", "90 % interval"),
     Column("pes_high", "to", "bound3", "90 % interval"),
+    Column("bf10", "BF₁₀", "sig3", "JZS"),
     Column("ss_effect", "SS", "sig4"),
     Column("ss_error", "SS error", "sig4"),
 )
-EFFECTS_SHOWN = (
-    "effect",
-    "df1",
-    "df2",
-    "F",
-    "p",
-    "eps",
-    "p_gg",
-    "ges",
-    "pes",
-    "pes_low",
-    "pes_high",
-)
+EFFECTS_SHOWN = tuple("effect df1 df2 F p eps p_gg ges pes bf10".split())
 
 
 SHORT = {
@@ -76,6 +66,7 @@ def effect_row(effect: Effect) -> dict[str, Any]:
         "pes": effect.pes,
         "pes_low": effect.pes_interval[0],
         "pes_high": effect.pes_interval[1],
+        "bf10": _bayes_factor(effect),
         "ss_effect": effect.ss_effect,
         "ss_error": effect.ss_error,
     }
@@ -95,16 +86,20 @@ def testable(cells: Cells) -> bool:
     return len(cells.values) > 0 and min(cells.values.shape[1:]) > 1
 
 
-def effect_sentence(table: Table, effect: str, words: str) -> Prose:
-    """A factorial effect in APA style, Greenhouse–Geisser's correction where ε < 1."""
+def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: float) -> Prose:
+    """A factorial effect in APA style, Greenhouse–Geisser's correction where df₁ > 1.
+
+    `what` says it with an effect and without.
+    """
     row = table.row(effect)
     if not is_defined(row["F"]):
-        return say("{}: {}.", words, table.cite(effect, "F"))
+        return say("{}: {}.", what[1], table.cite(effect, "F"))
+    words = what[0] if row["p_gg"] < alpha else what[1]
     p = table.cite(effect, "p_gg")
     runs: list[str | Cited] = [
         "F(",
         table.cite(effect, "df1"),
-        ", ",
+        ",\u00a0",
         table.cite(effect, "df2"),
         ") = ",
         table.cite(effect, "F"),
@@ -114,7 +109,16 @@ def effect_sentence(table: Table, effect: str, words: str) -> Prose:
     if row["df1"] > 1:
         runs += [" (Greenhouse–Geisser, ε = ", table.cite(effect, "eps", "bound2"), ")"]
     runs += [", η²G = ", table.cite(effect, "ges")]
-    return say("{}: {}.", words, runs)
+    return say("{}, {}.", words, runs)
+
+
+def _bayes_factor(effect: Effect) -> Number:
+    """The JZS factor of a one-df effect, whose t is √F."""
+    if not is_defined(effect.f):
+        return effect.f
+    if effect.df1 > 1:
+        return Undefined("given for effects of one degree of freedom")
+    return bayes_factor_t(float(np.sqrt(effect.f)), effect.n)
 
 
 CELL_COLUMNS = (
@@ -123,16 +127,18 @@ CELL_COLUMNS = (
     Column("transparency", "transparency"),
     Column("n", "n", "int"),
     Column("trials", "trials", "int"),
-    Column("mean", "mean", "sig4"),
-    Column("sd", "s.d.", "sig4"),
-    Column("geometric", "geometric mean", "sig4"),
-    Column("median", "median", "sig4"),
-    Column("minimum", "min", "sig4"),
-    Column("maximum", "max", "sig4"),
+    Column("mean", "mean", "own"),
+    Column("sd", "s.d.", "own"),
+    Column("geometric", "geometric mean", "own"),
+    Column("median", "median", "own"),
+    Column("minimum", "min", "own"),
+    Column("maximum", "max", "own"),
 )
 
 
-def cell_table(key: str, title: str, cells: Cells, shown: Sequence[str], note: str = "") -> Table:
+def cell_table(
+    key: str, title: str, cells: Cells, shown: Sequence[str], note: str = "", digits: int = 2
+) -> Table:
     """Mean and s.d. over participants of each task × transparency cell."""
     rows = []
     for i, task in enumerate(cells.factors["task"]):
@@ -143,6 +149,7 @@ def cell_table(key: str, title: str, cells: Cells, shown: Sequence[str], note: s
                     "cell": f"{task}/{level}",
                     "task": name_of(task),
                     "transparency": level,
+                    "digits": digits,
                     "n": len(values),
                     "trials": int(cells.counts[:, i, j].sum()),
                     **_spread(values),

@@ -109,8 +109,12 @@ def _factorial(context: Context, cells: Cells) -> list[Block]:
         log = anova_table("anova_time_task_log", "Transparency × task, log time", cells, True, note)
         raw = anova_table("anova_time_task", "Transparency × task, seconds", cells)
         effect = "task × transparency"
-        words = "Whether the technique's effect (a ratio of times) differs between tasks"
-        blocks += [effect_sentence(log, effect, words), log, Fold("On the raw scale", (raw,))]
+        what = (
+            "The technique's effect (a ratio of times) differs between tasks",
+            "The technique's effect (a ratio of times) does not demonstrably differ between tasks",
+        )
+        sentence = effect_sentence(log, effect, what, context.plan.alpha)
+        blocks += [sentence, log, Fold("On the raw scale", (raw,))]
     scenarios = by_scenario(cells, scenario_of(context.trials))
     if testable(scenarios):
         log = anova_table(
