@@ -13,6 +13,7 @@ from experiment.errors import InputError
 COMMANDS = {
     "run": "run a participant's session in a window",
     "simulate": "play a study with simulated participants",
+    "calibrate": "fit simulated participants to the published times",
     "power": "how many participants does a study need",
     "replay": "show a trial again from its log",
     "status": "slots of a study, its balance, and what to run next",

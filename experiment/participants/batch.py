@@ -49,12 +49,13 @@ def prepare(batch: Batch) -> None:
     _ready.update(batch=batch, study=study, pool=pool)
 
 
-def play_chunk(slots: Sequence[int]) -> list[dict[str, Any]]:
-    """Rows of the trial table of these slots, in order."""
+def play_chunk(slots: Sequence[int], profile: Profile | None = None) -> list[dict[str, Any]]:
+    """Rows of the trial table of these slots, in order; `profile` instead of the batch's."""
     batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    person = profile or batch.profile
     rows = []
     for slot in slots:
-        played = play_session(study, slot, batch.seed, pool, batch.profile, batch.without)
+        played = play_session(study, slot, batch.seed, pool, person, batch.without)
         rows += [trial_row(study, slot, trial) for trial in played]
     return rows
 
@@ -65,16 +66,11 @@ def play(batch: Batch, slots: Sequence[int], workers: int) -> Iterator[list[dict
     return ordered_map(play_chunk, chunks, workers, prepare, (batch,))
 
 
-def rehearse(batch: Batch, slots: Sequence[int]) -> tuple[int, int]:
-    """Fill the tables by playing these slots once, and save them: looks before and after."""
-    prepare(batch)
-    pool = _ready["pool"]
-    before = pool.looks
-    for slot in slots:
-        play_chunk([slot])
-    assert batch.tables is not None
-    pool.save(batch.tables)
-    return before, pool.looks
+def keep_tables() -> None:
+    """Save this process's tables, with what was drawn since they were loaded."""
+    batch, pool = _ready["batch"], _ready["pool"]
+    if batch.tables is not None:
+        pool.save(batch.tables)
 
 
 def fill(batch: Batch, progress: Any = None) -> int:

@@ -40,7 +40,7 @@ class Profile:
     subitise: float = 0.070
     subitising_range: int = 4
     count: float = 0.300
-    recheck: float = 0.160  # telling a thing as counted already, per item [ours]
+    recheck: float = 0.250  # telling a thing as counted already, per item [ours]
     slip: float = 0.010  # an item lost or counted twice in passing [ours]
     forget: float = 0.008  # counted things taken for new ones after a view change [ours]
     mistake_old: float = 0.10  # new things taken for counted ones after a view change [ours]
@@ -74,12 +74,12 @@ class Profile:
     drift: float = 0.10  # s.d. of where one believes to be, per root of the path length
     same_place: float = 5.0  # nearer than this, a thing is taken for one seen before
     tracked: int = 4  # things kept in sight as the view moves (ACT-R: 4 FINSTs)
-    plan_noise: float = 3.0  # s.d. of a mark on the plan
+    plan_noise: float = 8.0  # s.d. of a mark on the plan
 
     # People. Egan: coefficient of variation of times about .4 between people.
-    sd_person: float = 0.25  # s.d. of the logarithm of a person's pace
-    sd_task: float = 0.20  # and of the same person's pace at each task
-    sd_trial: float = 0.15  # and from trial to trial
+    sd_person: float = 0.35  # s.d. of the logarithm of a person's pace
+    sd_task: float = 0.30  # and of the same person's pace at each task
+    sd_trial: float = 0.25  # and from trial to trial
     sd_care: float = 0.30  # s.d. of the logarithm of a person's care
     pace: float = 1.0  # factor on all mental times
     care: float = 1.0  # factor on patience; slips and misses fall with it

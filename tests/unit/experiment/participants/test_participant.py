@@ -208,7 +208,8 @@ def test_people_differ_and_practice_helps():
         slow.append(moods[0])
         fast.append(moods[-1])
     assert (np.array(slow) > np.array(fast)).all()
-    assert 0.2 < np.std(np.log(fast)) < 0.5  # √(.25² + .20²) = .32
+    # √(.35² + .30²) = .46, and 30 people give its s.d. to 13 %.
+    assert 0.27 < np.std(np.log(fast)) < 0.65
 
 
 def test_effects_are_planned_with_reasons():
