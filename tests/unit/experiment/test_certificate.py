@@ -24,7 +24,7 @@ participants = 2
 seed = 5
 [design]
 trials = 1
-tasks = ["count", "unique"]
+tasks = ["count"]
 [abstract]
 side = 50.0
 objects = 60
@@ -137,7 +137,7 @@ def test_check_fails_names_the_trial_finds_redraws_and_they_match(study_file, tm
     assert "NOT MATCHED" not in capsys.readouterr().out
     with open(out, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert len(rows) == 8 and all(0 < float(r["visible"]) <= 1 for r in rows)
+    assert len(rows) == 4 and all(0 < float(r["visible"]) <= 1 for r in rows)
 
 
 def test_a_scene_drawn_again_comes_from_another_stream():
