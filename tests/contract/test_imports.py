@@ -60,9 +60,9 @@ OWNERS = {
     "moderngl": ("renderer/gpu/", "experiment/", "benchmarks/"),
     "pyglet": ("experiment/window.py", "experiment/viewer_window.py"),
     "imgui_bundle": ("experiment/",),
-    "pandas": ("analysis/", "benchmarks/"),
-    "statsmodels": ("analysis/", "benchmarks/"),
-    "matplotlib": ("analysis/", "benchmarks/"),
+    "pandas": ("analysis/", "experiment/", "benchmarks/"),
+    "statsmodels": ("analysis/", "experiment/", "benchmarks/"),
+    "matplotlib": ("analysis/", "experiment/", "benchmarks/"),
     "PIL": ("experiment/", "analysis/", "benchmarks/"),
     "renderer.gpu": ("renderer/gpu/", "experiment/", "benchmarks/"),
 }
