@@ -78,10 +78,14 @@ def _distances(
     for v in range(len(pixels)):
         pixels[v, 0] -= tile[0]
         pixels[v, 1] -= tile[1]
-    out = np.full((tile[3], tile[2]), FAR, np.float32)
+    out = np.full((tile[3], tile[2]), FAR * FAR, np.float32)
     _cover(pixels, edges, out)
     way, starts, meets = _walks(edges, len(pixels))
     _skirt(pixels, way, starts, meets, reach, straight, out)
+    for row in range(tile[3]):  # what the skirt put in are squares
+        for column in range(tile[2]):
+            if out[row, column] > 0:
+                out[row, column] = np.sqrt(out[row, column])
     return out
 
 
@@ -187,7 +191,7 @@ def _straight(pixels, points, base, size, i, j, slack):  # type: ignore[no-untyp
     ax, ay = pixels[points[base + i], 0], pixels[points[base + i], 1]
     b = points[base + j % size]
     dx, dy = pixels[b, 0] - ax, pixels[b, 1] - ay
-    length = np.hypot(dx, dy)
+    length = np.sqrt(dx * dx + dy * dy)
     if length == 0:
         return False
     dx, dy = dx / length, dy / length
@@ -221,7 +225,7 @@ def _stretches(pixels, points, base, size, meets, slack, ends):  # type: ignore[
 def _hidden(px, py, qx, qy, nx, ny, out):  # type: ignore[no-untyped-def]
     """Whether the target also covers the outer side of a stretch, a pixel away from it."""
     height, width = out.shape
-    steps = 2 + int(min(np.hypot(qx - px, qy - py), 1e6))
+    steps = 2 + int(min(np.sqrt((qx - px) ** 2 + (qy - py) ** 2), 1e6))
     for t in range(steps + 1):
         x, y = px + (qx - px) * t / steps + nx, py + (qy - py) * t / steps + ny
         if not (0 <= x < width and 0 <= y < height) or out[int(y), int(x)] >= 0:
@@ -238,25 +242,24 @@ def _window(low, high, size):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, nogil=True)
 def _beside(px, py, qx, qy, nx, ny, reach, out):  # type: ignore[no-untyped-def]
-    """Distances of the pixels on the outer side (nx, ny) of a stretch from p to q."""
+    """Squared distances of the pixels on the outer side (nx, ny) of a stretch from p to q."""
     height, width = out.shape
-    ox, oy, length = nx * reach, ny * reach, np.hypot(qx - px, qy - py)
+    ox, oy, length = nx * reach, ny * reach, np.sqrt((qx - px) ** 2 + (qy - py) ** 2)
     first, last = _window(min(px, qx, px + ox, qx + ox), max(px, qx, px + ox, qx + ox), width)
     top, bottom = _window(min(py, qy, py + oy, qy + oy), max(py, qy, py + oy, qy + oy), height)
     for row in range(top, bottom):
         for column in range(first, last):
             x, y = column + 0.5 - px, row + 0.5 - py
             d = x * nx + y * ny
-            if 0 <= d <= reach and d < out[row, column]:
-                along = x * ny - y * nx  # the stretch runs along (ny, −nx)
-                if -1e-9 <= along <= length + 1e-9:
-                    out[row, column] = d
+            along = x * ny - y * nx  # the stretch runs along (ny, −nx)
+            if 0 <= d <= reach and -1e-9 <= along <= length + 1e-9 and d * d < out[row, column]:
+                out[row, column] = d * d
 
 
 @njit(cache=True, nogil=True)
 def _about(px, py, ax, ay, bx, by, reach, out):  # type: ignore[no-untyped-def]
-    """Distances of the pixels round a corner p from normal a to b, if it turns outwards; of all
-    pixels round it where both are 0."""
+    """Squared distances of the pixels round a corner p from normal a to b, if it turns outwards;
+    of all pixels round it where both are 0."""
     height, width = out.shape
     whole = ax == 0 and ay == 0
     if not whole and ax * by - ay * bx >= 0 and ax * bx + ay * by > -0.999999:
@@ -274,17 +277,16 @@ def _about(px, py, ax, ay, bx, by, reach, out):  # type: ignore[no-untyped-def]
     for row in range(top, bottom):
         for column in range(first, last):
             x, y = column + 0.5 - px, row + 0.5 - py
+            square = x * x + y * y
             # Beyond the stretch before, which runs along (ay, −ax), and before the one after.
-            if not whole and (x * ay - y * ax < -1e-9 or x * by - y * bx > 1e-9):
-                continue
-            d = np.hypot(x, y)
-            if d <= reach and d < out[row, column]:
-                out[row, column] = d
+            if square < out[row, column] and square <= reach * reach:
+                if whole or (x * ay - y * ax >= -1e-9 and x * by - y * bx <= 1e-9):
+                    out[row, column] = square
 
 
 @njit(cache=True, nogil=True)
 def _skirt(pixels, points, starts, meets, reach, slack, out):  # type: ignore[no-untyped-def]
-    """Put the least distance into `out` for the pixels outside the walks.
+    """Put the square of the least distance into `out` for the pixels outside the walks.
 
     Beside each stretch and round each corner that turns outwards; all round where walks meet;
     nothing where the target covers both sides.
@@ -300,7 +302,7 @@ def _skirt(pixels, points, starts, meets, reach, slack, out):  # type: ignore[no
             p, q = points[base + begin], points[base + ends[e] % size]
             begin = ends[e]
             px, py, qx, qy = pixels[p, 0], pixels[p, 1], pixels[q, 0], pixels[q, 1]
-            length = np.hypot(qx - px, qy - py)
+            length = np.sqrt((qx - px) ** 2 + (qy - py) ** 2)
             nx = ny = 0.0
             if length > 0:
                 nx, ny = -(qy - py) / length, (qx - px) / length

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import argparse
 import re
+import tomllib
 from collections.abc import Callable
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
 
 from experiment.errors import InputError
 from renderer.camera import Camera, look_at
-from renderer.plan import Technique
+from renderer.explain import explain
+from renderer.plan import SHORTCUTS, Technique
 from renderer.scene import Scene
 from renderer.techniques.dynamic import DynamicTransparency
 from renderer.techniques.standard import Standard
@@ -72,6 +75,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
     parser.add_argument("--seed", type=int, default=1, help="of the scene, ≥ 0")
     parser.add_argument("--samples", type=int, default=0, help="for antialiasing, 0 to 16")
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="a parameter of the technique, as mask=circle (may be given again)",
+    )
+    parser.add_argument(
+        "--explain", action="store_true", help="print what the frame needs, and why"
+    )
+    parser.add_argument(
+        "--without",
+        metavar="SHORTCUT",
+        action="append",
+        default=[],
+        help=f"a shortcut not to take (may be given again): {', '.join(SHORTCUTS)}",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -88,17 +108,44 @@ def run(args: argparse.Namespace) -> int:
     from renderer.gpu.renderer import Renderer
 
     scene, camera = SCENES[args.scene](args.seed, size[0] / size[1])
+    technique = _technique(args.technique, args.set)
+    unknown = sorted(set(args.without) - set(SHORTCUTS))
+    if unknown:
+        raise InputError(f"--without = {unknown[0]}: expected one of {', '.join(SHORTCUTS)}")
     try:
-        renderer = Renderer(standalone(), size, args.samples)
+        renderer = Renderer(standalone(), size, args.samples, frozenset(args.without))
     except RuntimeError as error:
         raise InputError(str(error)) from error
-    stats = renderer.draw(scene, camera, TECHNIQUES[args.technique]())
+    stats = renderer.draw(scene, camera, technique)
     Image.fromarray(renderer.read()).save(out)
     print(
         f"{out}: {len(scene.objects)} objects, {stats.passes} passes, {stats.draws} draws, "
         f"{stats.masks} masks, {stats.ordered} objects put in order"
     )
+    if args.explain and renderer.plan is not None:
+        print("\n".join(explain(scene, renderer.plan)))
     return 0
+
+
+def _technique(name: str, settings: list[str]) -> Technique:
+    """The technique with `settings` ("key=value", values as in TOML or bare words)."""
+    values: dict[str, object] = {}
+    known = {field.name for field in fields(TECHNIQUES[name]())}
+    for text in settings:
+        key, equals, value = text.partition("=")
+        if not equals or key not in known:
+            wanted = ", ".join(sorted(known)) or f"none, {name} has no parameters"
+            raise InputError(f"--set = {text}: expected KEY=VALUE with one of {wanted}")
+        try:
+            values[key] = tomllib.loads(f"value = {value}")["value"]
+        except tomllib.TOMLDecodeError:
+            values[key] = value
+        if isinstance(values[key], list):
+            values[key] = tuple(values[key])  # type: ignore[arg-type]
+    try:
+        return replace(TECHNIQUES[name](), **values)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"--set: {error}") from error
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -67,6 +67,8 @@ class DynamicTransparency:
         checks.number(_OWNER, "radius", self.radius, 0, 100)
         checks.number(_OWNER, "softness", self.softness, 0, 100)
         if self.pointer is not None:
+            if not isinstance(self.pointer, tuple) or len(self.pointer) != 2:
+                raise ValueError(f"{_OWNER}: pointer = {self.pointer!r}, expected two numbers")
             for name, value in zip(("pointer x", "pointer y"), self.pointer, strict=True):
                 checks.number(_OWNER, name, value, -1e6, 1e6)
         if self.layers is not None:
