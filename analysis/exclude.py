@@ -52,7 +52,8 @@ def apply_rules(
 
     Earlier attempts at a repeated trial never count. Raises DataError for an unknown rule.
     """
-    last = trials.groupby(["participant", "session", "trial"], observed=True)["attempt"]
+    # attempts count on through the sessions of a participant who was interrupted
+    last = trials.groupby(["participant", "trial"], observed=True)["attempt"]
     reason = pd.Series("", index=trials.index, dtype="object")
     reason[trials["attempt"] < last.transform("max")] = REPEATED
     for rule in rules:

@@ -66,7 +66,7 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         _check_source(questions, chosen)
     files = [*_records(sources, trials), *_records(answers, questions)]
     sidecars = _sidecars(paths, folder)
-    chains = [verify(s, sidecars.get(s.name, {})) for s in sources]
+    chains = [verify(s, sidecars.get(s.name, {}), folder) for s in sources]
     return Study(
         folder,
         str(about.get("name", folder.name)),

@@ -59,12 +59,15 @@ def _plan(plan: Plan) -> str:
 
 
 def _chains(states: list[str]) -> str:
-    good, none = states.count("verified"), states.count("none")
-    if good and not none:
-        return f"all {good} verified, no byte of a row was changed"
-    if not good:
-        return "none recorded, so changes to the files after collection would not show"
-    return f"{good} verified, {none} tables without one"
+    """The chains' state in a sentence; a broken one never gets this far."""
+    said = {
+        "verified": "verified to the end of the session",
+        "open": "verified as far as they go, of sessions that were never closed",
+        "none": "without a chain, where later changes would not show",
+    }
+    counts = {state: states.count(state) for state in said}
+    parts = [f"{count} {said[state]}" for state, count in counts.items() if count]
+    return f"of {len(states)} trial tables {'; '.join(parts)}"
 
 
 def _recorded(sidecars: Iterable[Mapping[str, Any]]) -> list[dict[str, str]]:

@@ -13,7 +13,7 @@ import pytest
 from made_data import Made, make_folder
 
 from analysis.errors import SHOWN, DataError
-from analysis.load.chain import link
+from analysis.load.chain import link, start_of
 from analysis.load.study import load_study
 from analysis.report import Options, make_report
 from experiment.cli import main
@@ -186,41 +186,63 @@ def test_free_text_with_line_breaks_counts_rows_not_lines(folder):
     refused(folder, r"row 3: value = 'x\d': expected a finite number")
 
 
-def chain(folder: Path) -> None:
-    """Give P01's table a hash chain, as its sidecar announces."""
+def chain(folder: Path) -> Path:
+    """Give P01's table a hash chain, as the recorder does."""
     path = folder / TRIALS
     lines = path.read_text().rstrip("\n").split("\n")
-    before, out = "start", [lines[0] + ",chain"]
+    header = lines[0] + ",chain"
+    sidecar = path.with_suffix(".json")
+    about = {**json.loads(sidecar.read_text()), "chain": {}}
+    before = start_of(about, header)
+    sidecar.write_text(json.dumps({**about, "chain": {"start": before}}))
+    out = [header]
     for line in lines[1:]:
         before = link(before, line)
         out.append(f"{line},{before}")
     path.write_text("\n".join(out) + "\n")
-    sidecar = path.with_suffix(".json")
-    about = json.loads(sidecar.read_text())
-    sidecar.write_text(json.dumps({**about, "chain": {"start": "start", "end": before}}))
+    answers = folder / ANSWERS
+    files = {answers.name: hashlib.sha256(answers.read_bytes()).hexdigest()}
+    end = path.with_name(path.name.replace("_trials_data.csv", "_end.json"))
+    end.write_text(json.dumps({"chain": before, "files": files}))
+    return end
 
 
 def test_a_good_chain_is_verified(folder):
-    chain(folder)
+    end = chain(folder)
     states = {c.file: c.state for c in load_study(folder).chains}
     assert states[TRIALS] == "verified"
     assert sorted(states.values()) == ["none", "none", "verified"]
+    end.unlink()
+    assert {c.file: c.state for c in load_study(folder).chains}[TRIALS] == "open"
 
 
 def test_one_changed_byte_is_found_and_named(folder):
     chain(folder)
     path = folder / TRIALS
     lines = path.read_text().split("\n")
-    lines[9] = lines[9].replace("false", "true ".strip(), 1)
+    lines[9] = lines[9].replace("false", "true", 1)
     path.write_text("\n".join(lines))
-    refused(folder, r"P01.*: row 10: chain = .*: this row or the one before was changed")
+    refused(folder, r"P01.*: row 10: changed, or a row before it removed")
 
 
 def test_rows_cut_off_at_the_end_are_found(folder):
     chain(folder)
     path = folder / TRIALS
     path.write_text("\n".join(path.read_text().split("\n")[:-3]) + "\n")
-    refused(folder, r"rows after this one were removed")
+    refused(folder, r"P01.*: rows at its end were removed or added")
+
+
+def test_a_changed_sidecar_is_found(folder):
+    chain(folder)
+    sidecar = (folder / TRIALS).with_suffix(".json")
+    sidecar.write_text(sidecar.read_text().replace("0.1.0", "0.1.1"))
+    refused(folder, r"P01.*: row 1: this header, or its sidecar, was changed")
+
+
+def test_a_changed_questionnaire_is_found(folder):
+    chain(folder)
+    edit(folder / ANSWERS, 4, "value", "4")
+    refused(folder, r"P01.*questionnaire_data.csv: changed after the session")
 
 
 def test_a_participant_without_a_cell_is_left_out_by_name(folder):

@@ -1,0 +1,36 @@
+"""The analysis reads what the recorder writes: neither imports the other, the files are between."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from analysis.load import schema
+from analysis.load.chain import link, start_of
+from experiment import chain
+from experiment.columns import TABLES
+
+
+@pytest.mark.parametrize(
+    ("table", "read"), [("trials", schema.TRIALS), ("questionnaire", schema.QUESTIONNAIRE)]
+)
+def test_every_column_read_is_written_with_the_same_type(table: str, read: dict[str, str]) -> None:
+    """Names and types agree; the recorder may write more than the analysis reads."""
+    written = {c.name: c.type for c in TABLES[table]}
+    assert {name: written.get(name) for name in read} == dict(read)
+
+
+def test_levels_are_the_same() -> None:
+    """A level that the recorder may write is one that the analysis knows."""
+    written = {c.name: c.levels for c in TABLES["trials"] if c.levels}
+    assert {name: tuple(levels) for name, levels in schema.LEVELS.items()} == written
+
+
+def test_the_chain_is_the_same_chain(tmp_path: Path) -> None:
+    """Both sides compute it by themselves, from the same words."""
+    sidecar = {"study": "s", "a": [1, "ü"], "chain": {"follows": "x", "start": "ignored"}}
+    again = json.loads(json.dumps(sidecar))
+    assert start_of(again, "row_id,chain") == chain.start_of(sidecar, "row_id,chain")
+    assert link("before", "row, text ü") == chain.link("before", "row, text ü")
