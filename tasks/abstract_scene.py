@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from renderer import geometry
 from renderer.geometry import Mesh
-from renderer.scene import Object, Scene
+from renderer.scene import Color, Object, Scene
 from renderer.transforms import placed, random_rotation
 from tasks.enclosure import enclosing_pairs
 from tasks.letters import grid_reach, letter_points
 from tasks.parameters import AbstractParameters
 
 RED = (1.0, 0.0, 0.0)
+VERMILION = (0.835, 0.369, 0.0)  # the red of Okabe and Ito's palette, apart from blue for everybody
 
 # Distractors of less than this in both green and blue would be black and lose their shading.
 DARKEST = 0.2
@@ -38,6 +39,18 @@ def unit_mesh(shape: str) -> Mesh:
     return geometry.torus(0.72, 0.28, 13, 6)
 
 
+def target_color(p: AbstractParameters) -> Color:
+    """Pure red as published, or a red that red–green blind people tell from the distractors."""
+    return RED if p.palette == "published" else VERMILION
+
+
+def distractor_color(p: AbstractParameters, green: float, blue: float) -> Color:
+    """Random green and blue and no red (004 §VI-D); in the safe palette only blues of some kind."""
+    if p.palette == "published":
+        return (0.0, green, blue)
+    return (0.0, 0.2 + 0.45 * green, 0.45 + 0.55 * blue)
+
+
 def abstract_scene(
     rng: Generator, parameters: AbstractParameters, pattern: str | None = None
 ) -> Scene:
@@ -53,13 +66,14 @@ def abstract_scene(
         spacing = (p.side / 2 - p.radius[1]) / grid_reach()
         places = letter_points(pattern, spacing, rng.uniform(0, 2 * np.pi))
     targets = _number_of_targets(rng, p, len(places))
-    objects = [_object(rng, p, "cone", RED, place) for place in places]
+    red = target_color(p)
+    objects = [_object(rng, p, "cone", red, place) for place in places]
     free = p.shapes if pattern is None else tuple(s for s in p.shapes if s != "cone")
     if not free and targets > len(places):
         raise ValueError(f"shapes = {list(p.shapes)}, expected another than the pattern's cones")
-    objects += [_random_object(rng, p, free, RED) for _ in range(targets - len(places))]
+    objects += [_random_object(rng, p, free, red) for _ in range(targets - len(places))]
     objects += [
-        _random_object(rng, p, p.shapes, (0.0, *rng.uniform(DARKEST, 1, 2)))
+        _random_object(rng, p, p.shapes, distractor_color(p, *rng.uniform(DARKEST, 1, 2)))
         for _ in range(p.objects - targets)
     ]
     return Scene(tuple(_disclosed(rng, p, objects, len(places))))
@@ -92,7 +106,7 @@ def _object(
         room = p.side / 2 - radius
         place = rng.uniform(-room, room, 3)
     matrix = placed(place, random_rotation(rng), stretch)
-    return Object(mesh, matrix, color, target=color == RED, kind=shape)
+    return Object(mesh, matrix, color, target=color == target_color(p), kind=shape)
 
 
 def _proportions(rng: Generator, shape: str) -> NDArray[np.float64]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import pi
 
 SHAPES = ("sphere", "cone", "box", "torus")
+PALETTES = ("published", "colour-blind-safe")
 
 
 def _between(name: str, value: float, low: float, high: float) -> None:
@@ -36,6 +37,7 @@ class AbstractParameters:
     target_share: tuple[float, float] = (0.10, 0.20)
     radius: tuple[float, float] = (2.5, 5.0)
     shapes: tuple[str, ...] = SHAPES
+    palette: str = "published"
     fov_y: float = pi / 3
     start_pitch: float = 0.35
     drag_gain: float = pi
@@ -49,6 +51,8 @@ class AbstractParameters:
         unknown = [s for s in self.shapes if s not in SHAPES]
         if unknown or not self.shapes or len(set(self.shapes)) < len(self.shapes):
             raise ValueError(f"shapes = {list(self.shapes)}, expected some of {list(SHAPES)}")
+        if self.palette not in PALETTES:
+            raise ValueError(f"palette = {self.palette!r}, expected one of {list(PALETTES)}")
         _between("fov_y", self.fov_y, 0.1, 2.5)
         _between("start_pitch", self.start_pitch, -pi / 2, pi / 2)
         _between("drag_gain", self.drag_gain, 0.1, 20)

@@ -130,3 +130,33 @@ def test_a_letter_that_does_not_fit_is_refused():
 def test_other_shapes_do_not_change_what_a_pattern_is():
     scene = scene_of(3, "X", shapes=("cone", "box"))
     assert {o.kind for o in scene.objects if o.target} == {"cone", "box"}
+
+
+# Viénot, Brettel & Mollon 1999: what a deuteranope and a protanope see, in linear RGB.
+DEUTAN = np.array([[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]])
+PROTAN = np.array([[0.11238, 0.88762, 0.0], [0.11238, 0.88762, 0.0], [0.00401, -0.00401, 1.0]])
+
+
+@pytest.mark.parametrize("sight", [np.eye(3), DEUTAN, PROTAN])
+def test_the_safe_palette_keeps_targets_apart_for_everybody(sight):
+    safe = AbstractParameters(palette="colour-blind-safe")
+    scene = abstract_scene(np.random.default_rng(1), safe)
+    seen = np.array([sight @ np.power(o.color, 2.2) for o in scene.objects])
+    chroma = seen / seen.sum(axis=1, keepdims=True)  # hue without lightness, which shading changes
+    targets, others = chroma[scene.targets], chroma[~scene.targets]
+    apart = np.linalg.norm(targets[:, None] - others[None], axis=2)
+    # Twice the largest distance among the distractors themselves would be a gap anybody sees; the
+    # published palette has targets and distractors that coincide for a deuteranope.
+    assert apart.min() > 0.4
+
+
+def test_the_palettes_differ_in_colour_alone():
+    published = abstract_scene(np.random.default_rng(1), AbstractParameters())
+    safe = abstract_scene(np.random.default_rng(1), AbstractParameters(palette="colour-blind-safe"))
+    np.testing.assert_array_equal(published.transforms, safe.transforms)
+    np.testing.assert_array_equal(published.targets, safe.targets)
+
+
+def test_an_unknown_palette_is_named():
+    with pytest.raises(ValueError, match=r"palette = 'pink', expected one of \['published'"):
+        AbstractParameters(palette="pink")
