@@ -1,0 +1,155 @@
+"""Calibration against made-up data, profiles as files, batches."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from experiment.errors import InputError
+from experiment.participants import batch
+from experiment.participants.calibration import (
+    FREE,
+    LEVELS,
+    TimeMeasure,
+    calibrate,
+    measured,
+    misfit,
+    published,
+    table,
+    with_free,
+)
+from experiment.participants.profile import AVERAGE
+from experiment.participants.profile_file import find, read, write
+
+
+def rows_of(means, sds, r, task, n=16, seed=1):
+    """Trials whose participants' means have exactly these moments."""
+    z = np.random.default_rng(seed).standard_normal((n, 2))
+    z -= z.mean(axis=0)
+    z = z @ np.linalg.inv(np.linalg.cholesky(np.cov(z.T))).T
+    z = np.stack([z[:, 0], r * z[:, 0] + (1 - r * r) ** 0.5 * z[:, 1]], axis=1)
+    values = z * sds + means
+    return [
+        {"task": task, "transparency": level, "participant": f"S{i}", "time": values[i, k] + wiggle}
+        for i in range(n)
+        for k, level in enumerate(LEVELS)
+        for wiggle in (-1.0, 0.0, 1.0)  # trials, which the participant's mean takes out
+    ]
+
+
+def published_rows():
+    return [
+        row
+        for task, m in published().items()
+        for row in rows_of(m.means, m.sds, m.r, task, seed=len(task))
+    ]
+
+
+def test_data_with_the_published_moments_fits_perfectly():
+    found = measured(published_rows())
+    for task, theirs in published().items():
+        assert_allclose(found[task].means, theirs.means, rtol=1e-9)
+        assert_allclose(found[task].sds, theirs.sds, rtol=1e-9)
+        assert_allclose(found[task].r, theirs.r, atol=1e-9)
+    assert misfit(found) < 1e-12
+
+
+def test_implied_correlations_are_those_of_the_study_page():
+    expected = {"count": 0.867, "pattern": 0.721, "unique": 0.378, "count_in_building": 0.388}
+    for task, r in expected.items():
+        assert_allclose(published()[task].r, r, atol=5e-4)  # printed to three places
+
+
+def test_misfit_counts_in_tolerances():
+    found = measured(published_rows())
+    m = found["count"]
+    found["count"] = TimeMeasure((m.means[0] * np.exp(0.05), m.means[1]), m.sds, m.r)
+    assert_allclose(misfit(found, ("count",)), 1 / 5, rtol=1e-9)  # one of five terms is one
+    assert misfit(found, ("unique",)) < 1e-12
+
+
+def test_free_constants_stay_within_their_bounds():
+    assert with_free(AVERAGE, np.zeros(len(FREE))) == AVERAGE
+    far = with_free(AVERAGE, np.full(len(FREE), 9.0))
+    assert_allclose(far.pace, AVERAGE.pace * FREE["pace"])
+    assert far.diligence <= 1
+
+
+def test_a_known_pace_is_found_again():
+    """A world in which times are exactly proportional to pace, and published at 1.7."""
+
+    def play(profile):
+        return [
+            {**row, "time": row["time"] * profile.pace / (1.7 * AVERAGE.pace)}
+            for row in published_rows()
+        ]
+
+    said = []
+    best, value = calibrate(AVERAGE, play, 60, lambda number, v: said.append((number, v)))
+    assert_allclose(best.pace, 1.7, rtol=0.02)
+    assert value < misfit(measured(play(AVERAGE))) / 100
+    assert [n for n, _ in said] == list(range(1, len(said) + 1)) and len(said) <= 61
+    assert all(b <= a for (_, a), (_, b) in pairwise(said))
+
+
+def test_table_names_every_measure_and_its_half():
+    lines = table(measured(published_rows()))
+    assert len(lines) == 1 + 4 * 5
+    assert sum(line.endswith("  held out") for line in lines) == 10
+    assert all("1.00" in line for line in lines if " mean" in line)
+
+
+def test_profiles_survive_being_written(tmp_path):
+    profile = replace(AVERAGE, name="mine", pace=1.25, tracked=3)
+    path = tmp_path / "mine.toml"
+    write(path, profile, {"command": 'a "quoted" one', "fitted": ["count"], "misfit": 0.5})
+    assert read(path) == profile and find(str(path)) == profile
+    assert find("careful").name == "careful"
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("[profile]\npaec = 1.0", r"p.toml: profile.paec: unknown; known: attention_shift"),
+        ("[profile]\npace = 'fast'", r"p.toml: profile.pace = 'fast': expected a number"),
+        ("[profile]\nname = 3", r"p.toml: profile.name = 3: expected a text"),
+        ("[profile]\npace = true", r"p.toml: profile.pace = True: expected a number"),
+        ("[profile]\nkey = -2", r"p.toml: profile.key = -2, expected a number from 0 to 1000"),
+        ("profile = 3", r"p.toml: profile = 3: expected a table"),
+        ("[profile", r"p.toml: "),
+    ],
+)
+def test_bad_profile_files_are_refused_in_a_line(tmp_path, text, message):
+    path = tmp_path / "p.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=message):
+        read(path)
+
+
+def test_a_profile_nobody_knows_is_refused():
+    with pytest.raises(InputError, match=r"--profile = hero: expected one of average, careful"):
+        find("hero")
+
+
+def test_a_batch_writes_whole_chunks_and_goes_on_where_it_stopped(tmp_path):
+    from experiment.config import load
+
+    study = load("demo")
+    job = batch.Batch("demo", 1, 2)
+    assert batch.missing_chunks(tmp_path, study, 40) == [
+        tuple(range(1, 17)), tuple(range(17, 33)), tuple(range(33, 41)),
+    ]  # fmt: skip
+    row = {"row_id": "x", "participant": "S01", "time": 1.5, "correct": True}
+    batch.write(tmp_path, job, study, tuple(range(17, 33)), [row])
+    assert batch.missing_chunks(tmp_path, study, 40) == [
+        tuple(range(1, 17)), tuple(range(33, 41)),
+    ]  # fmt: skip
+    files = sorted(batch.chunk_folder(tmp_path, (17, 32)).iterdir())
+    assert [f.suffix for f in files] == [".csv", ".json"]
+    assert ",true," in files[0].read_text()
+    about = (tmp_path / "dataset_description.json").read_text().replace("demo", "other")
+    (tmp_path / "dataset_description.json").write_text(about)
+    with pytest.raises(InputError, match=r"holds study other, expected demo"):
+        batch.missing_chunks(tmp_path, study, 40)
