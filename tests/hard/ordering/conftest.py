@@ -7,7 +7,7 @@ only decide what lies in the rounding band, where no order is demanded.
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -47,7 +47,7 @@ def plane(corners):
 def vector_area(points):
     """Twice the area as a vector, of a loop of rational points."""
     total = (Fraction(0),) * 3
-    for p, q in zip(points[1:], points[2:], strict=False):
+    for p, q in pairwise(points):
         total = tuple(
             a + b
             for a, b in zip(total, cross(minus(p, points[0]), minus(q, points[0])), strict=True)
@@ -144,7 +144,7 @@ def wrong_pairs(polygons, prepared, rng, eyes=4, rays=12, factor=64.0):
     """
     pieces = Pieces(polygons, prepared)
     low, high = polygons.vertices.min(axis=0), polygons.vertices.max(axis=0)
-    size = float(max((high - low).max(), 1e-300))
+    size = float((high - low).max()) or 1.0
     band = factor * EPS * max(size, float(np.abs(polygons.vertices).max()))
     wrong = []
     for _ in range(eyes):
