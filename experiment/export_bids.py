@@ -1,0 +1,141 @@
+"""Brain Imaging Data Structure: trials as events of a behavioural task, answers as phenotype."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from experiment.columns import TRIALS, Column
+from experiment.errors import InputError
+from experiment.export import Dataset, Row, as_json, put
+from experiment.export_wide import item_name
+
+VERSION = "1.10.0"
+TASK = "seethrough"
+IDENTITY = ("row_id", "study", "participant", "session", "source", "events_file", "camera_file")
+KEPT = tuple(c for c in TRIALS if c.name not in (*IDENTITY, "started", "chain")
+             and not c.name.endswith("sha256"))  # fmt: skip
+FIRST = {
+    "onset": {"Description": "first frame of the trial, from the session's first", "Units": "s"},
+    "duration": {"Description": "completion time", "Units": "s"},
+    "trial_type": {"Description": "transparency_scenario_task"},
+    "response_time": {"Description": "first frame to the answer's confirmation", "Units": "s"},
+}
+README = """{name}
+
+Trials of a user study of occlusion management, recorded by Seethrough, exported as BIDS {version}.
+Events are trials; the columns are described in task-{task}_events.json.
+"""
+
+
+def bids(data: Dataset, out: Path) -> None:
+    """A BIDS dataset without recordings of the brain: sub-…/ses-…/beh. Raises InputError."""
+    labels = _labels(data.participants)
+    about = {"Name": data.name, "BIDSVersion": VERSION, "DatasetType": "raw"}
+    put(out / "dataset_description.json", as_json(about))
+    put(out / "README", README.format(name=data.name, version=VERSION, task=TASK))
+    columns = {**FIRST, **{c.name: _column(c) for c in KEPT}}
+    put(out / f"task-{TASK}_events.json", as_json({"TaskName": TASK, **columns}))
+    _participants(data, out, labels)
+    sessions: dict[tuple[str, str], list[Row]] = defaultdict(list)
+    for row in data.tables["trials"]:
+        sessions[row["participant"], row["session"]].append(row)
+    for (participant, session), rows in sessions.items():
+        label = labels[participant]
+        stem = f"sub-{label}_ses-{session}_task-{TASK}_events"
+        folder = out / f"sub-{label}" / f"ses-{session}" / "beh"
+        put(folder / f"{stem}.tsv", _tsv([*FIRST, *(c.name for c in KEPT)], _events(rows)))
+        put(folder / f"{stem}.json", as_json(_presentation(data, participant, session)))
+    if data.tables["questionnaire"]:
+        _phenotype(data, out, labels)
+
+
+def _labels(participants: Sequence[str]) -> dict[str, str]:
+    """BIDS labels are letters and digits only."""
+    labels = {p: re.sub(r"[^A-Za-z0-9]", "", p) for p in participants}
+    for label in labels.values():
+        same = [p for p in participants if labels[p].lower() == label.lower()]
+        if len(same) > 1 or not label:
+            raise InputError(
+                f"--format = bids: participants {', '.join(same)}: expected ids that differ in "
+                "their letters and digits, of which BIDS makes its labels"
+            )
+    return labels
+
+
+def _events(rows: Sequence[Row]) -> list[dict[str, str]]:
+    """Trials with their onset from the session's first, in the order of their onsets."""
+    starts = [datetime.fromisoformat(row["started"]) for row in rows]
+    events = []
+    for start, row in sorted(zip(starts, rows, strict=True), key=lambda pair: pair[0]):
+        onset = (start - min(starts)).total_seconds()
+        kind = f"{row['transparency']}_{row['scenario']}_{row['task']}"
+        first = {"onset": repr(onset), "duration": row["time"], "trial_type": kind}
+        kept = {c.name: row[c.name] for c in KEPT}
+        events.append({**first, "response_time": row["time"], **kept})
+    return events
+
+
+def _presentation(data: Dataset, participant: str, session: str) -> dict[str, Any]:
+    """How it was shown, from the session's sidecar."""
+    folder = data.folder / "data" / data.source / participant
+    found = list(folder.glob(f"*_session-{session}_trials_data.json"))
+    made: Mapping[str, Any] = {}
+    if found:
+        try:
+            made = json.loads(found[0].read_text(encoding="utf-8")).get("provenance", {})
+        except (ValueError, AttributeError):
+            raise InputError(f"{found[0]}: expected a JSON object") from None
+    display = made.get("display", {})
+    return {
+        "StimulusPresentation": {
+            "OperatingSystem": made.get("system", "unknown"),
+            "SoftwareName": "Seethrough",
+            "SoftwareVersion": made.get("versions", {}).get("seethrough", "unknown"),
+            "Renderer": display.get("renderer", "unknown"),
+            "WindowSize": display.get("size", "unknown"),
+            "RefreshRate": display.get("refresh_declared", "unknown"),
+        }
+    }
+
+
+def _participants(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
+    slots = {row["participant"]: row["slot"] for row in data.tables["trials"]}
+    rows = [{"participant_id": f"sub-{labels[p]}", "slot": slots[p]} for p in data.participants]
+    put(out / "participants.tsv", _tsv(["participant_id", "slot"], rows))
+    slot = next(c for c in TRIALS if c.name == "slot")
+    put(out / "participants.json", as_json({"slot": _column(slot)}))
+
+
+def _phenotype(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
+    rows: dict[str, dict[str, str]] = {}
+    for answer in data.tables["questionnaire"]:
+        if answer["participant"] in labels:
+            label = f"sub-{labels[answer['participant']]}"
+            row = rows.setdefault(label, {"participant_id": label})
+            row[item_name(answer)] = answer["value"] or answer["text"]
+    items = sorted({name for row in rows.values() for name in row} - {"participant_id"})
+    path = out / "phenotype"
+    put(path / "questionnaire.tsv", _tsv(["participant_id", *items], list(rows.values())))
+    about = {name: {"Description": f"questionnaire: {name}"} for name in items}
+    put(path / "questionnaire.json", as_json(about))
+
+
+def _column(column: Column) -> dict[str, Any]:
+    about: dict[str, Any] = {"Description": column.description}
+    if column.unit:
+        about["Units"] = column.unit
+    if column.levels:
+        about["Levels"] = {level: level for level in column.levels}
+    return about
+
+
+def _tsv(columns: Sequence[str], rows: Sequence[Mapping[str, str]]) -> str:
+    """Tab-separated; what does not apply is n/a; no cell holds a tab or a line's end."""
+    lines = [[" ".join(row.get(name, "").split()) or "n/a" for name in columns] for row in rows]
+    return "".join("\t".join(line) + "\n" for line in [list(columns), *lines])

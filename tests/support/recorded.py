@@ -1,0 +1,60 @@
+"""A small study's data folder, recorded by the recorder itself: for tests of what reads it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from experiment.config import load
+from experiment.design import session_for
+from experiment.provenance import provenance
+from experiment.recorder import FileRecorder, Who
+from experiment.trial import TrialRecord
+from renderer.camera import look_at
+from renderer.scene import Scene
+from tasks.base import Outcome, View
+from tasks.events import KeyPress, PointerMove, Tick
+
+STUDY = load("demo")
+VIEW = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
+REMARK = 'a "quoted" text,\nwith\ttabs, =HYPERLINK("x") and <b>ümläuts</b>'
+OUTCOMES = {
+    "count": Outcome("12", "14", False, count_error=-2),
+    "pattern": Outcome("K", "K", True),
+    "unique": Outcome("1.0 2.0", "3.0 4.0", True, distance=2.8284271247461903),
+    "count_in_building": Outcome("3", "3", True, count_error=0),
+}
+
+
+def record(
+    data: Path, participant: str, slot: int, source: str = "human", session: int = 1
+) -> None:
+    """A whole session of the demo study, its first trial repeated, one trial timed out."""
+    clock = iter(range(10_000))
+    display = {"renderer": "none", "size": "800x600", "refresh_declared": "60"}
+    who = Who("demo", participant, source, slot, provenance(STUDY, display))
+
+    def now() -> str:
+        second = next(clock)
+        return f"2026-01-02T03:{second // 60:02d}:{second % 60:02d}.500Z"
+
+    recorder = FileRecorder(data, who, now)
+    trials = [t for s in session_for(slot, STUDY.design.factors()) for t in s.trials]
+    for trial in [trials[0], *trials]:
+        recorder.trial_begins(trial)
+        recorder.frame(1.0, VIEW)
+        recorder.event(PointerMove(1.5, 0.5, 0.25, 0.1, 0.0, True))
+        recorder.event(Tick(2.0))
+        recorder.event(KeyPress(2.5, "enter"))
+        end = 1.0 + trial.number / 7 + slot
+        timed_out = trial is trials[-1]
+        outcome = None if timed_out else OUTCOMES[trial.task]
+        times = (1.0, end, 0.25, timed_out)
+        recorder.trial_ends(TrialRecord(trial, outcome, 14, *times, 60, 1, 0.05, 12.5, 3.25))
+    for number, (transparency, scenario) in enumerate(STUDY.design.factors().conditions):
+        cell = {"transparency": transparency, "scenario": scenario}
+        recorder.answers([{"item": "ease", "value": str(number), **cell}])
+    recorder.answers([{"item": "remarks", "text": REMARK}])
+    recorder.note(trials[0], "the phone\trang")
+    recorder.close("complete")

@@ -1,0 +1,160 @@
+"""Exports, each read back by a reader that shares no code with the writer."""
+
+import csv
+import json
+import re
+import stat
+
+import fastparquet
+import pandas as pd
+import pytest
+from bids_validator import BIDSValidator
+from recorded import REMARK, record
+
+from experiment import cli
+from experiment.columns import TABLES
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("data") / "demo"
+    record(folder, "P01", 1)
+    record(folder, "P_2", 2)
+    return folder
+
+
+def exported(data, form, out, *words):
+    assert cli.main(["export", str(data), "--format", form, "--out", str(out), *words]) == 0
+    files = [p for p in out.rglob("*") if p.is_file()]
+    assert {stat.S_IMODE(p.stat().st_mode) for p in files} == {0o600}
+    return out
+
+
+def original(data, table):
+    """The recorded tables as pandas reads them, all as texts."""
+    paths = sorted(data.glob(f"data/human/*/*_{table}_data.csv"))
+    return pd.concat([pd.read_csv(p, dtype=str, keep_default_na=False) for p in paths])
+
+
+def test_wide_has_each_measure_of_each_trial_once(data, tmp_path):
+    out = exported(data, "wide", tmp_path / "out")
+    table = pd.read_csv(out / "wide.csv", index_col="participant")
+    assert list(table.index) == ["P01", "P_2"] and list(table["slot"]) == [1, 2]
+    trials = original(data, "trials")
+    last = trials[~trials.duplicated(["participant", "trial"], keep="last")]
+    assert len(last) == 16 and len(trials) == 18
+    seen = 0
+    for _, trial in last.iterrows():
+        cell = f"{trial['transparency']}_{trial['task']}_{trial['trial_in_set']}"
+        row = table.loc[trial["participant"]]
+        assert row[f"time_{cell}"] == float(trial["time"])
+        assert row[f"timed_out_{cell}"] == (trial["timed_out"] == "true")
+        for measure in ("correct", "count_error", "distance"):
+            if trial[measure] != "":
+                words = {"true": "1", "false": "0"}
+                value = float(words.get(trial[measure], trial[measure]))
+                assert row[f"{measure}_{cell}"] == value
+                seen += 1
+    assert seen > 20
+    assert list(table["remarks"]) == [REMARK, REMARK]
+    assert list(table["ease_standard_walkthrough"]) == [1, 1]
+    codebook = json.loads((out / "wide.json").read_text("utf-8"))
+    assert set(codebook) - {"*"} == {"participant", *table.columns}
+
+
+def test_parquet_has_every_row_and_type(data, tmp_path):
+    out = exported(data, "parquet", tmp_path / "out")
+    # Integers and booleans are nullable where some are missing; fastparquet names them so.
+    kinds = {
+        "text": {"object"}, "integer": {"int64"}, "number": {"float64"},
+        "boolean": {"bool", "boolean"},
+    }  # fmt: skip
+    for table, columns in TABLES.items():
+        with open(out / f"{table}.parquet", "rb") as file:
+            read = fastparquet.ParquetFile(file)
+            frame, types = read.to_pandas(), {k: str(v) for k, v in read.dtypes.items()}
+        expected = original(data, table).sort_values("row_id").reset_index(drop=True)
+        frame = frame.sort_values("row_id").reset_index(drop=True)
+        assert list(frame) == [c.name for c in columns] and len(frame) == len(expected) > 1
+        for column in columns:
+            assert types[column.name].lower() in kinds[column.type], column.name
+            for got, text in zip(frame[column.name], expected[column.name], strict=True):
+                if text == "":
+                    assert pd.isna(got)
+                elif column.type == "text":
+                    assert got == text
+                elif column.type == "boolean":
+                    assert bool(got) is (text == "true")
+                else:
+                    assert got == float(text)
+
+
+def test_bids_names_and_columns_are_valid(data, tmp_path):
+    out = exported(data, "bids", tmp_path / "out")
+    files = [p for p in out.rglob("*") if p.is_file()]
+    valid = BIDSValidator()
+    assert not [f for f in files if not valid.is_bids("/" + f.relative_to(out).as_posix())]
+    about = json.loads((out / "dataset_description.json").read_text("utf-8"))
+    assert {"Name", "BIDSVersion"} <= set(about)
+    people = pd.read_csv(out / "participants.tsv", sep="\t")
+    assert list(people["participant_id"]) == ["sub-P01", "sub-P2"]
+    inherited = json.loads((out / "task-seethrough_events.json").read_text("utf-8"))
+    tables = sorted(out.rglob("*_events.tsv"))
+    assert len(tables) == 2
+    trials = original(data, "trials")
+    for path, participant in zip(tables, ("P01", "P_2"), strict=True):
+        events = pd.read_csv(path, sep="\t", quoting=csv.QUOTE_NONE, na_values="n/a")
+        assert list(events)[:2] == ["onset", "duration"] and set(events) <= set(inherited)
+        mine = trials[trials["participant"] == participant]
+        assert list(events["duration"]) == [float(t) for t in mine["time"]]
+        began = pd.to_datetime(mine["started"])
+        assert list(events["onset"]) == list((began - began.min()).dt.total_seconds())
+        shown = json.loads(path.with_suffix(".json").read_text("utf-8"))["StimulusPresentation"]
+        assert shown["SoftwareName"] == "Seethrough" and shown["WindowSize"] == "800x600"
+    answers = pd.read_csv(out / "phenotype" / "questionnaire.tsv", sep="\t")
+    assert set(answers) - {"participant_id"} == set(
+        json.loads((out / "phenotype" / "questionnaire.json").read_text("utf-8"))
+    )
+
+
+def test_bids_labels_that_would_be_one_are_refused(tmp_path, capsys):
+    for slot, name in enumerate(("P_1", "P1"), start=1):
+        record(tmp_path / "data", name, slot)
+    words = ["export", str(tmp_path / "data"), "--format", "bids", "--out", str(tmp_path / "out")]
+    assert cli.main(words) == 2
+    assert "participants P1, P_1: expected ids that differ" in capsys.readouterr().err
+
+
+def test_sources_are_never_mixed_and_nothing_is_overwritten(data, tmp_path, capsys):
+    folder = tmp_path / "both"
+    record(folder, "P01", 1)
+    record(folder, "S01", 1, "simulated")
+    words = ["export", str(folder), "--format", "wide", "--out", str(tmp_path / "out")]
+    assert cli.main(words) == 2
+    assert "several sources: choose with --source human or simulated" in capsys.readouterr().err
+    assert cli.main([*words, "--source", "pilot"]) == 2
+    assert "--source = pilot: expected one of: human, simulated" in capsys.readouterr().err
+    exported(folder, "wide", tmp_path / "out", "--source", "simulated")
+    assert list(pd.read_csv(tmp_path / "out" / "wide.csv")["participant"]) == ["S01"]
+    assert cli.main([*words, "--source", "human"]) == 2
+    assert "expected a new or an empty folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("false,60,", "maybe,60,", r"row 2: timed_out = 'maybe': expected boolean"),
+        (",60,1,", ",60.5,1,", r"row 2: frames = '60.5': expected integer"),
+        ("row_id,", "row,", r"header: expected \d+ columns; not so: \['row', 'row_id'\]"),
+        (",P01,", ",P01,P01,", r"row 2: \d+ of \d+ values: expected a whole row"),
+        (",P01,", ",../x,", r"row 2: participant: expected a participant's id"),
+    ],
+)
+def test_a_broken_table_is_named(tmp_path, capsys, old, new, message):
+    record(tmp_path / "data", "P01", 1)
+    (path,) = tmp_path.rglob("*_trials_data.csv")
+    path.write_text(path.read_text("utf-8").replace(old, new, 1), "utf-8")
+    words = ["export", str(tmp_path / "data"), "--format", "wide", "--out", str(tmp_path / "out")]
+    assert cli.main(words) == 2
+    assert re.search(rf"_trials_data\.csv: {message}\n$", capsys.readouterr().err)
+    assert not (tmp_path / "out").exists()
