@@ -30,11 +30,10 @@ class Plan:
 
 
 def config_of(sidecar: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The resolved config in a sidecar; empty if there is none."""
-    for place in (sidecar, sidecar.get("provenance", {})):
-        if isinstance(place, Mapping) and isinstance(place.get("config"), Mapping):
-            return place["config"]
-    return {}
+    """The study's resolved config in a sidecar, `provenance.study`; empty if there is none."""
+    provenance = sidecar.get("provenance")
+    config = provenance.get("study") if isinstance(provenance, Mapping) else None
+    return config if isinstance(config, Mapping) else {}
 
 
 def digest(value: Any) -> str:

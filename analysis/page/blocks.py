@@ -162,6 +162,21 @@ class Report:
     sections: tuple[Section, ...]
 
 
+def row_texts(table: Table, row: Mapping[str, Any]) -> list[str]:
+    """The cells of a row on the page; a reason for `undefined` is given once in a row."""
+    said: set[str] = set()
+    texts = []
+    for column in table.visible():
+        value = row.get(column.name)
+        if isinstance(value, Undefined) and value.reason in said:
+            texts.append("undefined")
+            continue
+        if isinstance(value, Undefined):
+            said.add(value.reason)
+        texts.append(table.text(row, column))
+    return texts
+
+
 def walk(blocks: Sequence[Block]) -> list[Block]:
     """All blocks, those inside folds too."""
     found: list[Block] = []

@@ -9,7 +9,7 @@ from importlib.resources import files
 from jinja2 import Environment, FunctionLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from analysis.page.blocks import Block, Cited, Figure, Fold, Prose, Report, Table
+from analysis.page.blocks import Block, Cited, Figure, Fold, Prose, Report, Table, row_texts
 from analysis.page.tables_csv import cell
 
 MOST_ROWS = 60
@@ -31,7 +31,7 @@ def _environment() -> Environment:
     )
     env.filters["prose"] = prose
     env.filters["signs"] = signs
-    env.globals.update(exact=cell, kind_of=kind_of, most_rows=MOST_ROWS)
+    env.globals.update(exact=cell, kind_of=kind_of, most_rows=MOST_ROWS, texts=row_texts)
     return env
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from analysis.page.blocks import Block, Cited, Figure, Prose, Report, Table
+from analysis.page.blocks import Block, Cited, Figure, Prose, Report, Table, row_texts
 from analysis.page.html import MOST_ROWS
 
 
@@ -40,7 +40,7 @@ def _table(table: Table) -> list[str]:
     columns = table.visible()
     heads = [_plain(f"{c.label} {c.about}".rstrip()) for c in columns]
     rule = ["---" if c.style == "text" else "---:" for c in columns]
-    rows = [[_plain(table.text(row, c)) for c in columns] for row in table.rows[:MOST_ROWS]]
+    rows = [[_plain(text) for text in row_texts(table, row)] for row in table.rows[:MOST_ROWS]]
     lines = [f"**{_plain(table.title)}**", ""]
     lines += [f"| {' | '.join(cells)} |" for cells in (heads, rule, *rows)]
     note = f"{table.note} " if table.note else ""

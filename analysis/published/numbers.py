@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass
-from pathlib import Path
+from importlib.resources import files
 from typing import Any
 
 
@@ -108,16 +108,10 @@ class Published:
         return next(m for m in self.measures if m.name == name)
 
 
-def published_file() -> Path:
-    """In a checkout data/published/; beside this module in an installed wheel."""
-    here = Path(__file__).parent
-    packed = here / "published.toml"
-    return packed if packed.is_file() else here.parents[1] / "data/published/published.toml"
-
-
 def load_published() -> Published:
-    """Read the numbers."""
-    raw = tomllib.loads(published_file().read_text(encoding="utf-8"))
+    """Read the numbers, which travel with the package (data/published/ has the same file)."""
+    file = files("analysis.published") / "published.toml"
+    raw = tomllib.loads(file.read_text(encoding="utf-8"))
     study, correct, rating = raw["study"], raw["correct_T2"], raw["rating"]
     return Published(
         study["participants"],

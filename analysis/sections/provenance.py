@@ -76,7 +76,15 @@ def _recorded(sidecars: Iterable[Mapping[str, Any]]) -> list[dict[str, str]]:
     for sidecar in sidecars:
         inner = sidecar.get("provenance")
         place = inner if isinstance(inner, Mapping) else sidecar
-        for key in ("versions", "driver", "display", "seed", "code"):
+        for key in (
+            "versions",
+            "python",
+            "system",
+            "display",
+            "seed",
+            "simulation_seed",
+            "profile",
+        ):
             if place.get(key) is not None:
                 seen.setdefault(key, set()).add(_flat(place[key]))
     return [

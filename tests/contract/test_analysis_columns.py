@@ -34,3 +34,9 @@ def test_the_chain_is_the_same_chain(tmp_path: Path) -> None:
     again = json.loads(json.dumps(sidecar))
     assert start_of(again, "row_id,chain") == chain.start_of(sidecar, "row_id,chain")
     assert link("before", "row, text ü") == chain.link("before", "row, text ü")
+
+
+def test_the_published_numbers_are_the_same_beside_the_data_and_in_the_package(root: Path) -> None:
+    """The package needs them where it is installed, readers look for them in data/."""
+    packed = root / "analysis" / "published" / "published.toml"
+    assert packed.read_bytes() == (root / "data" / "published" / "published.toml").read_bytes()

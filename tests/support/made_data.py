@@ -64,7 +64,8 @@ def _participant(folder: Path, made: Made, slot: int, rng: np.random.Generator) 
     stem = f"study-made_subject-{name}_session-1"
     rows = _trials(made, name, slot, rng)
     write_rows(own / f"{stem}_trials_data.csv", TRIAL_COLUMNS, rows)
-    sidecar = {"config": made.config or {}, "versions": {"seethrough": "0.1.0"}}
+    provenance = {"study": made.config or {}, "versions": {"seethrough": "0.1.0"}}
+    sidecar = {"started": "2026-11-22T09:00:00Z", "provenance": provenance}
     (own / f"{stem}_trials_data.json").write_text(json.dumps(sidecar))
     if made.questionnaire:
         answers = _answers(made, name, rng)
