@@ -130,8 +130,7 @@ def run_logged(command, what, detail=str, keep_open=()) -> tuple[int, str]:
     start = shown = time.monotonic()
     terminal = sys.stdout.isatty()
     with open(LOG, "a+", encoding="utf-8", errors="replace") as log:
-        log.write(f"\n$ {' '.join(command)}\n")
-        log.flush()
+        print(f"\n$ {' '.join(command)}", file=log, flush=True)
         begin = log.tell()
         with subprocess.Popen(
             command,
@@ -287,13 +286,15 @@ def install_packages(extras: str, keep_open: tuple[int, ...]) -> None:
         unpacked = sum(name.endswith(".dist-info") for name in os.listdir(folder))
         return f"{unpacked} of at most {total} packages unpacked"
 
-    command = [PYTHON, "-m", "pip", "install", "--disable-pip-version-check", "--progress-bar"]
-    command += ["off", "-c", CONSTRAINTS, "-e", f".[{extras}]" if extras else "."]
+    options = "install --disable-pip-version-check --progress-bar off --no-compile -c".split()
+    command = [PYTHON, "-m", "pip", *options, CONSTRAINTS, "-e", f".[{extras}]" if extras else "."]
     what = "installing the packages: 900 MB, a minute or so"
     status, output = run_logged(command, what, detail, keep_open)
     if status:
         os.remove(UNFINISHED)  # pip undoes what it could not finish
         raise Stop(f"cannot install the packages: {why(output)}")
+    # pip would do this on one core; a file that is not for this Python may fail to compile.
+    run_logged([PYTHON, "-m", "compileall", "-q", "-j", "0", folder], "compiling them")
 
 
 @contextlib.contextmanager
