@@ -40,7 +40,9 @@ def run(arguments: argparse.Namespace) -> int:
     slots = range(1, arguments.participants + 1)
 
     def play(profile):  # type: ignore[no-untyped-def]
-        return batch.play_chunk(slots, profile)
+        rows = batch.play_chunk(slots, profile)
+        batch.keep_tables()  # an interrupted fit starts with what has been drawn
+        return rows
 
     with Progress("calibrating", arguments.evaluations) as progress:
         best, misfit = calibration.calibrate(
@@ -52,7 +54,6 @@ def run(arguments: argparse.Namespace) -> int:
     best = replace(best, name=arguments.out.stem)
     for line in calibration.table(calibration.measured(play(best))):
         print(line)
-    batch.keep_tables()
     write(arguments.out, best, _provenance(arguments, start.name, misfit))
     print(f"profile: {arguments.out}")
     return 0

@@ -42,9 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="visual: the real session, drawn and looked at; data: from visibility tables",
     )
     data = parser.add_argument_group("data mode")
-    data.add_argument(
-        "--tables", type=Path, metavar="FILE", help="visibility tables, kept"
-    )
+    data.add_argument("--tables", type=Path, metavar="FILE", help="visibility tables, kept")
     data.add_argument("--pool", type=int, default=POOL, metavar="K", help="scenes a task")
     data.add_argument("--workers", type=int, default=1, metavar="W", help="processes; default: 1")
 
@@ -152,9 +150,14 @@ def _data_mode(
         looks = len(b.abstract_trials(study)) * arguments.pool
         with Progress("making tables", looks) as progress:
             b.fill(batch, progress)
+            # Buildings have too many viewpoints to draw them all: those that somebody looks from.
+            b.play_chunk(range(1, min(count, b.CHUNK) + 1))
+            b.keep_tables()
     slots = [slot for chunk in chunks for slot in chunk]
     with Progress("simulating", len(chunks)) as progress:
         results = b.play(batch, slots, arguments.workers)
         for chunk, rows in zip(chunks, results, strict=True):
             b.write(arguments.out, batch, study, chunk, rows)
             progress.step(f"S{chunk[0]}–S{chunk[-1]}")
+    if arguments.workers == 1 and chunks:
+        b.keep_tables()

@@ -1,0 +1,111 @@
+"""`seethrough simulate` and `power`: data mode to a report, and one line for bad input."""
+
+import csv
+import json
+
+import pytest
+
+from experiment import cli
+
+
+def rows(folder):
+    files = sorted(folder.glob("data/simulated/*/*_trials_data.csv"))
+    texts = [file.read_text(encoding="utf-8").splitlines() for file in files]
+    return [row for lines in texts for row in csv.DictReader(lines)]
+
+
+@pytest.fixture(scope="module")
+def tables(tmp_path_factory):
+    return tmp_path_factory.mktemp("tables") / "demo.npz"
+
+
+@pytest.fixture(autouse=True)
+def small_chunks(monkeypatch):
+    monkeypatch.setattr("experiment.participants.batch.CHUNK", 2)
+
+
+def data_mode(tables, out, *more):
+    words = ["simulate", "demo", "--mode", "data", "--pool", "1", "--tables", str(tables)]
+    return cli.main([*words, "--out", str(out), *more])
+
+
+def test_data_mode_is_the_same_on_one_worker_and_two(tables, tmp_path):
+    one, two = tmp_path / "one", tmp_path / "two"
+    assert data_mode(tables, one, "--participants", "4") == 0
+    assert data_mode(tables, two, "--participants", "4", "--workers", "2") == 0
+    assert rows(one) == rows(two)
+    assert len(rows(one)) == 4 * 8
+    assert len({r["row_id"] for r in rows(one)}) == 4 * 8
+    assert {r["source"] for r in rows(one)} == {"simulated"}
+
+
+def test_an_interrupted_run_goes_on_and_a_finished_one_is_left_alone(tables, tmp_path):
+    out = tmp_path / "out"
+    assert data_mode(tables, out, "--participants", "2") == 0
+    first = rows(out)
+    assert data_mode(tables, out, "--participants", "4") == 0
+    assert rows(out)[: len(first)] == first and len(rows(out)) == 4 * 8
+
+
+def test_data_mode_ends_in_a_report_that_says_what_it_is(tables, tmp_path):
+    out = tmp_path / "out"
+    assert data_mode(tables, out, "--participants", "2", "--without", "slips,people") == 0
+    sidecar = json.loads(next(out.glob("data/simulated/*/*.json")).read_text())
+    assert sidecar["without"] == ["people", "slips"] and "never evidence" in sidecar["mode"]
+    assert cli.main(["report", str(out), "--out", str(tmp_path / "report")]) == 0
+    assert "simulated" in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+
+
+def test_visual_mode_explains_its_effects(tmp_path, capsys):
+    words = ["simulate", "demo", "--participants", "1", "--seed", "3", "--out", str(tmp_path / "v")]
+    assert cli.main([*words, "--explain", "--without", "crowding", "--profile", "hasty"]) == 0
+    told = capsys.readouterr().out
+    assert told.count("left out by --without") == 8
+    assert "no walking" in told and "nothing is counted" in told
+    sidecar = json.loads(next(tmp_path.glob("v/data/simulated/S01/*_trials_data.json")).read_text())
+    assert "hasty" in json.dumps(sidecar) and "crowding" in json.dumps(sidecar)
+
+
+def test_power_from_the_paper_and_from_simulated_people(tables, tmp_path, capsys):
+    page = tmp_path / "p.html"
+    words = ["power", "published", "--participants", "8..12", "--replications", "50"]
+    assert cli.main([*words, "--out", str(page)]) == 0
+    assert "time, overall" in capsys.readouterr().out
+    text = page.read_text(encoding="utf-8")
+    assert "<svg" in text and "never" not in text and "no person took part" in text
+    out = tmp_path / "people"
+    assert data_mode(tables, out, "--participants", "4") == 0
+    assert cli.main([*words, "--effect", str(out), "--out", str(page)]) == 0
+    assert "never evidence" in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        ("simulate demo --out {t}/x --participants 0", "--participants = 0: expected at least 1"),
+        ("simulate demo --out {t}/x --without gravity", "--without = gravity: expected some of"),
+        ("simulate demo --out {t}/x --profile hero", "--profile = hero: expected one of average"),
+        ("simulate demo --out {t}/x --mode data --pool 0", "--pool = 0: expected at least 1 scene"),
+        ("simulate demo --out {t}/x --mode data --workers 0", "--workers = 0: expected a number"),
+        ("simulate demo --out {t}/x --workers 2", "expected with --mode data only"),
+        ("simulate demo --out {t}/x --mode data --explain", "--explain: expected with --mode"),
+        ("power published --out {t}/p --participants 1..4", "--participants = 1..4: expected A..B"),
+        ("power published --out {t}/p --participants many", "--participants = many: expected A..B"),
+        ("power published --out {t}/p --replications 3", "--replications = 3: expected a number"),
+        ("power published --out {t}/p --effect {t}/nix", "expected published or a data folder"),
+        ("calibrate published --out {t}/c --tables {t}/t --participants 2",
+         "--participants = 2: expected at least 3"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_one_line_and_status_2(tmp_path, capsys, words, message):
+    assert cli.main(words.format(t=tmp_path).split(" ")) == 2
+    told = capsys.readouterr().err
+    assert message in told and told.count("\n") == 1
+
+
+def test_a_folder_of_another_study_is_refused(tables, tmp_path, capsys):
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "dataset_description.json").write_text('{"name": "other"}')
+    assert data_mode(tables, out, "--participants", "2") == 2
+    assert "holds study other, expected demo" in capsys.readouterr().err
