@@ -32,7 +32,8 @@ from renderer.techniques.standard import Standard
 class ExactPicture:
     """picture (h, w, 3) in [0, 1]; weights (n, h, w): each object's share of the pixel;
     transmittance (n, h, w): what the objects in front leave, 1 where the object is not; depth
-    (n, h, w) of each object; near_edge (h, w): pixels not to be compared (fragments.py)."""
+    (n, h, w) of each object; near_edge (h, w): pixels not to be compared, within 1/256 pixel of
+    a projected edge (fragments.py) or of a line where surfaces cross."""
 
     picture: NDArray[np.float64]
     weights: NDArray[np.float64]
@@ -58,7 +59,7 @@ def exact(
     seen = fragments(scene, camera, size)
     if isinstance(technique, Standard):
         alpha = np.isfinite(seen.depth).astype(float)
-        return _composed(scene, seen, alpha, additive=False)
+        return _composed(scene, seen, alpha, additive=False, beside=np.zeros(0))
     hard = impenetrable(scene, camera, technique)
     light = masks.light(size, technique)
     made = {
@@ -73,7 +74,8 @@ def exact(
     alpha[~np.isfinite(seen.depth)] = 0.0
     if technique.layers is not None:
         alpha = _limited(seen, alpha, technique.layers)
-    return _composed(scene, seen, alpha, technique.model == "additive")
+    beside = camera.depth(scene.centers[scene.targets])
+    return _composed(scene, seen, alpha, technique.model == "additive", beside)
 
 
 def _mask(scene, camera, technique, seen, s, light):  # type: ignore[no-untyped-def]
@@ -200,8 +202,37 @@ def _front_to_back(seen: Fragments) -> NDArray[np.int64]:
     return n - 1 - np.argsort(seen.depth[::-1], axis=0, kind="stable")
 
 
+def crossings(
+    depth: NDArray[np.float64], order: NDArray[np.int64], beside: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(h, w) pixels within 1/256 pixel of a line where two surfaces, or a surface and the depth
+    of a mask beside its target, cross: there float32 and float64 may sort them differently."""
+    there = np.isfinite(depth)
+    known = np.where(there, depth, np.nan)
+    slope = np.zeros_like(depth)
+    for axis in (1, 2):
+        step = np.abs(np.diff(known, axis=axis))
+        pads = [(0, 0), (0, 0), (0, 0)]
+        for side in ((1, 0), (0, 1)):
+            pads[axis] = side
+            slope = np.fmax(slope, np.pad(step, pads, constant_values=np.nan))
+    slack = np.where(there, slope / 256 + 1e-6 * np.where(there, depth, 0.0), 0.0)
+    front = np.take_along_axis(depth, order, axis=0)
+    about = np.take_along_axis(slack, order, axis=0)
+    both = np.isfinite(front[1:])
+    gap = np.where(both, front[1:], 0.0) - np.where(both, front[:-1], 0.0)
+    close = (both & (gap <= about[1:] + about[:-1])).any(axis=0)
+    for level in beside:
+        close |= (there & (np.abs(np.where(there, depth, 0.0) - level) <= slack)).any(axis=0)
+    return close
+
+
 def _composed(
-    scene: Scene, seen: Fragments, alpha: NDArray[np.float64], additive: bool
+    scene: Scene,
+    seen: Fragments,
+    alpha: NDArray[np.float64],
+    additive: bool,
+    beside: NDArray[np.float64],
 ) -> ExactPicture:
     """Add up each pixel from front to back."""
     background = np.broadcast_to(np.array(scene.background), (*seen.near_edge.shape, 3))
@@ -219,5 +250,6 @@ def _composed(
     np.put_along_axis(weights, order, before - through, axis=0)
     np.put_along_axis(transmittance, order, before, axis=0)
     transmittance[~np.isfinite(seen.depth)] = 1.0
+    near_edge = seen.near_edge | crossings(seen.depth, order, beside)
     picture = np.einsum("nhw,nhwc->hwc", weights, seen.color) + through[-1][..., None] * background
-    return ExactPicture(picture, weights, transmittance, seen.depth, seen.near_edge)
+    return ExactPicture(picture, weights, transmittance, seen.depth, near_edge)

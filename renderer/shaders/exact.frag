@@ -142,6 +142,8 @@ layout(location = 0) out vec4 picture;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy) - origin;
+    // With several samples a pixel, some drivers let a few beyond the scissor pass.
+    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, cell))) discard;
     gather(pixel);
     if (count > 0) read_masks(pixel);
     float left = 1.0, sum = 0.0;
