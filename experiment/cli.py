@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from experiment.errors import InputError
+from experiment.errors import InputError, one_line
 
 COMMANDS = {
     "run": "run a participant's session in a window",
@@ -32,7 +32,7 @@ class _Parser(argparse.ArgumentParser):
     """Says what is wrong in one line; the usage is in --help."""
 
     def error(self, message: str) -> NoReturn:
-        print(f"{self.prog}: {message} (see {self.prog} --help)", file=sys.stderr)
+        print(f"{self.prog}: {one_line(message)} (see {self.prog} --help)", file=sys.stderr)
         raise SystemExit(2)
 
 
@@ -57,7 +57,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return int(arguments.run(arguments) or 0)
     except InputError as error:
-        print(f"seethrough: {error}", file=sys.stderr)
+        print(f"seethrough: {one_line(str(error))}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("seethrough: interrupted; every completed trial is saved", file=sys.stderr)

@@ -42,7 +42,7 @@ def _once(value: tuple[str, ...]) -> tuple[str, ...]:
 
 
 class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
 
 class StudyTable(_Table):
@@ -85,9 +85,7 @@ class DesignTable(_Table):
         scenarios = ("abstract", "walkthrough")
         tasks = {s: tuple(t for t in self.tasks if TASK_SCENARIO[t] == s) for s in scenarios}
         present = {s: ts for s, ts in tasks.items() if ts}
-        return Factors(
-            self.transparency, present, self.trials, self.training, redraw=self.redraw
-        )
+        return Factors(self.transparency, present, self.trials, self.training, redraw=self.redraw)
 
 
 class DisplayTable(_Table):
@@ -96,7 +94,7 @@ class DisplayTable(_Table):
     width: Annotated[int, Field(ge=1, le=8192)] = 800
     height: Annotated[int, Field(ge=1, le=8192)] = 600
     fullscreen: bool = False
-    refresh: Annotated[float, Field(ge=10, le=1000, strict=False)] = 60.0
+    refresh: Annotated[float, Field(ge=10, le=1000)] = 60.0
     samples: Literal[0, 2, 4, 8] = 0
 
 
@@ -109,15 +107,15 @@ class SessionTable(_Table):
     that many stations share (its password belongs into PostgreSQL's own password file).
     """
 
-    training_limit: Annotated[float, Field(ge=0, strict=False)] = 300.0
-    trial_limit: Annotated[float, Field(ge=0, strict=False)] = 0.0
-    session_limit: Annotated[float, Field(ge=0, strict=False)] = 4800.0
+    training_limit: Annotated[float, Field(ge=0)] = 300.0
+    trial_limit: Annotated[float, Field(ge=0)] = 0.0
+    session_limit: Annotated[float, Field(ge=0)] = 4800.0
     consent: str = ""
     demographics: bool = False
     color_check: bool = False
     questionnaire: tuple[QuestionnaireBlock, ...] = ("ratings", "comparison", "remarks")
     resume: Literal["block", "trial"] = "block"
-    stale_after: Annotated[float, Field(ge=0, strict=False)] = 86_400.0
+    stale_after: Annotated[float, Field(ge=0)] = 86_400.0
     # Where slots are kept is no part of what is studied: not in the digest, nor in any sidecar.
     ledger: Annotated[str, Field(pattern=r"^(postgresql://([^:@/]+@)?[^@]+)?$", exclude=True)] = ""
 
@@ -169,15 +167,22 @@ def shipped() -> dict[str, Path]:
 def find(name: str) -> Path:
     """The config file for a path or a shipped study's name. Raises InputError."""
     path = Path(name)
-    if path.is_file():
+    if _is_file(path):
         return path
     if path.name == name and name in shipped():
         return shipped()[name]
     if path.parent == Path("configs") and path.stem in shipped() and path.suffix == ".toml":
         return shipped()[path.stem]
     raise InputError(
-        f"{name}: no such file; expected a TOML file or one of: {', '.join(shipped())}"
+        f"{_short(name)}: no such file; expected a TOML file or one of: {', '.join(shipped())}"
     )
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name that is too long for the disk
+        return False
 
 
 def load(name: str) -> Study:
@@ -201,11 +206,11 @@ def _with_consent(study: Study, path: Path) -> Study:
     file = path.parent / study.session.consent
     try:
         text = file.read_bytes().decode("utf-8").strip()
-    except (OSError, UnicodeDecodeError) as error:
-        reason = "not UTF-8" if isinstance(error, UnicodeDecodeError) else error.strerror
+    except (OSError, ValueError) as error:  # ValueError: not UTF-8, or a null byte in the name
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
         raise InputError(
-            f"{path}: session.consent = {study.session.consent!r}: expected a text file beside "
-            f"the study ({reason})"
+            f"{path}: session.consent = {_show(study.session.consent)}: expected a text file "
+            f"beside the study ({reason})"
         ) from None
     return study.model_copy(update={"texts": {**study.texts, "consent.text": text}})
 
@@ -213,9 +218,26 @@ def _with_consent(study: Study, path: Path) -> Study:
 def parse(table: Mapping[str, Any], file: str) -> Study:
     """Check a study that is already a table; `file` is named in messages. Raises InputError."""
     try:
-        return Study.model_validate(dict(table))
+        study = Study.model_validate(dict(table))
     except ValidationError as error:
         raise InputError(f"{file}: {_message(error, table)}") from None
+    _check_models(study.walkthrough, file)
+    return study
+
+
+def _check_models(parameters: BuildingParameters, file: str) -> None:
+    """The building's models are there, each once, and enough of them to tell one from others."""
+    types = parameters.types
+    if not types:
+        return
+    from renderer.models import MODELS
+
+    wrong = [t for t in types if t not in MODELS or types.count(t) > 1]
+    if wrong or (len(types) < 3 and parameters.objects > 1):
+        raise InputError(
+            f"{file}: walkthrough.types = {_show(wrong or types)}: expected three or more of "
+            f"{', '.join(sorted(MODELS))}, each once"
+        )
 
 
 def _message(error: ValidationError, table: Mapping[str, Any]) -> str:
@@ -264,13 +286,16 @@ def _key(location: Sequence[int | str], table: Mapping[str, Any]) -> str:
             parts[-1:] = [f"{parts[-1]}[{part}]"] if parts else [f"[{part}]"]
             here = here[part] if isinstance(here, Sequence) and part < len(here) else None
         elif i == len(location) - 1 or (isinstance(here, Mapping) and part in here):
-            parts.append(str(part))
+            parts.append(_short(str(part)))
             here = here.get(part) if isinstance(here, Mapping) else None
     return ".".join(parts) or "the file"
 
 
 def _show(value: Any) -> str:
-    text = _one_line(json.dumps(value, default=str, ensure_ascii=False))
+    return _short(_one_line(json.dumps(value, default=str, ensure_ascii=False)))
+
+
+def _short(text: str) -> str:
     return text if len(text) <= 60 else text[:57] + "…"
 
 

@@ -21,7 +21,9 @@ def from_table(cls: type) -> BeforeValidator:
         values = {}
         for name, value in table.items():
             if name not in names:
-                raise ValueError(f"{name} = {value!r}: unknown key; known: {', '.join(names)}")
+                raise ValueError(
+                    f"{name:.60} = {_short(value)}: unknown key; known: {', '.join(names)}"
+                )
             values[name] = _checked(name, value, types[name])
         try:
             return cls(**values)
@@ -39,4 +41,9 @@ def _checked(name: str, value: Any, hint: Any) -> Any:
     except ValidationError as error:
         reason = error.errors(include_url=False)[0]["msg"].removeprefix("Input should be ")
         reason = reason.replace("Tuple should have", "an array of").replace(" after validation", "")
-        raise ValueError(f"{name} = {value!r}: expected {reason}") from None
+        raise ValueError(f"{name} = {_short(value)}: expected {reason}") from None
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "…"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
 from importlib import resources
 from typing import Any
 
@@ -16,11 +17,12 @@ class Texts:
     def __init__(self, language: str, replaced: Mapping[str, str] | None = None) -> None:
         file = resources.files("experiment").joinpath("languages", f"{language}.toml")
         if not file.is_file():
-            raise InputError(f"study.language = {language}: no such language file")
+            raise InputError(f"study.language = {language:.60}: no such language file")
         self._texts = _flat(tomllib.loads(file.read_text(encoding="utf-8")))
         for key, text in (replaced or {}).items():
             if key not in self._texts:
-                raise InputError(f"texts.{key}: unknown text; known: {', '.join(self._texts)}")
+                near = ", ".join(get_close_matches(key[:60], self._texts, 5, 0.0))
+                raise InputError(f"texts.{key:.60}: unknown text; known are, among others: {near}")
             self._texts[key] = text
 
     def __getitem__(self, key: str) -> str:

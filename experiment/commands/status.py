@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from experiment.errors import one_line
 from experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def _people(what: str, entries: Sequence[Entry], stale: Sequence[str] | set[str]
     return [
         f"{what:<9} {e.participant}, slot {e.slot}, since {e.changed}"
         + (" (stale: its slot may be given out)" if e.participant in stale else "")
-        + (f": {plain(e.why)}" if e.why else "")
+        + (f": {one_line(e.why)}" if e.why else "")
         for e in entries
     ]
 
@@ -82,8 +83,3 @@ def _next(ledger: Ledger, now: datetime) -> str:
     beyond = " (past the number wanted)" if slot > ledger.plan.participants else ""
     row = row_of(slot, ledger.plan.rows) + 1
     return f"seethrough run STUDY --next: slot {slot}, row {row}{beyond}"
-
-
-def plain(text: str) -> str:
-    """Free text for a terminal: what is not printable would drive it."""
-    return "".join(c if c.isprintable() else "�" for c in text)

@@ -1,0 +1,73 @@
+"""Malformed studies by the hundred: each gets one line and exit status 2, nothing is written.
+
+SEETHROUGH_CASES=10000 makes as many; the numbers of cases that fail are printed, and
+`broken_configs.case(number)` makes each again.
+"""
+
+import io
+import os
+from contextlib import redirect_stderr, redirect_stdout
+
+import pytest
+from broken_configs import BASE, KINDS, case, toml
+
+from experiment import cli
+
+CASES = int(os.environ.get("SEETHROUGH_CASES", "400"))
+
+
+def check(path):
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        try:
+            status = cli.main(["check", str(path), "--config-only"])
+        except SystemExit as left:
+            status = left.code
+    return status, out.getvalue(), err.getvalue()
+
+
+def is_one_line(text):
+    """One line wherever it is shown: no control character, no other kind of line's end."""
+    return (
+        text.startswith("seethrough: ")
+        and text.endswith("\n")
+        and text[:-1].isprintable()
+        and 20 < len(text) < 2000
+    )
+
+
+def test_what_the_cases_start_from_is_valid(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(toml(BASE), "utf-8")
+    assert check(path)[0] == 0
+
+
+def test_every_malformed_study_gets_one_line(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "study.toml"
+    wrong, valid = [], 0
+    for number in range(CASES):
+        broken = case(number)
+        path.write_bytes(broken.data)
+        try:
+            status, out, err = check(path)
+        except Exception as error:  # whatever it is, it would have been a traceback
+            wrong.append((number, broken.kind, broken.what, f"raised {error!r:.200}"))
+            continue
+        if status == 0 and not broken.must_fail:
+            valid += 1
+        elif status != 2 or not is_one_line(err) or out:
+            wrong.append((number, broken.kind, broken.what, status, out[:80], err[:300]))
+        elif list(tmp_path.iterdir()) != [path] or path.read_bytes() != broken.data:
+            wrong.append((number, broken.kind, broken.what, "something was written"))
+    print(f"{CASES} malformed studies, {valid} of them valid by chance, {len(wrong)} wrong")
+    assert not wrong, "\n".join(map(str, wrong[:20]))
+    assert valid < CASES / len(KINDS)
+
+
+@pytest.mark.parametrize("name", ["", "nothing.toml", "a\nb", ".", "/", "x" * 5000, "-", "a\0b"])
+def test_what_is_no_file_gets_one_line(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = check(name)
+    assert (status, out) == (2, "") and is_one_line(err)
+    assert list(tmp_path.iterdir()) == []
