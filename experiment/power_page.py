@@ -8,8 +8,9 @@ from html import escape
 
 from experiment.power import ENOUGH, Power
 
+COLUMNS = 6  # of the table, at most
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;
-color:#1b1d21}table{border-collapse:collapse}td,th{padding:.2rem .8rem;text-align:right;
+color:#1b1d21}table{border-collapse:collapse;font-size:.85rem;white-space:nowrap}td,th{padding:.2rem .8rem;text-align:right;
 border-bottom:1px solid #d5d8de}td:first-child,th:first-child{text-align:left}
 .note{color:#555}svg{width:100%;height:auto}"""
 
@@ -18,7 +19,8 @@ def page(
     title: str, what: str, points: Sequence[Power], enough: Mapping[str, int | None], command: str
 ) -> str:
     """The page. `what` says in a sentence where the participants come from."""
-    sizes = sorted({p.n for p in points})
+    every = sorted({p.n for p in points})
+    sizes = every[:: -(-len(every) // COLUMNS)]
     head = "".join(f"<th>{n}</th>" for n in sizes)
     rows = "".join(_row(name, points, sizes, enough[name]) for name in enough)
     return (
@@ -28,7 +30,7 @@ def page(
         f"<table><thead><tr><th>test</th><th>n for 80 %</th>{head}</tr></thead>"
         f"<tbody>{rows}</tbody></table>"
         '<p class="note">Cells: share of replications in which the test was significant, with its '
-        "95 % Clopper–Pearson interval; below, where differences are normal, the noncentral F. "
+        "95 % Clopper–Pearson interval; exact: the noncentral F, where differences are normal. "
         "Smallest n from which power stays at 80 %, by the closed form where there is one.</p>"
         f'<p class="note">Made by <code>{escape(command)}</code>. A plan, no evidence: no person '
         "took part.</p></body></html>\n"
@@ -37,15 +39,15 @@ def page(
 
 def _row(name: str, points: Sequence[Power], sizes: Sequence[int], least: int | None) -> str:
     own = {p.n: p for p in points if p.effect == name}
-    wanted = f"more than {sizes[-1]}" if least is None else str(least)
-    if least == sizes[0]:
+    wanted = f"more than {max(p.n for p in points)}" if least is None else str(least)
+    if least == min(p.n for p in points):
         wanted = f"{least} or fewer"
     cells = "".join(_cell(own[n]) for n in sizes)
     return f"<tr><td>{escape(name)}</td><td>{wanted}</td>{cells}</tr>"
 
 
 def _cell(point: Power) -> str:
-    exact = "" if point.exact is None else f"<br>F′ {point.exact:.3f}"
+    exact = "" if point.exact is None else f"<br>exact {point.exact:.3f}"
     return f"<td>{point.found:.3f}<br>[{point.low:.3f}, {point.high:.3f}]{exact}</td>"
 
 

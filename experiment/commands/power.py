@@ -10,13 +10,14 @@ from experiment.config import load
 from experiment.errors import InputError
 
 MOST = 10_000
+LONG = 200
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The command's own arguments."""
     parser.add_argument("study", metavar="STUDY", help="TOML file or name of a shipped study")
     parser.add_argument(
-        "--participants", default="8..48", metavar="A..B", help="sizes, by fours; default: 8..48"
+        "--participants", default="8..48", metavar="A..B", help="sizes; default: 8..48"
     )
     parser.add_argument(
         "--effect",
@@ -53,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
         f"--effect {arguments.effect} --replications {arguments.replications} "
         f"--seed {arguments.seed} --out {arguments.out.name}"
     )
-    title = f"Power of {study.study.name}"
+    title = f"How many participants does “{study.study.title}” need?"
     text = f"{what} Two-sided tests at α = {alpha:g}, {arguments.replications} replications."
     try:
         arguments.out.parent.mkdir(parents=True, exist_ok=True)
@@ -65,12 +66,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _sizes(text: str) -> list[int]:
-    """Every fourth size of the range, its end included."""
+    """Every size of the range; of a long one every tenth, and its end."""
     match = re.fullmatch(r"(\d{1,5})(?:\.\.(\d{1,5}))?", text)
     low, high = (int(match[1]), int(match[2] or match[1])) if match else (0, 0)
     if not 2 <= low <= high <= MOST:
         raise InputError(f"--participants = {text}: expected A..B with 2 ≤ A ≤ B ≤ {MOST}")
-    return sorted({*range(low, high + 1, 4), high})
+    return sorted({*range(low, high + 1, 1 if high - low <= LONG else 10), high})
 
 
 def _effects(source: str):  # type: ignore[no-untyped-def]
