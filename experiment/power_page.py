@@ -8,11 +8,11 @@ from html import escape
 
 from experiment.power import ENOUGH, Power
 
-COLUMNS = 6  # of the table, at most
-STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;
-color:#1b1d21}table{border-collapse:collapse;font-size:.85rem;white-space:nowrap}td,th{padding:.2rem .8rem;text-align:right;
-border-bottom:1px solid #d5d8de}td:first-child,th:first-child{text-align:left}
-.note{color:#555}svg{width:100%;height:auto}"""
+COLUMNS = 5  # of the table, at most
+STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;
+padding:0 1rem;color:#1b1d21}table{border-collapse:collapse;font-size:.85rem;white-space:nowrap}
+td,th{padding:.2rem .5rem;text-align:right;border-bottom:1px solid #d5d8de}
+td:first-child,th:first-child{text-align:left}.note{color:#555}svg{width:100%;height:auto}"""
 
 
 def page(
