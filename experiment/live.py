@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-
-from numpy.random import Generator
+from typing import TYPE_CHECKING
 
 from experiment.clock import RealClock
 from experiment.config import Study
@@ -19,6 +18,9 @@ from experiment.trial import TrialRecord
 from experiment.window import Window
 from tasks.catalog import TASKS
 
+if TYPE_CHECKING:
+    from experiment.participants.participant import SimulatedParticipant
+
 
 def play_in_window(
     study: Study,
@@ -27,13 +29,12 @@ def play_in_window(
     source: str,
     data: Path,
     clock: RealClock,
-    watched: Generator | None = None,
+    watched: SimulatedParticipant | None = None,
 ) -> str:
     """Play a slot's session in a window: `complete`, `left` or `time limit`. Raises InputError.
 
-    An interrupted session of the participant is gone on with, in its own slot. With `watched`,
-    the stream of a simulated participant, it plays and somebody looks on; without, the window's
-    own events count.
+    An interrupted session of the participant is gone on with, in its own slot. With `watched`, a
+    simulated participant, it plays and somebody looks on; without, the window's own events count.
     """
     start = starting_point(study, data, source, participant, slot)
     texts = Texts(study.study.language, study.texts)
@@ -50,13 +51,12 @@ def play_in_window(
         window.close()
 
 
-def _simulated(stream: Generator, window: Window) -> Input:
+def _simulated(participant: SimulatedParticipant, window: Window) -> Input:
     from experiment.looking import Looking
-    from experiment.participants.participant import SimulatedParticipant
     from experiment.watched_input import WatchedInput
 
     looking = Looking(window.context, window.aspect)
-    return WatchedInput(SimulatedParticipant(stream), window, looking)
+    return WatchedInput(participant, window, looking)
 
 
 def say(record: TrialRecord) -> None:

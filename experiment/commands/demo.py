@@ -64,10 +64,10 @@ def _in_window(data: Path, simulated: bool, speed: float) -> str:
     study = load("demo")
     if not simulated:
         return play_in_window(study, "P01", 1, "human", data, RealClock())
-    participant_stream = generator(1, (SIMULATED, 1))
-    return play_in_window(
-        study, "S01", 1, "simulated", data, RealClock(speed), watched=participant_stream
-    )
+    from experiment.participants.participant import SimulatedParticipant
+
+    person = SimulatedParticipant(generator(1, (SIMULATED, 1)))
+    return play_in_window(study, "S01", 1, "simulated", data, RealClock(speed), watched=person)
 
 
 def _offscreen(data: Path) -> str:

@@ -35,6 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--explain", action="store_true", help="print which effects each trial used, and why"
     )
+    parser.add_argument("--watch", action="store_true", help="play it in the window, at real speed")
     parser.add_argument(
         "--mode",
         choices=("visual", "data"),
@@ -65,6 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         if arguments.workers != 1 or arguments.tables is not None:
             raise InputError("--workers and --tables: expected with --mode data only")
+        if arguments.watch:
+            return _watch(study, count, arguments.seed, arguments.out, profile, without)
         simulate(study, count, arguments.seed, arguments.out, profile, without, arguments.explain)
     print(f"{count} simulated participants in {arguments.out}")
     return 0
@@ -118,6 +121,22 @@ def _one(  # type: ignore[no-untyped-def]
     session_input = SimulatedInput(person, display, clock)
     world = World(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
     run_session(study, slot, world)
+
+
+def _watch(
+    study: Study, count: int, seed: int, out: Path, profile: Profile, without: frozenset[str]
+) -> int:
+    """Play the sessions in a window until somebody leaves one."""
+    from experiment.clock import RealClock
+    from experiment.live import play_in_window
+
+    for slot in range(1, count + 1):
+        person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
+        name = f"S{slot:02d}"
+        status = play_in_window(study, name, slot, "simulated", out, RealClock(), watched=person)
+        if status != "complete":
+            break
+    return 0
 
 
 def _explain(trial: str, person: SimulatedParticipant) -> None:
