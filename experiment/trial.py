@@ -119,6 +119,8 @@ class TrialRun:
         running.show()
         while not running.ended:
             for event in world.input.events(running.view):
+                if event.time < running.first:
+                    continue  # pressed while the first frame was being drawn: not an answer to it
                 world.recorder.event(event)
                 running.take(event)
                 if running.ended or running.interrupted:
@@ -136,7 +138,7 @@ class Running:
         self._technique = run.technique(trial)
         self._trial, self._state, self._limit = trial, state, limit
         self._watch = _Watch(1.0 / run.study.display.refresh)
-        self._first = self._confirmed = 0.0
+        self.first = self._confirmed = 0.0
         self._digested = -inf
         self._away = 0.0
         self._lost_focus: float | None = None
@@ -155,7 +157,7 @@ class Running:
         self.view = self._task.view(self._state)
         flip = self._world.display.show(self.view, self._technique)
         if self._watch.frames == 0:
-            self._first = flip
+            self.first = flip
         self._watch.frame(flip, self.view)
         due = flip - self._digested >= DIGEST_EVERY
         digest = self._world.display.digest() if due else ""
@@ -173,7 +175,7 @@ class Running:
         else:
             self._state = self._task.on_event(self._state, event)
             self._outcome = self._task.outcome(self._state)
-            over = bool(self._limit) and event.time - self._first >= self._limit
+            over = bool(self._limit) and event.time - self.first >= self._limit
             self._timed_out = over and self._outcome is None
 
     def _focus(self, event: FocusChange) -> None:
@@ -208,7 +210,7 @@ class Running:
             trial=self._trial,
             outcome=self._outcome,
             targets=int(self.view.scene.targets.sum()),
-            first_frame=self._first,
+            first_frame=self.first,
             confirmed=self._confirmed,
             away=self._away + lost,
             timed_out=self._timed_out,

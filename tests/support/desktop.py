@@ -39,6 +39,33 @@ class Desktop:
             self.do("key", name)
             time.sleep(pause)
 
+    def close_window(self, title):
+        """What a window manager does when its close button is pressed: WM_DELETE_WINDOW."""
+        script = (
+            "import ctypes, sys\n"
+            "from ctypes.util import find_library\n"
+            "x = ctypes.CDLL(find_library('X11') or 'libX11.so.6')\n"
+            "x.XOpenDisplay.restype = ctypes.c_void_p\n"
+            "x.XInternAtom.restype = ctypes.c_ulong\n"
+            "d = ctypes.c_void_p(x.XOpenDisplay(sys.argv[1].encode()))\n"
+            "class E(ctypes.Structure):\n"
+            "    _fields_ = [('type', ctypes.c_int), ('serial', ctypes.c_ulong),\n"
+            "        ('send', ctypes.c_int), ('display', ctypes.c_void_p),\n"
+            "        ('window', ctypes.c_ulong), ('message', ctypes.c_ulong),\n"
+            "        ('format', ctypes.c_int), ('data', ctypes.c_long * 5),\n"
+            "        ('pad', ctypes.c_long * 24)]\n"
+            "atom = lambda n: x.XInternAtom(d, n, 0)\n"
+            "w = int(sys.argv[2])\n"
+            "e = E(33, 0, 1, d, w, atom(b'WM_PROTOCOLS'), 32)\n"
+            "e.data[0] = atom(b'WM_DELETE_WINDOW')\n"
+            "x.XSendEvent(d, ctypes.c_ulong(w), 0, ctypes.c_long(0), ctypes.byref(e))\n"
+            "x.XSync(d, 0)\n"
+        )
+        search = ["xdotool", "search", "--onlyvisible", "--name", title]
+        found = subprocess.run(search, env=self.env, capture_output=True, text=True, check=True)
+        words = [sys.executable, "-c", script, self.env["DISPLAY"], found.stdout.split()[0]]
+        subprocess.run(words, check=True, timeout=30)
+
     def screenshot(self, path):
         """The whole screen as a PNG."""
         Path(path).parent.mkdir(parents=True, exist_ok=True)

@@ -312,3 +312,20 @@ def test_refusing_consent_ends_the_session_before_any_trial():
     world = World(FakeDisplay(clock), Refuses(clock, ANSWERS), clock, recorder, TASKS)
     assert run_session(config, 1, world) == "left"
     assert recorder.begun == [] and recorder.rows == []
+
+
+def test_keys_from_before_the_first_frame_answer_nothing():
+    class Hasty(ScriptedInput):
+        def events(self, view):
+            events = super().events(view)
+            if self.frames == 1:
+                early = events[0].time - FRAME - 0.01
+                return [KeyPress(early, "7"), KeyPress(early, "enter"), *events]
+            return events
+
+    clock = SimulatedClock(50.0)
+    recorder = MemoryRecorder()
+    person = Hasty(clock, ANSWERS)
+    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    assert all(r.time == 4 * FRAME for r in recorder.ended)
+    assert {r.outcome.answer for r in recorder.ended if r.trial.task == "count"} == {"20"}
