@@ -128,8 +128,8 @@ def _tost_columns(m: Measure, bound: float) -> dict[str, Any]:
     return {"tost_margin": bound, "tost_p": test.p, "low90": low, "high90": high}
 
 
-def compare_logs(measures: Sequence[Measure]) -> Table:
-    """Times on the log scale: geometric means and their ratio."""
+def compare_logs(measures: Sequence[Measure], margin: float) -> Table:
+    """Times on the log scale: geometric means and their ratio; TOST within 1 + `margin` : 1."""
     rows = []
     for m in measures:
         if m.logs is None:
@@ -149,6 +149,7 @@ def compare_logs(measures: Sequence[Measure]) -> Table:
                 "ratio_high": _exp(pair["difference_low"]),
                 **_f_columns(first, second),
                 **pair,
+                **_log_tost(first, second, margin),
             }
         )
     _add_holm(rows, [m for m in measures if m.logs is not None])
@@ -160,6 +161,12 @@ def compare_logs(measures: Sequence[Measure]) -> Table:
         LOG_SHOWN,
         "Ratio: dynamic / standard, of geometric means over participants.",
     )
+
+
+def _log_tost(first: Array, second: Array, margin: float) -> dict[str, Any]:
+    """Equivalence of geometric means: their ratio between 1 / (1 + margin) and 1 + margin."""
+    scale = float(max(np.max(np.abs(first)), np.max(np.abs(second))))
+    return {"tost_margin": 1 + margin, "tost_p": tost(first - second, np.log1p(margin), scale).p}
 
 
 def _exp(value: Number) -> Number:
@@ -243,8 +250,17 @@ LOG_COLUMNS = (
     *_RATIO,
     *_TEST,
     *_DIFFERENCE,
+    Column("tost_margin", "margin", "fixed2", "ratio that counts as equal"),
+    Column("tost_p", "p (TOST)", "p"),
 )
 LOG_SHOWN = tuple("label n geometric_standard geometric_dynamic ratio F p p_holm dz bf10".split())
+
+
+MORE = (
+    "label n r difference sd_difference t ratio shapiro_w shapiro_p tost_margin tost_p low90 high90"
+)
+LOG_MORE = "label n difference sd_difference t ges pes shapiro_w shapiro_p tost_margin tost_p"
+MORE_TITLE = "Differences, ratios, normality of the differences, equivalence"
 
 
 def apa_f(table: Table, key: str) -> list[str | Cited]:

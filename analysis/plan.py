@@ -108,4 +108,19 @@ def _collection(
     planned = about.get("participants")
     if isinstance(planned, int) and planned != count:
         lines.append(f"{count} participants have data, planned were {planned}.")
+    each, levels, tasks = (design.get(k) for k in ("trials", "transparency", "tasks"))
+    if isinstance(each, int) and isinstance(levels, Sequence) and isinstance(tasks, Sequence):
+        lines += _short(study, each * len(levels) * len(tasks))
     return lines
+
+
+def _short(study: Study, planned: int) -> list[str]:
+    """Participants with another number of trials than planned; repeated ones count once."""
+    keys = ["participant", "trial"]
+    sizes = study.trials.drop_duplicates(keys).groupby("participant", observed=True).size()
+    odd = sizes[sizes != planned]
+    if not len(odd):
+        return []
+    named = ", ".join(f"{name} ({size})" for name, size in odd[:20].items())
+    more = f" and {len(odd) - 20} more" if len(odd) > 20 else ""
+    return [f"Of {planned} planned trials each, other numbers were recorded for {named}{more}."]

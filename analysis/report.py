@@ -139,4 +139,6 @@ def write(out: Path, make: Callable[[Draw], Report], formats: Sequence[str]) -> 
 
 
 def _tables(report: Report) -> list[Table]:
-    return [b for s in report.sections for b in walk(s.blocks) if isinstance(b, Table)]
+    """The tables that become files: not the further views of others."""
+    blocks = [b for s in report.sections for b in walk(s.blocks)]
+    return [b for b in blocks if isinstance(b, Table) and not b.source]

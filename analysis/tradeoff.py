@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, Cells, sums
+from analysis.cells import Array, Cells, level_codes, sums
+from analysis.load.schema import TRANSPARENCY
 from analysis.measures import design, distance, relative_error, share_correct, time_by_task
 from analysis.stats.distributions import t_two_sided
 from analysis.stats.undefined import Interval, Number, Undefined, no_interval
@@ -158,4 +159,6 @@ def accuracy_by_speed(trials: pd.DataFrame, parts: int = 3) -> pd.DataFrame:
     size = grouped.transform("size")
     part = np.minimum((rank * parts / size).astype(int), parts - 1)
     by = known.assign(part=part)[size >= parts].groupby(["transparency", "part"], observed=True)
-    return by["correct"].agg(share="mean", trials="size").reset_index()
+    table = by["correct"].agg(share="mean", trials="size").reset_index()
+    order = level_codes(table["transparency"], TRANSPARENCY)
+    return table.iloc[np.lexsort((table["part"], order))].reset_index(drop=True)

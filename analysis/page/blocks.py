@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from analysis.page.numbers import show
@@ -28,7 +28,10 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Rows keyed by their first column. `shown` picks columns for the page; the CSV has all."""
+    """Rows keyed by their first column. `shown` picks columns for the page; the CSV has all.
+
+    `source` names the table whose CSV this one is a further view of.
+    """
 
     key: str
     title: str
@@ -36,6 +39,12 @@ class Table:
     rows: tuple[Mapping[str, Any], ...]
     shown: tuple[str, ...] = ()
     note: str = ""
+    source: str = ""
+
+    @property
+    def file(self) -> str:
+        """Name of the CSV that has all of it."""
+        return f"{self.source or self.key}.csv"
 
     def column(self, name: str) -> Column:
         return next(c for c in self.columns if c.name == name)
@@ -52,7 +61,7 @@ class Table:
         """A number of this table, for a sentence."""
         row = self.row(key)
         text = show(row[column], style or self.style(row, self.column(column)))
-        return Cited(row[column], text, self.key, key, column)
+        return Cited(row[column], text, self.file, key, column)
 
     def style(self, row: Mapping[str, Any], column: Column) -> str:
         """How this row's number in `column` is shown."""
@@ -72,11 +81,11 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Cited:
-    """A shown number and where it comes from."""
+    """A shown number and where it comes from: file, row and column."""
 
     value: Any
     text: str
-    table: str
+    file: str
     row: str
     column: str
 
@@ -160,6 +169,19 @@ class Report:
     subtitle: str
     banner: str
     sections: tuple[Section, ...]
+
+
+def more(table: Table, title: str, shown: str) -> Fold:
+    """Further columns of a table, behind a fold."""
+    view = replace(
+        table,
+        key=f"{table.key}_more",
+        title=title,
+        shown=tuple(shown.split()),
+        source=table.key,
+        note="",
+    )
+    return Fold(title, (view,))
 
 
 def row_texts(table: Table, row: Mapping[str, Any]) -> list[str]:

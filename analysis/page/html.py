@@ -58,7 +58,7 @@ def _run(run: str | Cited) -> Markup:
     if isinstance(run, str):
         return signs(run)
     text = run.text.replace(" ", "\u00a0") if len(run.text) < 16 else run.text
-    return _CITED.format(cell(run.value), f"{run.table}.csv", run.row, run.column, text)
+    return _CITED.format(cell(run.value), run.file, run.row, run.column, text)
 
 
 def as_html(report: Report, pictures: Mapping[str, str], version: str) -> str:

@@ -44,7 +44,7 @@ def _table(table: Table) -> list[str]:
     lines = [f"**{_plain(table.title)}**", ""]
     lines += [f"| {' | '.join(cells)} |" for cells in (heads, rule, *rows)]
     note = f"{table.note} " if table.note else ""
-    return [*lines, "", f"*{note}All rows and columns: tables/{table.key}.csv.*", ""]
+    return [*lines, "", f"*{note}All rows and columns: tables/{table.file}.*", ""]
 
 
 def _plain(text: str) -> str:

@@ -11,10 +11,11 @@ from numpy.random import Generator
 
 from analysis.comparison import Measure, apa_f, compare
 from analysis.figures.comparison import effect_sizes
-from analysis.page.blocks import Block, Column, Fold, Prose, Report, Section, Table, say
+from analysis.page.blocks import Block, Column, Fold, Report, Section, Table, say
 from analysis.published.consistency import Finding, all_findings
 from analysis.published.numbers import Published, load_published
 from analysis.published.ordinal import Case, correct_cases, rating_cases
+from analysis.published.predictions import equivalence_section, predictions_section
 from analysis.published.reconstruct import exact_moments, r_interval, r_of
 
 ALPHA = 0.05
@@ -34,11 +35,15 @@ BANNER = (
 COMPARED = (
     Column("measure", "measure"),
     Column("label", "measure"),
+    Column("mean_standard", "M standard", "text", "as printed"),
+    Column("sd_standard", "s.d.", "text", "as printed"),
+    Column("mean_dynamic", "M dynamic", "text", "as printed"),
+    Column("sd_dynamic", "s.d.", "text", "as printed"),
     Column("f_published", "F published", "text", "as printed"),
-    Column("F", "F recomputed", "fixed3", "by construction"),
+    Column("F", "F again", "fixed3", "by construction"),
     Column("p_published", "p published", "text", "as printed"),
-    Column("p", "p recomputed", "p"),
-    Column("p_holm", "p (Holm)", "p", "over the four tasks"),
+    Column("p", "p again", "p"),
+    Column("p_holm", "p (Holm)", "p", "four tasks"),
     Column("r", "r implied", "bound3", "what rounding allows", "r_low", "r_high"),
     Column("r_low", "r from", "bound3", "rounding"),
     Column("r_high", "r to", "bound3", "rounding"),
@@ -76,11 +81,11 @@ def published_report(seed: int = 1) -> Report:
     compared = _compared(published, tests)
     findings = all_findings(published)
     sections = (
-        _predictions(published, tests, findings),
+        predictions_section(published, tests, findings),
         _recomputed(published, tests, compared),
         _consistency(findings),
         _ordinal(published, rng),
-        _equivalence(published, tests),
+        equivalence_section(published, tests),
     )
     return Report(TITLE, SUBTITLE, BANNER, sections)
 
@@ -109,6 +114,10 @@ def _compared(published: Published, tests: Table) -> Table:
         rows.append(
             {
                 **{c.name: own.get(c.name) for c in COMPARED},
+                "mean_standard": m.standard.mean.text,
+                "sd_standard": m.standard.sd.text,
+                "mean_dynamic": m.dynamic.mean.text,
+                "sd_dynamic": m.dynamic.sd.text,
                 "f_published": m.f.text,
                 "p_published": m.p.text,
                 "r_low": low,
@@ -123,10 +132,15 @@ def _compared(published: Published, tests: Table) -> Table:
 def _recomputed(published: Published, tests: Table, compared: Table) -> Section:
     sentences = [
         say(
-            f"{m.label[0].upper()}{m.label[1:]}: published M = {m.standard.mean.text} "
-            f"(s.d. {m.standard.sd.text}) standard and {m.dynamic.mean.text} "
-            f"(s.d. {m.dynamic.sd.text}) dynamic, F = {m.f.text}, p "
-            f"{'' if m.p.bound else '= '}{m.p.text}; recomputed {{}}, d_z = {{}} [{{}}, {{}}].",
+            f"{m.label[0].upper()}{m.label[1:]}: published M = {{}} (s.d. {{}}) standard and {{}} "
+            f"(s.d. {{}}) dynamic, F = {{}}, p {'' if m.p.bound else '= '}{{}}; recomputed {{}}, "
+            "d_z = {} [{}, {}].",
+            *(
+                compared.cite(m.name, column)
+                for column in ("mean_standard", "sd_standard", "mean_dynamic", "sd_dynamic")
+            ),
+            compared.cite(m.name, "f_published"),
+            compared.cite(m.name, "p_published"),
             apa_f(tests, m.name),
             tests.cite(m.name, "dz"),
             tests.cite(m.name, "dz_low"),
@@ -226,79 +240,3 @@ def _cases(key: str, title: str, printed: str, cases: Sequence[Case]) -> Table:
         for who, result, agrees in cases
     )
     return Table(key, title, CASES, rows)
-
-
-def _equivalence(published: Published, tests: Table) -> Section:
-    key = "distance_T3"
-    p = published.measure(key).p.text
-    shown = tests.row(key)["tost_p"] < ALPHA
-    verdict = "equivalence is shown" if shown else "equivalence is not shown"
-    text = say(
-        f"The paper reads T3's distances (p = {p}) as “not negatively affected”. The 95 % interval "
-        "of the difference, [{}, {}] units, allows a good deal in either direction; two one-sided "
-        f"tests against ± {{}} units (20 % of the standard mean) give p = {{}}: {verdict}.",
-        tests.cite(key, "difference_low", "fixed1"),
-        tests.cite(key, "difference_high", "fixed1"),
-        tests.cite(key, "tost_margin"),
-        tests.cite(key, "tost_p", "bound2"),
-    )
-    return Section("equivalence", "Is “no effect on spatial understanding” shown?", (text,))
-
-
-def _predictions(published: Published, tests: Table, findings: list[Finding]) -> Section:
-    """P1 to P3 by name."""
-    blocks = (
-        _faster(published, tests, findings),
-        _accurate(published, tests),
-        _depth(published),
-    )
-    return Section("predictions", "The paper's predictions", blocks)
-
-
-def _faster(published: Published, tests: Table, findings: list[Finding]) -> Prose:
-    multiple = next(f for f in findings if f.key == "multiplicity").detail.split(":")[0]
-    rows = [tests.row(name) for name in published.tasks]
-    faster = [r for r in rows if r["difference"] > 0 and r["p"] < ALPHA]
-    overall = tests.row("time_overall")
-    supported = overall["difference"] > 0 and overall["p"] < ALPHA
-    verdict = "not supported" if not supported else "supported"
-    return say(
-        f"P1, dynamic transparency is faster: {verdict}. Overall {{}}; it is significantly faster "
-        f"in {len(faster)} of {len(rows)} tasks; {multiple}.",
-        apa_f(tests, "time_overall"),
-        kind="answer",
-    )
-
-
-def _accurate(published: Published, tests: Table) -> Prose:
-    better, unclear = [], []
-    for name in ("error_T1", "error_T4", "distance_T3"):
-        row = tests.row(name)
-        (better if row["p"] < ALPHA and row["difference"] > 0 else unclear).append(row["label"])
-    worse = [r["label"] for r in tests.rows if r["difference"] < 0 and r["p"] < ALPHA]
-    a, b = (m.mean.text for m in published.correct)
-    verdict = "contradicted" if worse else "not contradicted, and not shown everywhere"
-    same = "the same share right to the last digit" if a == b else "different shares right"
-    return say(
-        f"P2, dynamic transparency does not cost accuracy: {verdict}. It is more accurate in "
-        f"{', '.join(better) or 'nothing'} (T1: {{}}); no difference is shown in "
-        f"{', '.join(unclear)} (T4: {{}}); T2 has {same} ({a} and {b}). For T3's distance "
-        "equivalence within ± 20 % has p = {}, so “no effect” is not shown either.",
-        apa_f(tests, "error_T1"),
-        apa_f(tests, "error_T4"),
-        tests.cite("distance_T3", "tost_p", "bound2"),
-        kind="answer",
-    )
-
-
-def _depth(published: Published) -> Prose:
-    depth = next(s for s in published.single if s.name == "depth_test")
-    own = next(s for s in published.single if s.name == "depth_self_report")
-    return say(
-        "P3, static depth perception does not suffer: not tested. "
-        f"{depth.moments.mean.text} of {depth.highest} right with dynamic transparency "
-        f"(s.d. {depth.moments.sd.text}) and a self-report of {own.moments.mean.text} of "
-        f"{own.highest} are high, but nobody took the test without it: there is nothing to "
-        "compare with.",
-        kind="answer",
-    )

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from analysis.comparison import Measure, apa_f, compare, measure
+from analysis.comparison import MORE, MORE_TITLE, Measure, apa_f, compare, measure
 from analysis.figures.comparison import bars_and_differences
 from analysis.measures import distance, over_tasks, relative_error, share_correct
-from analysis.page.blocks import Block, Prose, Section, Table, say
+from analysis.page.blocks import Block, Prose, Section, Table, more, say
 from analysis.sections.context import Context
 from analysis.sections.ordinal import friedman_row, friedman_sentence, friedman_table
 from analysis.sections.tables import cell_table, keep, missing_note, name_of
@@ -45,7 +45,7 @@ def accuracy_section(context: Context) -> tuple[Section, Table | None]:
             title="Accuracy, standard against dynamic",
         )
         blocks += [_sentence(tests, m, context.plan) for m in every]
-        blocks.append(tests)
+        blocks += [tests, more(tests, MORE_TITLE, MORE)]
     if measures and tests:
         blocks.append(
             bars_and_differences(

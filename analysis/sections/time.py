@@ -7,10 +7,19 @@ from dataclasses import replace
 import numpy as np
 
 from analysis.cells import Cells
-from analysis.comparison import Measure, apa_f, compare, compare_logs, measure
+from analysis.comparison import (
+    LOG_MORE,
+    MORE,
+    MORE_TITLE,
+    Measure,
+    apa_f,
+    compare,
+    compare_logs,
+    measure,
+)
 from analysis.figures.comparison import bars_and_differences
 from analysis.measures import by_scenario, over_tasks, scenario_of, time_by_task
-from analysis.page.blocks import Block, Fold, Prose, Section, Table, say
+from analysis.page.blocks import Block, Cited, Fold, Prose, Section, Table, more, say
 from analysis.sections.context import Context
 from analysis.sections.tables import (
     anova_table,
@@ -66,12 +75,19 @@ def time_section(context: Context) -> tuple[Section, Table | None]:
         blocks.append(say("No participant has every task under both transparency levels."))
         return Section("time", "Completion time", (*blocks, table)), None
     tests = replace(compare(measures, context.plan.margin), key="tests_time")
-    logs = compare_logs(measures)
+    logs = compare_logs(measures, context.plan.margin)
     blocks += [_sentence(tests, logs, m, context.plan.alpha) for m in measures]
     blocks.append(
         bars_and_differences("time", "Completion time by task", "time (s)", measures, tests)
     )
-    blocks += [logs, tests, table, *_factorial(context, cells)]
+    blocks += [
+        logs,
+        more(logs, f"Log times: {MORE_TITLE[0].lower()}{MORE_TITLE[1:]}", LOG_MORE),
+        tests,
+        more(tests, f"Raw times: {MORE_TITLE[0].lower()}{MORE_TITLE[1:]}", MORE),
+        table,
+        *_factorial(context, cells),
+    ]
     return Section("time", "Completion time", tuple(blocks)), logs
 
 
@@ -83,7 +99,7 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
         return say(f"{name}: {{}}.", logs.cite(m.key, "p"))
     faster = "faster" if row["ratio"] < 1 else "slower"
     verdict = f"participants were {faster}" if row["p"] < alpha else "no difference was shown"
-    return say(
+    sentence = say(
         f"{name}, {verdict} with dynamic transparency: geometric means of {{}} s (standard) and "
         "{} s (dynamic), ratio {}, 95 % CI [{}, {}], {}. Raw times: M = {} s (s.d. {}) and {} s "
         "(s.d. {}), {}.",
@@ -99,6 +115,21 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
         tests.cite(m.key, "sd_dynamic"),
         apa_f(tests, m.key),
     )
+    return sentence if row["p"] < alpha else Prose((*sentence.runs, *_equal(logs, m.key, alpha)))
+
+
+def _equal(logs: Table, key: str, alpha: float) -> tuple[str | Cited, ...]:
+    """Where no difference is shown: is equivalence?"""
+    p = logs.cite(key, "tost_p")
+    shown = is_defined(p.value) and p.value < alpha
+    verdict = "equivalence is shown" if shown else "equivalence is not shown either"
+    equals = "" if p.text.startswith(("<", "undefined")) else "= "
+    return say(
+        f" For a ratio within 1 : {{}} and {{}} : 1, TOST has p {equals}{{}}: {verdict}.",
+        logs.cite(key, "tost_margin"),
+        logs.cite(key, "tost_margin"),
+        p,
+    ).runs
 
 
 def _factorial(context: Context, cells: Cells) -> list[Block]:

@@ -24,14 +24,14 @@ CHANGES = (
     Column("faster_better", "faster, fewer errors", "int"),
     Column("faster_same", "faster, same errors", "int"),
     Column("slower", "not faster", "int"),
-    Column("r", "r of changes", "bound2", "log time with error"),
+    Column("r", "r of changes", "bound2", "95 % interval", "r_low", "r_high"),
     Column("r_low", "from", "bound2", "95 % interval"),
     Column("r_high", "to", "bound2", "95 % interval"),
     Column("p", "p", "p"),
 )
 WARNINGS = {
-    "bis": "BIS weighs time and accuracy equally; it is the least sensitive to trade-offs, "
-    "unless the trade-off itself differs between conditions.",
+    "bis": "BIS weighs time and accuracy equally; it is the least sensitive to trade-offs, though "
+    "not to those of a diffusion model.",
     "ies": "IES assumes that errors and time are exchangeable and misleads below 90 % correct.",
     "rcs": "RCS counts right answers per second and inherits the weights of IES.",
 }
@@ -48,9 +48,9 @@ def tradeoff_section(context: Context) -> Section | None:
         "From standard to dynamic: who became faster, and at what price",
         CHANGES,
         tuple(_row(c) for c in found),
-        tuple(c.name for c in CHANGES[1:]),
-        "A positive r: those who gained more time also gained more accuracy. A negative one: time "
-        "was bought with errors.",
+        tuple(c.name for c in CHANGES[1:] if c.name not in ("r_low", "r_high")),
+        "r: correlation of the changes in log time and in error. A positive r: those who gained "
+        "more time also gained more accuracy. A negative one: time was bought with errors.",
     )
     blocks: list[Block] = [
         _sentence(table, found, context.plan.alpha),
@@ -150,15 +150,15 @@ def _scores(context: Context) -> list[Block]:
         return []
     blocks: list[Block] = []
     measures = []
-    for key, label, values in (
-        ("bis", "balanced integration score", found.bis),
-        ("ies", "inverse efficiency score (s)", found.ies),
-        ("rcs", "rate-correct score (1/s)", found.rcs),
+    for key, label, digits, values in (
+        ("bis", "balanced integration score", 2, found.bis),
+        ("ies", "inverse efficiency score (s)", 2, found.ies),
+        ("rcs", "rate-correct score (1/s)", 4, found.rcs),
     ):
         if isinstance(values, Undefined):
             blocks.append(say(f"{label[0].upper()}{label[1:]}: {values}.", kind="note"))
         else:
-            measures.append(Measure(key, label, "", 3, values[:, 0], values[:, 1]))
+            measures.append(Measure(key, label, "", digits, values[:, 0], values[:, 1]))
     if measures:
         note = " ".join(WARNINGS[m.key] for m in measures)
         table = replace(

@@ -31,7 +31,7 @@ ORDER = (
     Column("F", "F", "fixed2"),
     Column("p", "p", "p"),
 )
-FAULTS_SHOWN = tuple("label n mean_standard mean_dynamic difference F p".split())
+FAULTS_SHOWN = tuple("label n mean_standard mean_dynamic difference F p tost_p".split())
 
 
 def validity_section(context: Context) -> Section:

@@ -147,7 +147,7 @@ def test_zero_means_have_no_ratio_and_no_margin():
 def test_a_constant_ratio_of_times_is_equal_on_the_log_scale():
     times = np.array([12.5, 40.1, 33.3, 71.9])
     logs = (np.log(times), np.log(times * 0.5))
-    table = compare_logs([Measure("t", "t", "s", 2, times, times * 0.5, "", logs)])
+    table = compare_logs([Measure("t", "t", "s", 2, times, times * 0.5, "", logs)], 0.2)
     assert table.row("t")["p"] == EQUAL
     assert table.row("t")["ratio"] == pytest.approx(0.5, rel=1e-12)
 

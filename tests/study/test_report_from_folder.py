@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +10,11 @@ import pytest
 from made_data import Made, make_folder
 from scipy import stats
 
+from analysis.load.study import load_study
+from analysis.page.blocks import Table, walk
+from analysis.page.html import as_html
+from analysis.page.markdown import as_markdown
+from analysis.report import Options, figures_of, make_report
 from experiment.cli import main
 
 
@@ -85,10 +89,9 @@ def test_one_participant_gets_a_report_that_says_undefined(tmp_path):
 
 
 def test_simulated_data_carry_the_banner(tmp_path):
-    make_folder(tmp_path / "data", Made(participants=2, source="simulated"))
-    assert main(["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]) == 0
-    for name in ("report.html", "report.md"):
-        text = (tmp_path / "out" / name).read_text()
+    made = make_report(make_folder(tmp_path / "data", Made(2, source="simulated")), Options())
+    pictures = {figure.key: "" for figure in figures_of(made.sections)}
+    for text in (as_markdown(made), as_html(made, pictures, "0")):
         assert "Simulated participants: for planning only, never evidence" in text
 
 
@@ -97,17 +100,42 @@ def test_two_sources_are_never_mixed(tmp_path, capsys):
     make_folder(tmp_path / "data", Made(participants=2, source="simulated"))
     assert main(["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]) == 2
     assert "sources are never mixed: choose with --source" in capsys.readouterr().err
-    words = ["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]
-    assert main([*words, "--source", "human"]) == 0
+    human = load_study(tmp_path / "data", "human")
+    assert set(human.trials["source"]) == {"human"}
+    assert human.other_sources == ("simulated",)
 
 
 def test_a_frozen_plan_is_followed_and_deviations_are_listed(tmp_path):
-    config = {"analysis": {"alpha": 0.01, "exclude": ["timed_out"], "tests": ["time"]}}
-    make_folder(tmp_path / "data", Made(participants=4, config=config))
-    words = ["report", str(tmp_path / "data"), "--out", str(tmp_path / "out")]
-    assert main([*words, "--alpha", "0.05"]) == 0
-    text = (tmp_path / "out" / "report.md").read_text()
-    assert "alpha is 0.05, planned was 0.01" in text
+    config = {
+        "study": {"participants": 6},
+        "design": {"trials": 3, "tasks": ["count"] * 4, "transparency": ["standard", "dynamic"]},
+        "analysis": {"alpha": 0.01, "exclude": ["timed_out"], "tests": ["time"]},
+    }
+    folder = make_folder(tmp_path / "data", Made(participants=4, config=config))
+    path = next(folder.glob("data/human/P03/*_trials_data.csv"))
+    path.write_text("\n".join(path.read_text().split("\n")[:-2]) + "\n")
+    made = make_report(folder, Options(alpha=0.05))
+    text = as_markdown(made)
+    for deviation in (
+        "alpha is 0.05, planned was 0.01",
+        "4 participants have data, planned were 6",
+        "Of 24 planned trials each, other numbers were recorded for P03 (23)",
+    ):
+        assert deviation in text
+    # the frozen tests run, and no others
+    assert [s.key for s in made.sections] == ["summary", "participants", "time", "provenance"]
+    with_other_rules = as_markdown(make_report(folder, Options(exclude=["focus_lost"])))
+    assert "Exclusion rules are: focus\\_lost; planned were: timed\\_out" in with_other_rules
+
+
+def test_excluded_trials_are_named_by_rule_and_row(tmp_path):
+    folder = make_folder(tmp_path / "data", Made(participants=3))
+    made = make_report(folder, Options(exclude=["participant:P02"]))
+    tables = {b.key: b for s in made.sections for b in walk(s.blocks) if isinstance(b, Table)}
+    rows = tables["excluded"].rows
+    assert {(r["rule"], r["participant"]) for r in rows} == {("participant:P02", "P02")}
+    assert [r["row"] for r in rows] == list(range(2, 26))
+    assert tables["totals"].row("trials counted")["count"] == 48
 
 
 def test_an_unrelated_folder_is_not_written_to(tmp_path, capsys):
@@ -116,4 +144,8 @@ def test_an_unrelated_folder_is_not_written_to(tmp_path, capsys):
     assert main(["report", str(tmp_path / "data"), "--out", str(tmp_path / "data")]) == 2
     assert "expected a new folder" in capsys.readouterr().err
     assert sorted(tmp_path.rglob("*")) == before
-    assert json.loads((tmp_path / "data" / "dataset_description.json").read_text())
+
+
+def test_no_data_and_no_published_is_bad_input(tmp_path, capsys):
+    assert main(["report", "--out", str(tmp_path / "out")]) == 2
+    assert "expected either DATA or --published" in capsys.readouterr().err
