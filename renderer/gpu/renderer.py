@@ -102,31 +102,47 @@ class Renderer:
 
         Masks are as wide, against the picture, as in the frame. The picture drawn last stays.
         """
+        n = len(scene.objects)
+        if isinstance(technique, DynamicTransparency) and technique.per_pixel_only:
+            small, layer = self._looking(size)
+            scale = size[1] / self.size[1]
+            frame = plan(scene, camera, technique, size, self.without, scale)
+            table = self._table(scene)
+            layer.draw(table, frame, camera, technique, small, scale)
+            shares = layer.exact_layers(table, frame, camera, technique, size, scale)
+            return visibility_of_shares(shares, small.read(), n)
+        layers = self.layers(scene, camera, technique, size)
+        return visibility(layers, self._looking(size)[0].read(), n)
+
+    def layers(
+        self, scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]
+    ) -> list[tuple[NDArray[np.int64], NDArray[np.floating]]]:
+        """What `look` sees: from back to front, object + 1 (h, w) where the layer drew anything,
+        else 0, and the opacity (h, w) with which it did."""
+        small, layer = self._looking(size)
+        found: list[tuple[NDArray[np.int64], NDArray[np.floating]]] = []
+        last = np.zeros(size[::-1], dtype=np.int64)
+
+        def keep() -> None:
+            nonlocal last
+            ids = small.read_ids()
+            found.append((np.where(ids != last, ids, 0), small.read_alpha()))
+            last = ids
+
+        scale = size[1] / self.size[1]
+        frame = plan(scene, camera, technique, size, self.without, scale)
+        layer.draw(self._table(scene), frame, camera, technique, small, scale, keep)
+        return found
+
+    def _looking(self, size: tuple[int, int]) -> tuple[FrameTarget, Layer]:
+        """The picture with ids, and what draws into it."""
         if self._small is None or self._small.size != size:
             if self._small is not None:
                 self._small.release()
             self._small = FrameTarget(self.context, _checked(size), ids=True)
         if self._id_layer is None:
             self._id_layer = Layer(self.context, self._store, ids=True)
-        small = self._small
-        layers: list[tuple[NDArray[np.int64], NDArray[np.floating]]] = []
-        last = np.zeros(size[::-1], dtype=np.int64)
-
-        def keep() -> None:
-            nonlocal last
-            ids = small.read_ids()
-            layers.append((np.where(ids != last, ids, 0), small.read_alpha()))
-            last = ids
-
-        scale = size[1] / self.size[1]
-        frame = plan(scene, camera, technique, size, self.without, scale)
-        table, n = self._table(scene), len(scene.objects)
-        if isinstance(technique, DynamicTransparency) and technique.per_pixel_only:
-            self._id_layer.draw(table, frame, camera, technique, small, scale)
-            shares = self._id_layer.exact_layers(table, frame, camera, technique, size, scale)
-            return visibility_of_shares(shares, small.read(), n)
-        self._id_layer.draw(table, frame, camera, technique, small, scale, keep)
-        return visibility(layers, small.read(), n)
+        return self._small, self._id_layer
 
     def _unchanged(self, scene: Scene, camera: Camera, technique: Technique) -> bool:
         if self._shown is None or "still" in self.without:

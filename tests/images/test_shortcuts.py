@@ -1,0 +1,99 @@
+"""Every shortcut leaves the picture as it is, and leaves work out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sample_scenes import before_column, column, room
+
+from renderer.gpu.renderer import Renderer
+from renderer.plan import SHORTCUTS
+from renderer.techniques.dynamic import DynamicTransparency
+from renderer.techniques.standard import Standard
+
+SIZE = (160, 120)
+TECHNIQUE = DynamicTransparency(width=8, min_transmittance=0.2)
+SCENES = {
+    "column": (column(1, impenetrable=0.2), before_column(1)),
+    "row of targets": (column(6, targets=0.8), before_column(6)),
+    "room": room(),
+}
+
+
+def drawn(context, scene, camera, without, technique=TECHNIQUE):
+    renderer = Renderer(context, SIZE, without=without)
+    stats = renderer.draw(scene, camera, technique)
+    return renderer.read().astype(int), stats, renderer.plan
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("shortcut", sorted(SHORTCUTS))
+def test_the_long_way_gives_the_same_picture(context, name, shortcut):
+    """Equal in every pixel; a hull's distance and a looked-up one, or a blended and a sorted
+    pixel, may differ by rounding."""
+    scene, camera = SCENES[name]
+    short, _, _ = drawn(context, scene, camera, frozenset())
+    long, _, _ = drawn(context, scene, camera, frozenset({shortcut}))
+    allowed = 1 if shortcut in ("hulls", "parts") else 0
+    assert np.abs(short - long).max() <= allowed
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_long_way_takes_longer(context, name):
+    """Counters of passes, draws, masks and ordered objects."""
+    scene, camera = SCENES[name]
+    _, short, frame = drawn(context, scene, camera, frozenset())
+    assert 0 < short.masks <= scene.targets.sum()
+    assert 0 < short.ordered < len(scene.objects)
+    _, painter, _ = drawn(context, scene, camera, frozenset({"levels"}))
+    assert painter.passes > short.passes or name == "row of targets"  # each alone anyway
+    _, all_blend, _ = drawn(context, scene, camera, frozenset({"opaque"}))
+    assert all_blend.ordered > short.ordered
+    _, _, whole = drawn(context, scene, camera, frozenset({"cull"}))
+    assert len(whole.opaque) >= len(frame.opaque)
+    _, masked, _ = drawn(context, scene, camera, frozenset({"masks"}))
+    assert masked.masks >= short.masks
+
+
+def test_a_frame_without_occluded_targets_is_the_standard_frame(context):
+    """The same passes and draws, and not a single mask."""
+    scene, camera = SCENES["column"]
+    ahead = replace(scene, objects=tuple(replace(o, target=False) for o in scene.objects))
+    plain, standard, _ = drawn(context, ahead, camera, frozenset(), Standard())
+    picture, stats, _ = drawn(context, ahead, camera, frozenset())
+    assert stats == standard
+    assert (stats.passes, stats.masks, stats.ordered) == (1, 0, 0)
+    np.testing.assert_array_equal(picture, plain)
+
+
+def test_nothing_happens_while_nothing_changes(context):
+    """Neither plan nor draw; but any change of scene, camera, technique or size draws again."""
+    scene, camera = SCENES["column"]
+    renderer = Renderer(context, SIZE)
+    first = renderer.draw(scene, camera, TECHNIQUE)
+    picture = renderer.read()
+    assert renderer.draw(scene, replace(camera), TECHNIQUE).draws == 0
+    np.testing.assert_array_equal(renderer.read(), picture)
+    assert renderer.draw(scene, camera, replace(TECHNIQUE, width=3)).draws > 0
+    assert renderer.draw(scene, replace(camera, fov_y=0.6), TECHNIQUE).draws > 0
+    assert renderer.draw(replace(scene), camera, TECHNIQUE).draws == first.draws
+    renderer.resize((80, 60))
+    assert renderer.draw(scene, camera, TECHNIQUE).draws > 0
+
+
+def test_layers_are_counted_only_where_they_matter(context):
+    """Three layers of 0.3 leave 0.34: no count for τ = 0.2, but one for τ = 0.6."""
+    scene, camera = SCENES["row of targets"]
+    _, _, frame = drawn(context, scene, camera, frozenset(), replace(TECHNIQUE, width=1))
+    _, _, strict = drawn(
+        context, scene, camera, frozenset(), replace(TECHNIQUE, width=1, min_transmittance=0.9)
+    )
+    assert len(frame.counted) < len(strict.counted) <= len(strict.masked)
+
+
+def test_an_unknown_shortcut_is_refused(context):
+    """By name, with what there is."""
+    with pytest.raises(ValueError, match=r"without = \['magic'\], expected some of"):
+        Renderer(context, SIZE, without=frozenset({"magic"}))
