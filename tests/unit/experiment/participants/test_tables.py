@@ -1,10 +1,13 @@
 """Visibility tables: lattice poses, exact storage, the same decisions as with the eyes open."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from experiment.config import load
+from experiment.design import generator
 from experiment.participants.data_mode import play_session, play_trial, trial_row
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import Pool, fingerprint, same
@@ -176,3 +179,28 @@ def test_a_table_belongs_to_its_scene_and_technique():
 def test_an_empty_pool_is_refused():
     with pytest.raises(ValueError, match=r"pool = 0: expected at least 1 scene a task"):
         Pool(small_study(), 0)
+
+
+@pytest.mark.parametrize("task", ["count", "pattern", "unique", "count_in_building"])
+def test_off_the_lattice_the_measures_are_equivalent(task):
+    """With motor noise tables are sampled: over scenes mean times agree within 10 %, counts
+    within 0.5.
+
+    40 scenes of T3 gave a ratio of .987 with a standard error of .006. In a single scene the
+    lattice can hide a thing in the gap between two headings: there times differed by 30 %.
+    """
+    study = small_study()
+    trial = trial_of(study, task, "dynamic")
+    with_tables, with_eyes = Pool(study, 16, shown), Pool(study, 16, shown)
+    with_eyes.eyes = lambda name, trial, scene: _OpenEyes(shown("dynamic"))
+    times, errors = [], []
+    for seed in range(16):
+        trial = replace(trial, stream=(*trial.stream[:-1], seed))
+        runs = [
+            play_trial(SimulatedParticipant(generator(seed, (2,))), pool, trial, 0.0, ASPECT)
+            for pool in (with_tables, with_eyes)
+        ]
+        times.append([run.time for run, _ in runs])
+        errors.append([run.outcome.count_error or 0 for run, _ in runs])
+    assert abs(np.diff(np.log(np.mean(times, axis=0)))[0]) < 0.10
+    assert abs(np.diff(np.mean(errors, axis=0))[0]) <= 0.5
