@@ -29,11 +29,19 @@ class Layout:
     owner: NDArray[np.int64]
     size: int
     _blocked: dict[int, NDArray[np.bool_]] = field(default_factory=dict)
+    _ways: dict[int, tuple[NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=dict)
 
     def cell(self, place: NDArray[np.float64]) -> int:
         """The cell in which (or nearest to which) a place (2,) lies."""
         i, j = np.clip((place / CELL + self.size / 2).astype(int), 0, self.size - 1)
         return int(i * self.size + j)
+
+    def ways(self, cell: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(n,) how far and in which yaw every cell lies from the middle of `cell`."""
+        if cell not in self._ways:
+            way = self.centers - self.centers[cell]
+            self._ways[cell] = np.hypot(way[:, 0], way[:, 1]), bearing(way)
+        return self._ways[cell]
 
     def blocked(self, cell: int) -> NDArray[np.bool_]:
         """(n segments, n cells) which wall segment hides which cell from the middle of `cell`."""
@@ -121,10 +129,10 @@ class Known:
         if (seen != self.walls).any():
             self.walls, self._hidden = seen, None
 
-    def hidden(self, eye: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(n,) cells whose middle a known wall hides from the cell in which one stands."""
+    def hidden(self, cell: int) -> NDArray[np.bool_]:
+        """(n,) cells whose middle a known wall hides from `cell`, in which one stands."""
         if self._hidden is None:
-            blocked = self.layout.blocked(self.layout.cell(eye))
+            blocked = self.layout.blocked(cell)
             self._hidden = blocked[self.walls].any(axis=0)
         return self._hidden
 

@@ -37,6 +37,9 @@ from tasks.hud import Inset
 
 STEP = 2 * pi / DIRECTIONS
 THING = 1.5  # radius of a usual thing, for how well it would be seen from afar [ours]
+# Window pixels of a usual thing at distance 1, of which it fills half its circle: the picture is
+# one unit high at distance 1 / (2 tan 30°), and three quarters of its width high.
+FILLED = 0.5 * pi * (THING / (2 * np.tan(np.pi / 6))) ** 2 * 0.75 * WINDOW_PIXELS
 REACH = 3  # cells about a place that count as worth going there for [ours]
 THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
 THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached it
@@ -73,6 +76,11 @@ class Walker:
         return self.glance.view.camera.eye[[0, 2]]
 
     @property
+    def cell(self) -> int:
+        """The cell one is in: what can be seen from it is judged from its middle."""
+        return self.known.layout.cell(self.eye)
+
+    @property
     def yaw(self) -> float:
         """Where one looks."""
         return heading(self.glance.view)[0]
@@ -88,8 +96,8 @@ class Walker:
         known = recognised(seen, things, mood)
         clear = things[known]
         self.recognised.update(clear.tolist())
-        for index in clear.tolist():
-            self.known.unclear.pop(index, None)
+        for made_out in clear.tolist():
+            self.known.unclear.pop(made_out, None)
         self._see_through(seen, things)
         self._inspect()
         self._wonder(seen, things[~known])
@@ -108,10 +116,10 @@ class Walker:
         self.through += np.minimum(seen.contrast[through] / CLEAR, 1.0).tolist()
 
     def _inspect(self) -> None:
-        way = self.known.layout.centers - self.eye
-        inside = np.abs(apart(bearing(way), self.yaw)) < HALF_VIEW
-        here = np.hypot(way[:, 0], way[:, 1]) < THERE
-        self.known.inspect(np.where(inside, self.quality(way, self.eye), here))
+        distance, toward = self.known.layout.ways(self.cell)
+        inside = np.abs(apart(toward, self.yaw)) < HALF_VIEW
+        here = distance < THERE
+        self.known.inspect(np.where(inside, self.quality(), here))
         self.known.unclear = {i: c for i, c in self.known.unclear.items() if not here[c]}
 
     def _wonder(self, seen: Visibility, things: NDArray[np.int64]) -> None:
@@ -122,15 +130,13 @@ class Walker:
                 away = np.hypot(*(self.known.layout.centers - place).T)
                 self.known.unclear[index] = int(np.argmin(away))
 
-    def quality(self, way: NDArray[np.float64], eye: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(n,) how surely a thing would be recognised at the end of each way from `eye`."""
+    def quality(self) -> NDArray[np.float64]:
+        """(n,) how surely a thing in each cell would be recognised from where one stands."""
         p = self.mood.profile
-        distance = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1.0)
-        # The picture is one unit high at distance 1 / (2 tan 30°); a thing fills half its circle.
-        share = 0.5 * pi * (THING / (2 * distance * np.tan(np.pi / 6))) ** 2 * 0.75
-        hidden = self.known.hidden(eye)
+        distance = np.maximum(self.known.layout.ways(self.cell)[0], 1.0)
+        hidden = self.known.hidden(self.cell)
         clearness = np.where(hidden, self._through_clearness(), 1.0)
-        sure = likely(share * WINDOW_PIXELS * clearness, p.recognise, p.recognise_spread)
+        sure = likely(FILLED / distance**2 * clearness, p.recognise, p.recognise_spread)
         return np.where(hidden, p.trust * sure, sure)
 
     def _through_clearness(self) -> float:
@@ -144,21 +150,19 @@ class Walker:
 
         What is most worth its time: unseen cells that a look would show, over seconds.
         """
-        centers = self.known.layout.centers
-        way = centers - self.eye
-        worth = self.known.gain(self.quality(way, self.eye))
-        toward = bearing(way)
+        distance, toward = self.known.layout.ways(self.cell)
+        worth = self.known.gain(self.quality())
         inside = np.abs(apart(toward - self.yaw, TURNS[:, None])) < HALF_VIEW
         gains = (inside @ worth) / (LOOK + TURN_COST * np.abs(TURNS))
         side = int(np.argmax(gains))
         best, choice = float(gains[side]), (float(TURNS[side]), None)
-        seconds = np.hypot(way[:, 0], way[:, 1]) / self.hands.speed + 3 * LOOK
+        seconds = distance / self.hands.speed + 3 * LOOK
         # Only what is unseen is worth going to: there, one will at least have seen that.
         unseen = self.known.unseen
         rates = np.where(unseen > GOAL * unseen.max(), _nearby(self.known) / seconds, 0.0)
         there = int(np.argmax(rates))
         if rates[there] > best:
-            return float(apart(toward[there], self.yaw)), centers[there]
+            return float(apart(toward[there], self.yaw)), self.known.layout.centers[there]
         return choice
 
     def turn(self, angle: float) -> Generator[list[Event], Glance, None]:

@@ -147,9 +147,11 @@ def test_known_walls_hide_cells_and_doorways_do_not():
     assert len(plan.segments) == 4 + 2 * len(b.floor.walls)
     known = Known(plan)
     eye = np.array(b.start)
-    assert not known.hidden(eye).any()  # no wall seen yet
+    assert_allclose(plan.centers[plan.cell(eye)], eye)
+    assert plan.cell(np.array([-99.0, 99.0])) == 15  # outside: the nearest cell
+    assert not known.hidden(plan.cell(eye)).any()  # no wall seen yet
     known.see_walls(np.ones(len(b.scene.objects), bool))
-    hidden = known.hidden(eye)
+    hidden = known.hidden(plan.cell(eye))  # the start is the middle of its cell
     # The oracle walks along each way in small steps and asks the floor plan for the walls passed.
     for cell, found in zip(plan.centers, hidden, strict=True):
         assert found == _blocked(b, eye, cell), cell
