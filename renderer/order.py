@@ -130,6 +130,22 @@ def decide(order, group, extents, reach, centers, sides, radius, near, far, targ
 
 
 @njit(cache=True)
+def overlapped(order, extents, reach, near, far, targets, hard):  # type: ignore[no-untyped-def]
+    """(n,) which targets' masks any penetrable object overlaps that is not wholly behind them.
+
+    More than `decide` finds: beside its target a mask lies at the depth of the target's centre,
+    and an object behind the target may come before that.
+    """
+    found = np.zeros(len(extents), np.bool_)
+    for a in range(len(order)):
+        for b in range(len(order)):
+            i, s = order[a], order[b]
+            if i != s and targets[s] and not hard[i] and near[i] < far[s]:
+                found[s] |= meet(extents, i, reach, s)
+    return found
+
+
+@njit(cache=True)
 def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no-untyped-def]
     """The level of each blended object and of each mask (−2: none), and objects in a cycle.
 

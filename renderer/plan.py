@@ -119,6 +119,10 @@ def plan(
         there & ~hard & ("opaque" in without),
     )
     masked |= there & scene.targets & ("masks" in without)
+    if technique.per_pixel_only:
+        masked |= order.overlapped(
+            seen, boxes.extents, reach, boxes.near, boxes.far, scene.targets, hard
+        )
     base = FramePlan(
         opaque=drawn,
         levels=(),
@@ -188,7 +192,7 @@ def _behind(
 ) -> Indices:
     """(n,) a masked target behind each blended object, −1 where there is none."""
     over = (relation == order.IN_FRONT) & masked[None] & blended[:, None]
-    return np.where(over.any(axis=1), over.argmax(axis=1), -1)
+    return np.where(over.any(axis=1), over.argmax(axis=1), -1) if len(over) else over.sum(axis=1)
 
 
 def _with_levels(

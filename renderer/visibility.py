@@ -76,6 +76,7 @@ def visibility_of_shares(
     for ids, share in layers:
         where = np.nonzero((ids.ravel() > 0) & (share.ravel() >= SEEN))[0]
         found.append((ids.ravel()[where] - 1, where, share.ravel()[where].astype(float)))
+    found.append((np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0)))
     which, pixel, share = (np.concatenate([f[k] for f in found]) for k in range(3))
     return _measured(which, pixel, share, picture, objects)
 
