@@ -17,4 +17,12 @@ class DataError(Exception):
     def shown(self) -> tuple[str, ...]:
         """At most `SHOWN` lines; the last one counts the rest."""
         more = len(self.lines) - SHOWN
-        return self.lines if more <= 0 else (*self.lines[:SHOWN], f"and {more} more like these")
+        lines = tuple(_printable(line) for line in self.lines[:SHOWN])
+        return lines if more <= 0 else (*lines, f"and {more} more like these")
+
+
+def _printable(line: str) -> str:
+    """What would end the line or drive the terminal becomes an escape: data may hold anything."""
+    return "".join(
+        c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in line
+    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
 from importlib import resources
 from typing import Any
 
@@ -21,8 +20,8 @@ class Texts:
         self._texts = _flat(tomllib.loads(file.read_text(encoding="utf-8")))
         for key, text in (replaced or {}).items():
             if key not in self._texts:
-                near = ", ".join(get_close_matches(key[:60], self._texts, 5, 0.0))
-                raise InputError(f"texts.{key:.60}: unknown text; known are, among others: {near}")
+                known = f"{', '.join(list(self._texts)[:40])}, …"
+                raise InputError(f"texts.{key:.60}: unknown text; known: {known}")
             self._texts[key] = text
 
     def __getitem__(self, key: str) -> str:

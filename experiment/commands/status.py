@@ -9,7 +9,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from experiment.chain import verify
 from experiment.errors import one_line
+from experiment.folders import folder_of, taken
 from experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
 
 if TYPE_CHECKING:
@@ -23,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the ledger; 0."""
+    """Print the ledger and what was changed in the files; 0, or 1 if something was."""
     from experiment.ledger import Ledger
     from experiment.ledger_files import reconcile
 
@@ -31,8 +33,16 @@ def run(arguments: argparse.Namespace) -> int:
     with Ledger.existing(arguments.data, arguments.ledger) as ledger:
         changes = reconcile(ledger, arguments.data, now)
         lines = [*(f"mended    {line}" for line in changes), *describe(ledger, now)]
-    print("\n".join(lines))
-    return 0
+    problems = [one_line(line) for line in _changed(arguments.data)]
+    files = [f"files     {line}" for line in problems or ["as they were written: chains hold"]]
+    print("\n".join([*lines[:-1], *files, lines[-1]]))
+    return 1 if problems else 0
+
+
+def _changed(data: Path) -> list[str]:
+    """What the hash chains say about every participant's files."""
+    names = sorted(taken(data, "human"))
+    return [f"{name}: {line}" for name in names for line in verify(folder_of(data, "human", name))]
 
 
 def describe(ledger: Ledger, now: datetime) -> list[str]:

@@ -13,7 +13,7 @@ from broken_configs import BASE, KINDS, case, toml
 
 from experiment import cli
 
-CASES = int(os.environ.get("SEETHROUGH_CASES", "400"))
+CASES = int(os.environ.get("SEETHROUGH_CASES", "300"))
 
 
 def check(path):

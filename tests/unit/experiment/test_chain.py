@@ -72,10 +72,11 @@ def test_the_report_reads_the_same_chain(tmp_path):
     folder = session(tmp_path)
     table = folder / f"{STEM}_trials_data.csv"
     sidecar = json.loads(table.with_suffix(".json").read_text("utf-8"))
-    assert report_verifies(Source(table.name, table.read_bytes()), sidecar).state == "verified"
+    state = report_verifies(Source(table.name, table.read_bytes()), sidecar, folder).state
+    assert state == "verified"
     changed = table.read_bytes().replace(b",12,14,", b",14,14,", 1)
-    with pytest.raises(DataError, match=r"_trials_data\.csv: row 2: chain"):
-        report_verifies(Source(table.name, changed), sidecar)
+    with pytest.raises(DataError, match=r"_trials_data\.csv: row 2: changed"):
+        report_verifies(Source(table.name, changed), sidecar, folder)
 
 
 @settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))

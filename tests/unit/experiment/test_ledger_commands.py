@@ -104,7 +104,8 @@ def test_a_lost_ledger_is_made_again_from_the_files(sessions, tmp_path, capsys):
 def test_a_session_whose_end_the_ledger_missed_is_completed(sessions, tmp_path, capsys):
     sessions("--next", how="left")
     (end,) = (tmp_path / "data" / "human" / "P01").glob("*_end.json")
-    end.write_text(json.dumps({"status": "complete"}), "utf-8")  # a crash right after this
+    said = json.loads(end.read_text("utf-8"))
+    end.write_text(json.dumps({**said, "status": "complete"}), "utf-8")  # a crash right after this
     assert cli.main(["status", str(tmp_path)]) == 0
     assert "P01: complete on disk, live in the ledger" in capsys.readouterr().out
     assert entries(tmp_path) == [("P01", 1, "complete")]
@@ -153,3 +154,15 @@ def test_keeping_the_files_frees_the_slot_all_the_same(sessions, tmp_path):
     assert cli.main(words) == 0
     assert (tmp_path / "data" / "human" / "P01").exists()
     assert entries(tmp_path) == [("P01", 1, "void")]
+
+
+def test_status_names_what_was_changed_in_the_files(sessions, tmp_path, capsys):
+    sessions("--next")
+    sessions("--next")
+    assert cli.main(["status", str(tmp_path)]) == 0
+    assert "files     as they were written: chains hold" in capsys.readouterr().out
+    (table,) = (tmp_path / "data" / "human" / "P02").glob("*_trials_data.csv")
+    table.write_text(table.read_text("utf-8").replace("row_id", "row_ld", 1), "utf-8")
+    assert cli.main(["status", str(tmp_path)]) == 1
+    said = capsys.readouterr().out
+    assert f"files     P02: {table.with_suffix('.json').name}: changed, or the header of" in said
