@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class Mesh:
 def _mesh(
     vertices: NDArray[np.float64],
     normals: NDArray[np.float64],
-    triangles: NDArray[np.integer],
+    triangles: ArrayLike,
     convex: bool,
 ) -> Mesh:
     """A white mesh; normals need not have unit length yet."""
@@ -85,7 +85,9 @@ def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
 def box(width: float = 1.0, height: float = 1.0, depth: float = 1.0) -> Mesh:
     """A box about the origin (x, y, z sizes); each face has its own four vertices."""
     _check(width=width, height=height, depth=depth)
-    vertices, normals, triangles = [], [], []
+    vertices: list[NDArray[np.float64]] = []
+    normals: list[NDArray[np.float64]] = []
+    triangles: list[list[int]] = []
     for axis in range(3):
         for sign in (-1.0, 1.0):
             normal = np.zeros(3)

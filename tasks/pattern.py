@@ -11,7 +11,7 @@ from tasks.abstract_scene import abstract_scene
 from tasks.base import Outcome, View
 from tasks.controls import Orbit, orbit
 from tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease
-from tasks.hud import Button, Label, Rect
+from tasks.hud import Button, Element, Label, Rect
 from tasks.letters import LETTERS
 from tasks.parameters import AbstractParameters
 
@@ -76,7 +76,7 @@ class Pattern:
 
     def view(self, state: PatternState) -> View:
         """What to show for `state`."""
-        hud = [Label("pattern.question", (0.02, 0.02))]
+        hud: list[Element] = [Label("pattern.question", (0.02, 0.02))]
         for text, rect in buttons(state.aspect).items():
             label = "button.confirm" if text == "enter" else text
             hud.append(Button(label, rect, chosen=text == state.chosen))
@@ -84,7 +84,7 @@ class Pattern:
 
     def outcome(self, state: PatternState) -> Outcome | None:
         """Right or wrong, once confirmed."""
-        if not state.confirmed:
+        if not state.confirmed or state.chosen is None:
             return None
         return Outcome(state.chosen, state.world.letter, state.chosen == state.world.letter)
 

@@ -69,8 +69,8 @@ class Unique:
         camera = state.walk.camera()
         picture = inset(state.picture, state.walk.held.time or 0.0)
         if not state.found:
-            hud = (Label("unique.search", (0.26, 0.02)), picture)
-            return View(state.building.scene, camera, hud, captured=True)
+            search = (Label("unique.search", (0.26, 0.02)), picture)
+            return View(state.building.scene, camera, search, captured=True)
         middle = (state.plan.aspect / 2, 0.03)
         hud = (
             Label("unique.mark", middle, align="center"),
@@ -81,13 +81,13 @@ class Unique:
 
     def outcome(self, state: UniqueState) -> Outcome | None:
         """Once confirmed: `distance` from the mark, and as `correct`, whether the room is right."""
-        if not state.plan.confirmed:
+        if not state.plan.confirmed or state.plan.mark is None:
             return None
         b = state.building
         index = b.asked_objects[0]
         place = b.scene.transforms[index, [0, 2], 3]
         mark = np.array(state.plan.mark)
-        rooms = [room_at(b.floor, *at, b.parameters) for at in (mark, place)]
+        rooms = [room_at(b.floor, at[0], at[1], b.parameters) for at in (mark, place)]
         return Outcome(
             answer=f"{mark[0]:.3f},{mark[1]:.3f}",
             truth=f"{place[0]:.3f},{place[1]:.3f}",

@@ -34,7 +34,8 @@ def wall_with_doorway(
     xs, ys = (0.0, *door, length), (0.0, door_height, height)
     cube = unit_cube()
     facing = cube.normals[cube.triangles[:, 0], :2]
-    vertices, triangles = [], []
+    vertices: list[np.ndarray] = []
+    triangles: list[np.ndarray] = []
     for i, j in BLOCKS:
         low, high = np.array([xs[i], ys[j]]), np.array([xs[i + 1], ys[j + 1]])
         size, middle = [*(high - low), thickness], [*(low + high) / 2, 0.0]
