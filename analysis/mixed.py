@@ -86,8 +86,8 @@ def _fit(trials: pd.DataFrame, fixed: np.ndarray, random: np.ndarray, n: int) ->
         warnings.simplefilter("always")
         try:
             result = model.fit(reml=True)
-        except (np.linalg.LinAlgError, ValueError) as error:
-            return _none(n, count, f"the model cannot be fitted ({error})")
+        except (np.linalg.LinAlgError, ValueError) as failure:
+            return _none(n, count, f"the model cannot be fitted ({failure})")
         estimate, error = float(result.fe_params[1]), float(result.bse_fe[1])
         slope = float(np.sqrt(max(0.0, result.cov_re[1, 1])))
     if not result.converged or not np.isfinite(error) or error <= 0:

@@ -58,8 +58,12 @@ def make_plan(
     unknown = [t for t in tests if t not in TESTS]
     if unknown:
         raise DataError(f"analysis.tests = {unknown[0]!r}: expected among {', '.join(TESTS)}")
-    design = next((c["design"] for c in configs if isinstance(c.get("design"), Mapping)), {})
-    about = next((c["study"] for c in configs if isinstance(c.get("study"), Mapping)), {})
+    design: Mapping[str, Any] = next(
+        (c["design"] for c in configs if isinstance(c.get("design"), Mapping)), {}
+    )
+    about: Mapping[str, Any] = next(
+        (c["study"] for c in configs if isinstance(c.get("study"), Mapping)), {}
+    )
     deviations = [
         *_choices(frozen, (planned_alpha, used_alpha), (planned_out, used_out)),
         *_collection(study, configs, design, about),

@@ -132,7 +132,7 @@ def _records(sources: Iterable[Source], table: pd.DataFrame) -> list[FileRead]:
 
 def _sidecars(paths: Iterable[Path], folder: Path) -> dict[str, Mapping[str, Any]]:
     """The trial tables' sidecars; a table without one is possible and shows in the report."""
-    found = {}
+    found: dict[str, Mapping[str, Any]] = {}
     for path in paths:
         sidecar = path.with_suffix(".json")
         if sidecar.is_file():

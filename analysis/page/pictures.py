@@ -26,7 +26,7 @@ _VARIABLES = {
     DYNAMIC: "--dynamic",
 }
 
-_STYLE = {
+_STYLE: Any = {
     "axes.edgecolor": RULE,
     "axes.grid": True,
     "axes.grid.axis": "y",

@@ -87,7 +87,8 @@ def _faster(published: Published, tests: Table, findings: list[Finding]) -> Pros
 
 
 def _accurate(published: Published, tests: Table, printed: Table) -> Prose:
-    better, unclear = [], []
+    better: list[str] = []
+    unclear: list[str] = []
     for name in ("error_T1", "error_T4", "distance_T3"):
         row = tests.row(name)
         (better if row["p"] < ALPHA and row["difference"] > 0 else unclear).append(row["label"])

@@ -8,6 +8,7 @@ from analysis.comparison import MORE, MORE_TITLE, Measure, apa_f, compare, measu
 from analysis.figures.comparison import bars_and_differences
 from analysis.measures import distance, over_tasks, relative_error, share_correct
 from analysis.page.blocks import Block, Prose, Section, Table, more, say
+from analysis.plan import Plan
 from analysis.sections.context import Context
 from analysis.sections.ordinal import friedman_row, friedman_sentence, friedman_table
 from analysis.sections.tables import cell_table, keep, missing_note, name_of
@@ -67,7 +68,7 @@ def accuracy_section(context: Context) -> tuple[Section, Table | None]:
     return Section("accuracy", "Accuracy", tuple(blocks)), tests
 
 
-def _sentence(tests: Table, m: Measure, plan: object) -> Prose:
+def _sentence(tests: Table, m: Measure, plan: Plan) -> Prose:
     row = tests.row(m.key)
     what = f"Relative error, {m.label}" if m.key.startswith("error") else "T3, distance to target"
     start = say(

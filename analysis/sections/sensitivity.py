@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from analysis.mixed import mixed_model
+from analysis.mixed import MixedEffect, mixed_model
 from analysis.page.blocks import Block, Column, Section, Table, say
 from analysis.sections.context import Context
 from analysis.stats.undefined import is_defined
@@ -23,10 +23,37 @@ COLUMNS = (
 )
 
 
-def sensitivity_section(context: Context, tests: Table | None) -> Section:
+def sensitivity_section(context: Context, logs: Table | None) -> Section:
     """Mixed model beside the contrast scores' answer."""
-    fit = mixed_model(context.trials)
-    row = {
+    row = _row(mixed_model(context.trials))
+    table = Table(
+        "mixed_model",
+        "Mixed model of log times, all trials",
+        COLUMNS,
+        (row,),
+        note="log time ~ transparency × task + (1 + transparency | participant), REML; t on n − 1.",
+    )
+    blocks: list[Block] = []
+    if is_defined(row["p"]):
+        p = table.cite("transparency", "p")
+        blocks.append(
+            say(
+                "With every trial as a row and a random slope of the technique for each "
+                f"participant: ratio {{}}, 95 % CI [{{}}, {{}}], t({{}}) = {{}}, p "
+                f"{'' if p.text.startswith('<') else '= '}{{}}. {_same(context, row, logs)}",
+                table.cite("transparency", "ratio"),
+                table.cite("transparency", "low"),
+                table.cite("transparency", "high"),
+                table.cite("transparency", "df"),
+                table.cite("transparency", "t"),
+                p,
+            )
+        )
+    return Section("sensitivity", "Does the model matter?", (*blocks, table))
+
+
+def _row(fit: MixedEffect) -> dict[str, object]:
+    return {
         "effect": "transparency",
         "n": fit.n,
         "trials": fit.trials,
@@ -40,30 +67,6 @@ def sensitivity_section(context: Context, tests: Table | None) -> Section:
         "high": fit.interval[1],
         "sd_slope": fit.sd_slope,
     }
-    table = Table(
-        "mixed_model",
-        "Mixed model of log times, all trials",
-        COLUMNS,
-        (row,),
-        note="log time ~ transparency × task + (1 + transparency | participant), REML; t on n − 1.",
-    )
-    blocks: list[Block] = []
-    if is_defined(fit.p):
-        p = table.cite("transparency", "p")
-        blocks.append(
-            say(
-                "With every trial as a row and a random slope of the technique for each "
-                f"participant: ratio {{}}, 95 % CI [{{}}, {{}}], t({{}}) = {{}}, p "
-                f"{'' if p.text.startswith('<') else '= '}{{}}. {_same(context, row, tests)}",
-                table.cite("transparency", "ratio"),
-                table.cite("transparency", "low"),
-                table.cite("transparency", "high"),
-                table.cite("transparency", "df"),
-                table.cite("transparency", "t"),
-                p,
-            )
-        )
-    return Section("sensitivity", "Does the model matter?", (*blocks, table))
 
 
 def _same(context: Context, row: dict[str, object], logs: Table | None) -> str:

@@ -39,7 +39,9 @@ def time_measures(cells: Cells) -> list[Measure]:
         return []
     logs = replace(cells, values=np.log(cells.values))
     overall = measure("time_overall", "overall", "s", 2, over_tasks(cells))
-    found = [(overall, over_tasks(logs), {})] if len(cells.factors["task"]) > 1 else []
+    found: list[tuple[Measure | None, Cells, dict[str, str]]] = []
+    if len(cells.factors["task"]) > 1:
+        found.append((overall, over_tasks(logs), {}))
     for task in cells.factors["task"]:
         own = measure(f"time_{task}", name_of(task), "s", 2, cells, "tasks", task=task)
         found.append((own, logs, {"task": task}))

@@ -9,7 +9,7 @@ import numpy as np
 
 from analysis.comparison import Measure, compare
 from analysis.figures.tradeoff import arrows
-from analysis.page.blocks import Block, Column, Prose, Section, Table, say
+from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
 from analysis.stats.undefined import Undefined
@@ -85,7 +85,7 @@ def _row(c: Change) -> dict[str, object]:
 
 def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
     """One sentence: whether anyone bought speed with errors."""
-    runs: list[object] = []
+    runs: list[str | Cited] = []
     for c in found:
         runs += [
             ", " if runs else "",

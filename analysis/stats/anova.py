@@ -75,7 +75,8 @@ def contrast_scores(y: Array, inside: Sequence[int]) -> tuple[Array, Array]:
     """
     n, levels = y.shape[0], y.shape[1:]
     flat = y.reshape(n, -1)
-    matrix, lengths = np.ones((1, 1)), np.ones(1)
+    matrix: Array = np.ones((1, 1))
+    lengths: Array = np.ones(1)
     for factor, k in enumerate(levels):
         own = helmert(k) if factor in inside else (np.ones((k, 1)), np.array([float(k)]))
         matrix, lengths = np.kron(matrix, own[0]), np.kron(lengths, own[1])
@@ -134,11 +135,10 @@ def _effect(
     ges: Number = ss_effect / total if total > 0 else Undefined("nothing varies")
     reason = ONE_PARTICIPANT if n < 2 else ALL_EQUAL if spread_is_noise(centred, scale) else ""
     if reason:
-        gone = Undefined(reason)
-        ges = ges if n >= 2 else gone
-        return Effect(
-            name, n, df1, df2, ss_effect, ss_error, *([gone] * 6), ges, gone, no_interval(reason)
-        )
+        gone, ends = Undefined(reason), no_interval(reason)
+        size = ges if n >= 2 else gone
+        same = (gone, gone, gone, gone, gone, gone)
+        return Effect(name, n, df1, df2, ss_effect, ss_error, *same, size, gone, ends)
     f = (ss_effect / df1) / (ss_error / df2)
     eps = _greenhouse_geisser(centred)
     w, w_p = _mauchly(centred)

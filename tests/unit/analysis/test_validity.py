@@ -104,6 +104,7 @@ def test_the_mixed_model_with_its_slope_is_the_anova_on_log_means():
     cells = over_tasks(time_by_task(logs))
     f = repeated_measures(cells.values, ["transparency"])["transparency"].f
     fit = mixed_model(table)
+    assert fit.p == pytest.approx(2 * stats.t.sf(abs(fit.t), n - 1), rel=1e-9)
     # REML's optimiser stops at about this precision
     assert fit.t**2 == pytest.approx(f, rel=1e-3)
     assert fit.ratio == pytest.approx(
