@@ -7,9 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from renderer.ordering.polygons import Floats, Integers
+
+# Circles of more objects than this are not untied one relation at a time.
+LARGE = 64
 
 
 def draw_order(
@@ -25,13 +27,14 @@ def draw_order(
         objects, layers, left = _peel(relations)
         if not left.any():
             return objects, layers, tuple(cycles), tuple(broken)
-        # Objects behind a circle are left over too: only what is in one is reported.
+        # Objects in front of a circle are left over too: only what is in one is reported.
+        first = not cycles
         for circle in _circles(relations, left):
-            if not broken:
+            if first:
                 cycles.append(circle)
-            back, front = _least_overlap(relations, circle, corners, point)
-            relations[min(back, front), max(back, front)] = 0
-            broken.append((back, front))
+            for back, front in _given_up(relations, circle, corners, point):
+                relations[min(back, front), max(back, front)] = 0
+                broken.append((back, front))
 
 
 @numba.njit(cache=True)
@@ -85,51 +88,35 @@ def _circles(relations: NDArray[np.int8], left: NDArray[np.bool_]) -> list[tuple
     return [tuple(int(m) for m in group) for group in members if len(group) > 1]
 
 
-def _least_overlap(
+def _given_up(
     relations: NDArray[np.int8], circle: tuple[int, ...], corners: Floats, point: Floats
-) -> tuple[int, int]:
-    """(behind, front) of the relation in a circle whose contours share least."""
-    best = None
-    for a, i in enumerate(circle):
-        for j in circle[a + 1 :]:
-            if relations[i, j]:
-                shared = overlap_area(corners[i], corners[j], point)
-                if best is None or shared < best[0]:
-                    best = (shared, (j, i) if relations[i, j] == 1 else (i, j))
-    return best[1]
+) -> list[tuple[int, int]]:
+    """(behind, front) of what a circle must lose: the pair that shares least of the picture.
+
+    A large circle loses all that the order of its nearest corners contradicts.
+    """
+    members = np.array(circle)
+    i, j = (members[k] for k in np.nonzero(relations[np.ix_(members, members)]))
+    back = np.where(relations[i, j] == 1, j, i)
+    front = i + j - back
+    if len(circle) <= LARGE:
+        least = int(np.argmin(_shared(corners, i, j, point)))
+        return [(int(back[least]), int(front[least]))]
+    away = corners - point[:3]
+    near = (away**2).sum(axis=2).min(axis=1) if point[3] else (-corners @ point[:3]).min(axis=1)
+    wrong = (near[front] > near[back]) | ((near[front] == near[back]) & (front > back))
+    return list(zip(back[wrong].tolist(), front[wrong].tolist(), strict=True))
 
 
-def overlap_area(first: Floats, second: Floats, point: Floats) -> float:
-    """Area that two boxes' (8, 3) pictures share, on the plane across the way to their middle."""
-    middle = (first.mean(axis=0) + second.mean(axis=0)) / 2
-    way = middle - point[:3] if point[3] else -point[:3]
-    way = way / np.linalg.norm(way)
+def _shared(corners: Floats, i: Integers, j: Integers, point: Floats) -> Floats:
+    """(p,) area that pairs' upright rectangles share in the picture (boxes may lie aslant in them)."""
+    way = corners.mean(axis=(0, 1)) - point[:3] if point[3] else -point[:3]
+    way = way / max(float(np.linalg.norm(way)), 1e-300)
     side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
-    side /= np.linalg.norm(side)
-    frame = np.stack([side, np.cross(way, side)], axis=1)
-    flat = []
-    for corners in (first, second):
-        away = corners - point[:3] * point[3]
-        depth = away @ way if point[3] else np.ones(8)
-        flat.append(away @ frame / np.maximum(depth, 1e-9)[:, None])
-    try:
-        halfspaces = np.concatenate([ConvexHull(p).equations for p in flat])
-        inside = _inner_point(halfspaces)
-        if inside is None:
-            return 0.0
-        return float(ConvexHull(HalfspaceIntersection(halfspaces, inside).intersections).volume)
-    except QhullError:
-        return 0.0
-
-
-def _inner_point(halfspaces: Floats) -> Floats | None:
-    """A point well inside halfspaces (n, 3), or None: the centre of the largest circle."""
-    from scipy.optimize import linprog
-
-    found = linprog(
-        [0, 0, -1],
-        A_ub=np.column_stack([halfspaces[:, :2], np.ones(len(halfspaces))]),
-        b_ub=-halfspaces[:, 2],
-        bounds=[(None, None), (None, None), (0, None)],
-    )
-    return found.x[:2] if found.success and found.x[2] > 1e-12 else None
+    side /= max(float(np.linalg.norm(side)), 1e-300)
+    away = corners - point[:3] * point[3]
+    depth = np.maximum(away @ way, 1e-9) if point[3] else np.ones(corners.shape[:2])
+    flat = away @ np.stack([side, np.cross(way, side)], axis=1) / depth[..., None]
+    low, high = flat.min(axis=1), flat.max(axis=1)
+    extent = np.minimum(high[i], high[j]) - np.maximum(low[i], low[j])
+    return np.maximum(extent, 0.0).prod(axis=1)

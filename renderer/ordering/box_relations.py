@@ -87,16 +87,21 @@ def _contour(corners, loop, length, point, rays, edges):
             edges[c, 0] = a[1] * b[2] - a[2] * b[1]
             edges[c, 1] = a[2] * b[0] - a[0] * b[2]
             edges[c, 2] = a[0] * b[1] - a[1] * b[0]
-        across = (c + length // 2) % length
         base, inner = 0.0, 0.0
         for k in range(3):
             base += edges[c, k] * a[k]
-            inner += edges[c, k] * (rays[across, k] - a[k])
-        # Turned inwards: the contour's own corners are at or above the edge's offset.
+        for d in range(length):
+            height = -base
+            for k in range(3):
+                height += edges[c, k] * rays[d, k]
+            if abs(height) > abs(inner):
+                inner = height
+        # Turned inwards: the contour's own corners are at or above the edge's offset. An edge of
+        # a flat box may be no edge at all, and parts nothing.
         turn = -1.0 if inner < 0.0 else 1.0
         for k in range(3):
             edges[c, k] *= turn
-        edges[c, 3] = base * turn
+        edges[c, 3] = base * turn if inner != 0.0 else -np.inf
 
 
 @numba.njit
