@@ -293,6 +293,9 @@ def install_packages(extras: str, keep_open: tuple[int, ...]) -> None:
     if status:
         os.remove(UNFINISHED)  # pip undoes what it could not finish
         raise Stop(f"cannot install the packages: {why(output)}")
+    # Else the first frame of the first session would wait for it. A failure is no reason to stop:
+    # what needs OpenGL says so itself.
+    run_logged([PYTHON, "-m", "experiment.warm"], "compiling what draws, once: half a minute or so")
     # pip would do this on one core; a file that is not for this Python may fail to compile.
     run_logged([PYTHON, "-m", "compileall", "-q", "-j", "0", folder], "compiling them")
 
