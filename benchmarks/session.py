@@ -1,0 +1,139 @@
+"""What a session costs: first frame, recording, replay. `seethrough bench session`."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from experiment.clock import SimulatedClock
+from experiment.config import Study, load
+from experiment.design import SIMULATED, generator, session_for
+from experiment.looking import Looking
+from experiment.recorder import FileRecorder, Who
+from experiment.replay import find_trial, replay
+from experiment.trial import TrialRecord
+from renderer.gpu.context import standalone
+from tasks.base import Outcome, View
+from tasks.catalog import TASKS
+from tasks.events import PointerMove, Tick
+
+FRAMES = 3600  # a minute at 60 Hz
+FIRST_FRAME = """
+import sys, time
+from experiment.config import load
+from experiment.clock import RealClock
+from experiment.pages import Page, Paragraph
+from experiment.texts import Texts
+from experiment.window import Window
+study = load("published")
+window = Window(study.display, Texts("en"), RealClock(), "bench")
+def shown():
+    print(time.monotonic()); sys.stdout.flush(); raise SystemExit
+window.on_frame = shown
+window.ask(Page("welcome", "welcome.title", (Paragraph("welcome.text"),)))
+"""
+
+
+def figures() -> Iterator[dict[str, Any]]:
+    """Rows of {figure, scene, value, unit, must, aim, met}, as they are measured."""
+    with tempfile.TemporaryDirectory() as folder:
+        frame, end = _recording(Path(folder) / "recording")
+        yield _row("recorder, a frame", "abstract", 1000 * frame, "ms", 1.0)
+        yield _row("recorder, a trial's end", "abstract", 1000 * end, "ms", 20.0)
+        yield _row("replay, of real time", "demo", 1 / _replay(Path(folder)), "part", 0.25)
+    if os.environ.get("DISPLAY"):
+        yield _row("first frame after the command", "published", _first_frame(), "s", 3.0)
+
+
+def _row(figure: str, scene: str, value: float, unit: str, must: float) -> dict[str, Any]:
+    return {
+        "figure": figure,
+        "scene": scene,
+        "value": value,
+        "unit": unit,
+        "must": must,
+        "aim": None,
+        "met": value <= must,
+    }
+
+
+def _first_view(study: Study) -> tuple[Any, View]:
+    from experiment.scenes import StudyScenes
+
+    trial = session_for(1, study.design.factors())[0].trials[0]
+    task = TASKS[trial.task]
+    return trial, task.view(StudyScenes(study).begin(task, trial, 4 / 3))
+
+
+def _recording(folder: Path) -> tuple[float, float]:
+    """Seconds for a frame with two events, and for a trial's end with fsync (medians)."""
+    study = load("published")
+    trial, view = _first_view(study)
+    who = Who("published", "P01", "pilot", 1, {})
+    recorder = FileRecorder(folder, who)
+    frames, ends = [], []
+    for _ in range(5):
+        recorder.trial_begins(trial)
+        for k in range(FRAMES):
+            start = time.perf_counter()
+            recorder.event(PointerMove(k / 60, 0.5, 0.5, 0.01, 0.01, True))
+            recorder.event(Tick(k / 60))
+            recorder.frame(k / 60, View(view.scene, view.camera))
+            frames.append(time.perf_counter() - start)
+        outcome = Outcome("1", "1", True)
+        record = TrialRecord(trial, outcome, 1, 0.0, 60.0, 0.0, False, FRAMES, 0, 0.02, 0.0, 0.0)
+        start = time.perf_counter()
+        recorder.trial_ends(record)
+        ends.append(time.perf_counter() - start)
+    recorder.close("complete")
+    return float(np.median(frames)), float(np.median(ends))
+
+
+def _replay(folder: Path) -> float:
+    """How many times faster than real time a simulated demo session is replayed and looked at."""
+    from experiment.offscreen import OffscreenDisplay
+    from experiment.participants.participant import SimulatedParticipant
+    from experiment.provenance import provenance
+    from experiment.session import World, run_session
+    from experiment.simulated_input import SimulatedInput
+
+    study, clock, context = load("demo"), SimulatedClock(), standalone()
+    display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
+    who = Who("demo", "S01", "simulated", 1, provenance(study, display.describe()))
+    person = SimulatedParticipant(generator(1, (SIMULATED, 1)))
+    recorder = FileRecorder(folder / "replay", who)
+    run_session(
+        study,
+        1,
+        World(display, SimulatedInput(person, display, clock), clock, recorder, TASKS),
+    )
+    shown, start = 0.0, time.perf_counter()
+    for number in range(1, 9):
+        recorded = find_trial(folder / "replay", "S01", number)
+        looking = Looking(context, 4 / 3)
+        looking.technique = recorded.technique
+        times = []
+        for frame in replay(recorded):
+            looking.look(frame.view)
+            times.append(frame.time)
+        shown += times[-1] - times[0]
+    return shown / (time.perf_counter() - start)
+
+
+def _first_frame() -> float:
+    """Seconds from starting Python to the first page on the screen, the median of three."""
+    took = []
+    for _ in range(3):
+        start = time.monotonic()
+        words = [sys.executable, "-c", FIRST_FRAME]
+        done = subprocess.run(words, capture_output=True, text=True, check=True, timeout=120)
+        took.append(float(done.stdout.split()[0]) - start)
+    return float(np.median(took))
