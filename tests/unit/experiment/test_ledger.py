@@ -8,7 +8,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
@@ -142,6 +142,22 @@ def test_slots_open_by_whole_rounds_past_the_target():
     assert last_open(range(1, 9), 4, 6) == 12
     assert next_slot([], range(1, 7), 4, 6) == 7
     assert next_slot([7, 8], range(1, 7), 4, 6) is None  # 9 would be a row's second beyond
+
+
+@given(
+    rows=st.integers(1, 5), participants=st.integers(1, 12), held=st.sets(st.integers(1, 12)),
+    done=st.sets(st.integers(1, 12)),
+)  # fmt: skip
+def test_the_next_slot_is_the_lowest_of_the_row_with_the_fewest(rows, participants, held, done):
+    """Against the rule in the issue's words, by trying every slot."""
+    live, complete = held - done, done & set(range(1, participants + 1))
+    counts = [sum((s - 1) % rows == row for s in live | complete) for row in range(rows)]
+    last = last_open(complete, rows, participants)
+    free = [s for s in range(1, last + 1) if s not in live | complete]
+    fewest = min((counts[(s - 1) % rows] for s in free), default=None)
+    expected = next((s for s in free if counts[(s - 1) % rows] == fewest), None)
+    assert next_slot(live, complete, rows, participants) == expected
+    assert next_slot({3, 5}, (), 2, 6) == 2  # row 1 is empty; slot 1 is free too, but of row 0
 
 
 def test_a_stale_slot_is_given_out_again_and_its_owner_told(tmp_path):
