@@ -1,0 +1,49 @@
+"""`seethrough bench`: measure accuracy and time, and say whether the figures are met."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+from pathlib import Path
+from typing import Any
+
+from experiment.errors import InputError
+
+HELP = "measure accuracy against time"
+
+# Each module has figures(), which gives {figure, scene, value, unit, must, aim, met} one by one.
+BENCHES = ("accuracy", "session", "speed", "statistics")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.add_argument("bench", choices=BENCHES, help="what to measure")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the table to a file")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Print each row as it is measured; write them all at the end."""
+    if args.json is not None and not args.json.parent.is_dir():
+        raise InputError(f"--json = {args.json}: expected an existing folder")
+    try:
+        module = importlib.import_module(f"benchmarks.{args.bench}")
+    except ModuleNotFoundError as error:
+        raise InputError(f"bench {args.bench}: {error}; expected it to be installed") from error
+    rows = []
+    for row in module.figures():
+        rows.append(row)
+        print(line(row), flush=True)
+    if args.json is not None:
+        args.json.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    return 0
+
+
+def line(row: dict[str, Any]) -> str:
+    """A row in words."""
+    text = f"{row['figure']:40s} {row['scene']:26s} {row['value']:10.4g} {row['unit']}"
+    if row["must"] is not None:
+        text += f"   must ≤ {row['must']:g}: {'met' if row['met'] else 'NOT MET'}"
+    if row["aim"] is not None:
+        text += f", aim {row['aim']:g}"
+    return text
