@@ -90,12 +90,15 @@ def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped
 
 
 @njit(cache=True)
-def decide(order, group, extents, reach, centers, sides, radius, near, far, targets, hard, blend):  # type: ignore[no-untyped-def]
+def decide(
+    order, group, extents, reach, centers, sides, radius, near, far, targets, hard, blend, by_center
+):  # type: ignore[no-untyped-def]
     """relation (n, n) of each pair that matters, and which objects blend and are masked.
 
-    `order` are the objects to look at, from far to near by their groups' centres; those in
-    `blend` (n,) blend in any case. relation[i, j] is 1 where i is drawn after j, −1 where before,
-    0 where it makes no difference; a pair without a separating plane is `uncertain` (n, n).
+    `order` are the objects to look at, from far to near by their groups' centres, which alone
+    decide if `by_center`; those in `blend` (n,) blend in any case. relation[i, j] is 1 where i is
+    drawn after j, −1 where before, 0 where it makes no difference; a pair without a separating
+    plane is `uncertain` (n, n).
     """
     n = len(extents)
     relation = np.zeros((n, n), np.int8)
@@ -115,7 +118,7 @@ def decide(order, group, extents, reach, centers, sides, radius, near, far, targ
                 elif not (i_over_j or j_over_i):
                     continue
                 found = IN_FRONT
-                if group[i] != group[j]:
+                if group[i] != group[j] and not by_center:
                     found = compare(centers, sides, radius, near, far, i, j)
                 doubt = found == UNCERTAIN
                 if doubt:

@@ -37,6 +37,7 @@ SHORTCUTS = {
     "still": "a frame in which nothing changed is shown again",
 }
 
+MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
 WORTH = 64  # pixels to save by drawing a triangle once more
 
 # Why an object is drawn as it is (FramePlan.reasons).
@@ -117,6 +118,7 @@ def plan(
     relation, uncertain, blended, masked = order.decide(
         *(seen, scene.group_of, boxes.extents, reach, *geometry, scene.targets, hard),
         there & ~hard & ("opaque" in without),
+        technique.order == "centers",
     )
     masked |= there & scene.targets & ("masks" in without)
     if technique.per_pixel_only:
@@ -224,6 +226,8 @@ def _with_levels(
     keep = np.zeros(len(blended), dtype=bool)
     keep[base.opaque] = True
     holes = _holes(reach[masked], size)
+    if len(parts) and _area(parts) > MOSTLY * _area(merged_parts(reach[masked], size)):
+        return replace(base, exact=merged_parts(reach[masked], size))
     return replace(
         base,
         opaque=np.nonzero(keep & ~blended)[0],
@@ -232,6 +236,10 @@ def _with_levels(
         wide=_wide(base, np.nonzero(blended)[0], holes, triangles, size),
         holes=holes,
     )
+
+
+def _area(parts: NDArray[np.int64]) -> int:
+    return int((parts[:, 2:] - parts[:, :2]).prod(axis=1).sum())
 
 
 def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:

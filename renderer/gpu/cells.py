@@ -19,12 +19,11 @@ class Cells:
         depth: bool,
         numbers: bool = False,
     ) -> None:
-        self.size, self.count = size, max(count, 1)
-        limit = context.info["GL_MAX_TEXTURE_SIZE"]
-        self.columns = min(max(1, limit // size[0]), self.count)
-        rows = -(-self.count // self.columns)
-        whole = (self.columns * size[0], rows * size[1])
-        self.whole = whole
+        self._limit = context.info["GL_MAX_TEXTURE_SIZE"]
+        self._arrange(size, max(count, 1))
+        # Room for a little more of the same, so that the next frame need not make it anew.
+        self._room = (self.whole[0], min(self._limit, self.whole[1] + self.whole[1] // 4))
+        whole = self._room
         self.color = context.texture(whole, 4, dtype=dtype)
         self.depth = context.depth_texture(whole) if depth else None
         self.numbers = context.texture(whole, 1, dtype="f4") if numbers else None
@@ -36,17 +35,25 @@ class Cells:
         pictures = [t for t in (self.color, self.numbers) if t is not None]
         self.framebuffer = context.framebuffer(pictures, self.depth)
 
-    def fits(self, size: tuple[int, int], count: int, dtype: str, numbers: bool) -> bool:
-        """Whether these cells can serve a part of the picture of that size."""
-        same = self.color.dtype == dtype and (self.numbers is not None) == numbers
-        return same and self.size == size and self.count >= count
+    def _arrange(self, size: tuple[int, int], count: int, width: int = 0) -> None:
+        self.size = size
+        self.columns = max(1, min((width or min(self._limit, 2048)) // size[0], count))
+        self.whole = (self.columns * size[0], -(-count // self.columns) * size[1])
+
+    def lay_out(self, size: tuple[int, int], count: int, dtype: str, numbers: bool) -> bool:
+        """Arrange cells of another size or number, if they fit."""
+        if self.color.dtype != dtype or (self.numbers is not None) != numbers:
+            return False
+        if size[0] > self._room[0]:
+            return False
+        self._arrange(size, max(count, 1), self._room[0])
+        return self.whole[1] <= self._room[1]
 
     def clear(self) -> None:
         """Empty all cells and bind them."""
         self.framebuffer.use()
         self.framebuffer.scissor = None
-        self.framebuffer.viewport = (0, 0, *self.whole)
-        self.framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
+        self.framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=(0, 0, *self.whole))
 
     def select(self, k: int, corner: tuple[int, int], frame: tuple[int, int]) -> None:
         """Draw into cell k what the frame shows from `corner` (x, y up) on."""

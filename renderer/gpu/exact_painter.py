@@ -7,6 +7,7 @@ list of fragments of every pixel, and the same goes for the masks. One shader so
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import moderngl
@@ -62,12 +63,14 @@ class ExactPainter:
         self._set_parts(job, None)
         if job.technique.granularity != "pixel":
             draws += self._select(job, whole)
-        for part in bands(whole, self._slice_count(job, whole)):
-            draws += self._fill(job, part)
+        for parts in self._batches(job, whole):
+            draws += self._fill(job, parts)
             target.use()
-            target.scissor = _gl(part, job.size)
-            self._resolve(job, part, "OUTPUT_PICTURE")
+            for k, part in enumerate(parts):
+                target.scissor = _gl(part, job.size)
+                self._resolve(job, part, k, "OUTPUT_PICTURE")
             target.scissor = None
+            draws += len(parts)
             passes += 2
         return passes, draws
 
@@ -78,13 +81,13 @@ class ExactPainter:
         whole = np.array([[0, 0, *job.size]])
         if job.technique.granularity != "pixel":
             self._select(job, whole)
-        self._fill(job, whole[0])
+        self._fill(job, whole)
         textures = [self._context.texture(job.size, 4, dtype="f4") for _ in range(4)]
         framebuffer = self._context.framebuffer(textures)
         found = []
-        for first in range(0, self._used, 8):
+        for first in range(0, self._slice_base[1], 8):
             framebuffer.use()
-            self._resolve(job, whole[0], "OUTPUT_SHARES", first)
+            self._resolve(job, whole[0], 0, "OUTPUT_SHARES", first)
             for k in range(4):
                 data = framebuffer.read(components=4, attachment=k, dtype="f4", alignment=1)
                 rows = np.frombuffer(data, "f4").reshape(job.size[1], job.size[0], 4)[::-1]
@@ -111,69 +114,95 @@ class ExactPainter:
         shader["clip_from_offset"].write(job.clip)
         shader.set(table=0, sequence=1)
 
-    def _slice_count(self, job: ExactJob, parts: NDArray[np.int64]) -> int:
-        return max(int(_sets(job, part)[1].max(initial=0)) + 1 for part in parts)
+    def _batches(self, job: ExactJob, parts: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
+        """The parts, cut into bands that fit into memory, as many at a time as fit together."""
+        rows = []
+        for part in parts:
+            slices = int(_sets(job, part)[1].max(initial=0)) + 1
+            rows += [(band, slices) for band in bands(part, slices)]
+        batch: list[NDArray[np.int64]] = []
+        used, size = 0, np.zeros(2, np.int64)
+        for part, slices in rows:
+            grown = np.maximum(size, part[2:] - part[:2])
+            if batch and (used + slices) * grown.prod() > TEXELS:
+                yield np.array(batch)
+                batch, used, grown = [], 0, part[2:] - part[:2]
+            batch.append(part)
+            used, size = used + slices, grown
+        if batch:
+            yield np.array(batch)
 
-    def _fill(self, job: ExactJob, part: NDArray[np.int64]) -> int:
-        """Draw all slices and masks of a part of the picture. Returns the draw calls."""
-        objects, which = _sets(job, part)
-        targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
-        reach = np.ascontiguousarray(job.frame.reach[targets])
-        entries = order.apart(reach) if len(targets) else np.zeros(0, np.int64)
-        self._used = int(which.max(initial=-1)) + 1
-        self._mask_count = int(entries.max(initial=-1)) + 1
-        if max(self._used, self._mask_count) > MOST:
-            raise ValueError(
-                f"exact picture: {max(self._used, self._mask_count)} objects or masks overlap at "
-                f"one place of the picture, expected at most {MOST}"
-            )
-        size = (int(part[2] - part[0]), int(part[3] - part[1]))
-        corner = (int(part[0]), int(job.size[1] - part[3]))
-        draws = self._fill_slices(job, size, corner, objects, which)
-        return draws + self._fill_masks(job, size, corner, targets, entries)
+    def _fill(self, job: ExactJob, parts: NDArray[np.int64]) -> int:
+        """Draw all slices and masks of some parts of the picture. Returns the draw calls."""
+        size = tuple((parts[:, 2:] - parts[:, :2]).max(axis=0).tolist())
+        slices: list[NDArray[np.int64]] = []
+        entries: list[NDArray[np.int64]] = []
+        corners: tuple[list[tuple[int, int]], list[tuple[int, int]]] = ([], [])
+        self._slice_base, self._mask_base = [0], [0]
+        for part in parts:
+            corner = (int(part[0]), int(job.size[1] - part[3]))
+            objects, which = _sets(job, part)
+            targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
+            reach = np.ascontiguousarray(job.frame.reach[targets])
+            mask = order.apart(reach) if len(targets) else np.zeros(0, np.int64)
+            for found, cells, numbers, where, base in (
+                (objects, slices, which, corners[0], self._slice_base),
+                (targets, entries, mask, corners[1], self._mask_base),
+            ):
+                count = int(numbers.max(initial=-1)) + 1
+                if count > MOST:
+                    raise ValueError(
+                        f"exact picture: {count} objects or masks overlap at one place of the "
+                        f"picture, expected at most {MOST}"
+                    )
+                cells += [found[numbers == k] for k in range(count)]
+                where += [corner] * count
+                base.append(base[-1] + count)
+        draws = self._fill_slices(job, size, slices, corners[0])
+        return draws + self._fill_masks(job, size, entries, corners[1])
 
-    def _fill_slices(self, job, size, corner, objects, which):  # type: ignore[no-untyped-def]
+    def _fill_slices(self, job, size, parts, corners):  # type: ignore[no-untyped-def]
         surfaces = job.technique.granularity == "surface"
         # 16-bit floats hold whole numbers up to 2048.
         dtype = "f2" if len(job.table.scene.objects) <= 2048 else "f4"
-        if self._slices is None or not self._slices.fits(size, self._used, dtype, surfaces):
-            if self._slices is not None:
-                self._slices.release()
-            self._slices = Cells(self._context, size, self._used, dtype, True, surfaces)
-        self._slices.clear()
+        self._slices = self._cells(self._slices, size, len(parts), dtype, True, surfaces)
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = "<"
-        parts = [objects[which == k] for k in range(self._used)]
         base = job.table.first_triangle.astype(float)
         sequence, runs = job.table.sequence(parts, job.camera, [base] * len(parts))
         shader = self._slice[surfaces]
         self._use(shader, job, sequence)
         for k, part in enumerate(runs):
-            self._slices.select(k, corner, job.size)
+            self._slices.select(k, corners[k], job.size)
             for mesh, start, count in part:
                 mesh.draw(self._context, shader, start, count)
         self._slices.framebuffer.scissor = None
         return sum(len(part) for part in runs)
 
-    def _fill_masks(self, job, size, corner, targets, entries):  # type: ignore[no-untyped-def]
-        count = self._mask_count
-        if self._entries is None or not self._entries.fits(size, count, "f4", False):
-            if self._entries is not None:
-                self._entries.release()
-            self._entries = Cells(self._context, size, count, "f4", False)
-        self._entries.clear()
+    def _fill_masks(self, job, size, parts, corners):  # type: ignore[no-untyped-def]
+        self._entries = self._cells(self._entries, size, len(parts), "f4", False, False)
         self._context.enable_only(moderngl.NOTHING)
         shader = self._masks.mask
         depths = _window_depth(job)
-        for k in range(count):
-            self._entries.select(k, corner, job.size)
+        self._masks.begin()
+        for k, targets in enumerate(parts):
+            self._entries.select(k, corners[k], job.size)
             x, y = self._entries.framebuffer.scissor[:2]
-            self._masks.begin(shift=(corner[0] - x, corner[1] - y))
-            for t in targets[entries == k].tolist():
+            shader.set(shift=(corners[k][0] - x, corners[k][1] - y))
+            for t in targets.tolist():
                 shader.set(beside=float(depths[t]), target=t)
                 self._masks.draw_one(t)
         self._entries.framebuffer.scissor = None
-        return len(targets)
+        return sum(len(targets) for targets in parts)
+
+    def _cells(self, old, size, count, dtype, depth, numbers):  # type: ignore[no-untyped-def]
+        """Empty, bound cells: the old ones if they serve."""
+        if old is None or not old.lay_out(size, count, dtype, numbers):
+            if old is not None:
+                old.release()
+            old = Cells(self._context, size, count, dtype, depth, numbers)
+        old.clear()
+        return old
 
     def _set_parts(self, job: ExactJob, opacity: NDArray[np.float64] | None) -> None:
         """Upload for each object whether it is impenetrable, and its opacity as a whole."""
@@ -202,11 +231,12 @@ class ExactPainter:
         by_surface = job.technique.granularity == "surface"
         best = np.zeros(job.table.first_triangle[-1] if by_surface else len(scene.objects))
         draws = 0
-        for part in bands(whole, self._slice_count(job, whole)):
-            draws += self._fill(job, part)
-            light, which = self._lit(job, part)
-            lit = light > 0
-            np.maximum.at(best, which[lit], light[lit])
+        for parts in self._batches(job, whole):
+            for part in parts:
+                draws += self._fill(job, part[None])
+                light, which = self._lit(job, part)
+                lit = light > 0
+                np.maximum.at(best, which[lit], light[lit])
         hard = impenetrable(scene, job.camera, job.technique)
         if by_surface:
             best[np.repeat(hard, np.diff(job.table.first_triangle))] = 0.0
@@ -230,18 +260,21 @@ class ExactPainter:
         texture = self._context.texture(cells.whole, 1, dtype="f4")
         framebuffer = self._context.framebuffer([texture])
         framebuffer.use()
-        self._resolve(job, part, "OUTPUT_LIGHT")
+        self._resolve(job, part, 0, "OUTPUT_LIGHT")
         light = np.frombuffer(framebuffer.read(components=1, dtype="f4", alignment=1), "f4")
         framebuffer.release()
         texture.release()
+        part_of = (0, 0, *cells.whole)
         if cells.numbers is not None:
-            data = cells.framebuffer.read(components=1, attachment=1, dtype="f4", alignment=1)
+            data = cells.framebuffer.read(part_of, 1, attachment=1, dtype="f4", alignment=1)
             return light, np.frombuffer(data, "f4").astype(np.int64)
-        data = cells.framebuffer.read(components=4, dtype="f4", alignment=1)
+        data = cells.framebuffer.read(part_of, 4, dtype="f4", alignment=1)
         return light, np.frombuffer(data, "f4")[3::4].astype(np.int64)
 
-    def _resolve(self, job: ExactJob, part: NDArray[np.int64], output: str, first: int = 0) -> None:
-        """Sort every pixel of a part into the bound framebuffer."""
+    def _resolve(
+        self, job: ExactJob, part: NDArray[np.int64], number: int, output: str, first: int = 0
+    ) -> None:
+        """Sort every pixel of a part, the batch's `number`th, into the bound framebuffer."""
         surfaces = job.technique.granularity == "surface"
         key = (output, surfaces)
         if key not in self._programs:
@@ -249,12 +282,17 @@ class ExactPainter:
             shader = program(self._context, "present.vert", "exact.frag", defines)
             self._programs[key] = (shader, self._context.vertex_array(shader.program, []))
         shader, array = self._programs[key]
-        self._set_resolve(job, part, shader, output == "OUTPUT_LIGHT")
+        if number == 0:
+            self._set_resolve(job, shader, output == "OUTPUT_LIGHT")
+        a, b = self._slice_base[number : number + 2]
+        c, d = self._mask_base[number : number + 2]
+        origin = (int(part[0]), int(job.size[1] - part[3]))
+        shader.set(slice_base=a, slices=b - a, mask_base=c, mask_count=d - c, origin=origin)
         shader.set(**{"from": first})
         self._context.enable_only(moderngl.NOTHING)
         array.render(moderngl.TRIANGLES, 3)
 
-    def _set_resolve(self, job, part, shader, light):  # type: ignore[no-untyped-def]
+    def _set_resolve(self, job, shader, light):  # type: ignore[no-untyped-def]
         slices, entries, technique = self._slices, self._entries, job.technique
         textures = (
             ("colors", _COLORS, slices.color),
@@ -269,12 +307,9 @@ class ExactPainter:
                 texture.use(unit)
             shader.set(**{name: unit})
         values = {
-            "slices": self._used,
-            "mask_count": self._mask_count,
             "cell": slices.size,
             "columns": slices.columns,
             "mask_columns": entries.columns,
-            "origin": (int(part[0]), int(job.size[1] - part[3])),
             "background": job.table.scene.background,
             "per_pixel": technique.granularity == "pixel",
             "least": technique.combine == "min",
@@ -302,13 +337,12 @@ def _overlapping(extents: NDArray[np.float64], part: NDArray[np.int64]) -> NDArr
     return low & (extents[:, 2:] >= part[:2]).all(axis=1)
 
 
-def bands(parts: NDArray[np.int64], slices: int) -> NDArray[np.int64]:
-    """Parts (k, 4) cut into bands so that all slices of one fit into memory."""
-    rows = []
-    for left, top, right, bottom in parts.tolist():
-        step = max(1, TEXELS // max(1, (right - left) * slices))
-        rows += [(left, y, right, min(y + step, bottom)) for y in range(top, bottom, step)]
-    return np.array(rows, dtype=np.int64).reshape(-1, 4)
+def bands(part: NDArray[np.int64], slices: int) -> list[NDArray[np.int64]]:
+    """A part (left, top, right, bottom) cut so that all slices of a band fit into memory."""
+    left, top, right, bottom = part.tolist()
+    step = max(1, TEXELS // max(1, (right - left) * slices))
+    cuts = range(top, bottom, step)
+    return [np.array([left, y, right, min(y + step, bottom)]) for y in cuts]
 
 
 def _gl(part: NDArray[np.int64], size: tuple[int, int]) -> tuple[int, int, int, int]:

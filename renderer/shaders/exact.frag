@@ -7,7 +7,9 @@ uniform sampler2D colors;   // cells: rgb, object
 uniform sampler2D depths;   // cells
 uniform sampler2D masks;    // cells: opacity, depth beside the target, target + 1, at its core
 uniform sampler2D parts;    // one texel each object: impenetrable, opacity where not per pixel
+uniform int slice_base;     // the first cell of this part
 uniform int slices;
+uniform int mask_base;
 uniform int mask_count;
 uniform ivec2 cell;         // width and height
 uniform int columns;        // of cells with fragments
@@ -25,10 +27,12 @@ uniform sampler2D surfaces; // one texel each triangle: its opacity
 #endif
 
 ivec2 texel(int k, ivec2 pixel) {
+    k += slice_base;
     return ivec2(k % columns, k / columns) * cell + pixel;
 }
 
 ivec2 mask_texel(int m, ivec2 pixel) {
+    m += mask_base;
     return ivec2(m % mask_columns, m / mask_columns) * cell + pixel;
 }
 
@@ -144,6 +148,17 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy) - origin;
     // With several samples a pixel, some drivers let a few beyond the scissor pass.
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, cell))) discard;
+#ifdef OUTPUT_PICTURE
+    // Where no mask is, the depth buffer has drawn the picture already.
+    if (per_pixel) {
+        bool masked = false;
+        for (int m = 0; m < mask_count && !masked; ++m) {
+            vec4 mask = texelFetch(masks, mask_texel(m, pixel), 0);
+            masked = mask.z != 0.0 && mask.x < 1.0;
+        }
+        if (!masked) discard;
+    }
+#endif
     gather(pixel);
     if (count > 0) read_masks(pixel);
     float left = 1.0, sum = 0.0;

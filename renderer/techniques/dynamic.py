@@ -11,6 +11,7 @@ MODES = ("passive", "active")
 GRANULARITIES = ("pixel", "surface", "object", "region")
 COMBINES = ("product", "min")
 MODELS = ("multiplicative", "additive")
+ORDERS = ("planes", "centers")
 
 _OWNER = "dynamic transparency"
 
@@ -37,7 +38,10 @@ class DynamicTransparency:
     Where masks line up, their opacities multiply, or the least one counts (`combine`). With
     `min_transmittance` the opacities in front of a target fall further where many layers would
     leave less than this share of the light through. `model` says how transparency adds up along a
-    line of sight (§III-A). With `exact`, every pixel is sorted by itself: slower, no approximation.
+    line of sight (§III-A). Objects are drawn in the order that planes between their boxes say, and
+    what no plane separates is sorted by pixel; with `order` "centers", in that of the view depth
+    of their groups' centres, as in the paper (§V-B). With `exact`, every pixel is sorted by
+    itself: slower, no approximation.
     """
 
     alpha_target: float = 0.3
@@ -55,6 +59,7 @@ class DynamicTransparency:
     min_transmittance: float = 0.0
     model: str = "multiplicative"
     ring_size: int = 128
+    order: str = "planes"
     exact: bool = False
 
     def __post_init__(self) -> None:
@@ -79,6 +84,7 @@ class DynamicTransparency:
         checks.number(_OWNER, "min_transmittance", self.min_transmittance, 0, 0.99)
         checks.choice(_OWNER, "model", self.model, MODELS)
         checks.whole(_OWNER, "ring_size", self.ring_size, 2, 4096)
+        checks.choice(_OWNER, "order", self.order, ORDERS)
 
     @property
     def per_pixel_only(self) -> bool:
