@@ -39,8 +39,9 @@ def heading(view: View) -> tuple[float, float]:
 
 def likely(strength: NDArray[np.float64], half: float, spread: float) -> NDArray[np.float64]:
     """Probability that something of that strength gets through: ½ at `half`, logistic in its ln."""
-    z = np.log(np.maximum(strength, 1e-12) / half) / spread
-    return 1.0 / (1.0 + np.exp(-1.702 * np.clip(z, -30, 30)))
+    # Whatever is weaker than e^-50 of the threshold is as good as that.
+    z = np.log(np.maximum(strength, half * 1e-20) / half) / spread
+    return 1.0 / (1.0 + np.exp(np.minimum(-1.702 * z, 700.0)))
 
 
 def window_pixels(seen: Visibility) -> NDArray[np.float64]:

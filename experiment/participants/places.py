@@ -33,8 +33,9 @@ class Layout:
 
     def cell(self, place: NDArray[np.float64]) -> int:
         """The cell in which (or nearest to which) a place (2,) lies."""
-        i, j = np.clip((place / CELL + self.size / 2).astype(int), 0, self.size - 1)
-        return int(i * self.size + j)
+        half, last = self.size / 2, self.size - 1
+        i, j = (min(max(int(x / CELL + half), 0), last) for x in (place[0], place[1]))
+        return i * self.size + j
 
     def ways(self, cell: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(n,) how far and in which yaw every cell lies from the middle of `cell`."""

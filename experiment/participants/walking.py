@@ -63,12 +63,22 @@ class Walker:
     def __init__(self, mood: Mood, glance: Glance) -> None:
         self.mood = mood
         self.hands = Hands(mood, glance.now)
-        self.glance = glance
+        self._glance = glance
+        self._cell: int | None = None
         self.known = Known(layout(glance.view.scene))
         self.asked = _asked(glance)
         self.error = np.zeros(2)  # where one believes to be, less where one is
         self.recognised: set[int] = set()  # what has been made out, and is known again
         self.through: list[float] = []  # clearness of things seen through walls
+
+    @property
+    def glance(self) -> Glance:
+        """What is displayed."""
+        return self._glance
+
+    @glance.setter
+    def glance(self, glance: Glance) -> None:
+        self._glance, self._cell = glance, None
 
     @property
     def eye(self) -> NDArray[np.float64]:
@@ -78,7 +88,9 @@ class Walker:
     @property
     def cell(self) -> int:
         """The cell one is in: what can be seen from it is judged from its middle."""
-        return self.known.layout.cell(self.eye)
+        if self._cell is None:
+            self._cell = self.known.layout.cell(self.eye)
+        return self._cell
 
     @property
     def yaw(self) -> float:
@@ -216,8 +228,10 @@ def _nearby(known: Known) -> NDArray[np.float64]:
     size = known.layout.size
     total = known.unseen.reshape(size, size)
     for axis in (0, 1):
-        padded = np.insert(total.cumsum(axis=axis), 0, 0.0, axis=axis)
+        sums = np.zeros((size + 1, size))
+        np.cumsum(total if axis == 0 else total.T, axis=0, out=sums[1:])
         low = np.maximum(np.arange(size) - REACH, 0)
         high = np.minimum(np.arange(size) + REACH + 1, size)
-        total = padded.take(high, axis=axis) - padded.take(low, axis=axis)
+        total = sums[high] - sums[low]
+        total = total if axis == 0 else total.T
     return total.ravel()

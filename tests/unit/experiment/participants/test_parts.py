@@ -19,6 +19,7 @@ from experiment.participants.name_letter import letter_chances
 from experiment.participants.person import Mood, Person
 from experiment.participants.places import Known, apart, bearing, crossed, layout
 from experiment.participants.profile import AVERAGE
+from experiment.participants.walking import REACH, _nearby
 from renderer import geometry
 from renderer.visibility import Visibility
 from tasks.building import unique_building
@@ -246,3 +247,36 @@ def test_load_and_negative_statements_are_rated_the_other_way():
     assert means["standard"]["effort"] > means["dynamic"]["effort"] + 3
     assert means["standard"]["sus_1"] < means["dynamic"]["sus_1"] - 0.5
     assert means["standard"]["sus_2"] > means["dynamic"]["sus_2"] + 0.5
+
+
+def test_what_is_unseen_nearby_is_summed_over_a_square():
+    b = unique_building(np.random.default_rng(1), BuildingParameters(), {
+        "a": lambda: geometry.box(), "b": lambda: geometry.box(),
+    })  # fmt: skip
+    known = Known(layout(b.scene))
+    known.inspect(np.random.default_rng(2).random(256))
+    unseen = known.unseen.reshape(16, 16)
+    expected = [
+        unseen[max(0, i - REACH) : i + REACH + 1, max(0, j - REACH) : j + REACH + 1].sum()
+        for i in range(16)
+        for j in range(16)
+    ]
+    assert_allclose(_nearby(known), expected, rtol=1e-12)
+
+
+def test_looks_from_one_place_do_not_add_up_and_from_two_they_do():
+    b = unique_building(np.random.default_rng(1), BuildingParameters(), {
+        "a": lambda: geometry.box(), "b": lambda: geometry.box(),
+    })  # fmt: skip
+    known = Known(layout(b.scene))
+    for _ in range(3):
+        known.inspect(np.full(256, 0.6))
+    assert_allclose(known.left, 0.4)
+    assert_allclose(known.gain(np.full(256, 0.9)), 0.3)
+    known.move()
+    known.inspect(np.full(256, 0.5))
+    assert_allclose(known.left, 0.2)
+    known.unclear[7] = 3  # something was noticed in cell 3 and not made out
+    assert known.unseen[3] == 1.0
+    known.doubt()
+    assert_allclose(np.delete(known.unseen, 3), 0.5)
