@@ -7,11 +7,9 @@ import sys
 from datetime import UTC, datetime
 from pathlib import Path
 
-from experiment.clock import RealClock
 from experiment.config import Study, load
 from experiment.errors import InputError
 from experiment.folders import check_participant, folder_of, next_free, taken
-from experiment.live import play_in_window
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -79,6 +77,9 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
 
 
 def _play(study: Study, participant: str, slot: int, source: str, data: Path) -> str:
+    from experiment.clock import RealClock
+    from experiment.live import play_in_window  # OpenGL and the window: not for --help
+
     what = "pilot run, " if source == "pilot" else ""
     print(f"{what}participant {participant}, slot {slot}, data in {data}", file=sys.stderr)
     return play_in_window(study, participant, slot, source, data, RealClock())

@@ -6,7 +6,6 @@ from datetime import UTC, datetime
 import pytest
 
 from experiment import cli
-from experiment.commands import run as run_command
 from experiment.config import find, load
 from experiment.errors import InputError
 from experiment.ledger import Ledger
@@ -34,7 +33,7 @@ def sessions(monkeypatch, tmp_path):
         return how
 
     ends = []
-    monkeypatch.setattr(run_command, "play_in_window", session)
+    monkeypatch.setattr("experiment.live.play_in_window", session)
 
     def run(*words, how="complete"):
         ends[:] = [how]
