@@ -54,7 +54,7 @@ def description(study: str, text: str, columns: Mapping[str, Column]) -> dict[st
 def _check_name(path: Path, study: str) -> None:
     try:
         name = json.loads(path.read_text(encoding="utf-8"))["name"]
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         raise InputError(f"{path}: expected a JSON object with the study's name") from None
     if name != study:
         raise InputError(f"{path}: name = {name!r}: expected {study!r}; choose another folder")

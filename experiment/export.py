@@ -44,7 +44,7 @@ def read(data: Path, source: str | None = None) -> Dataset:
     """The data folder's tables. Raises InputError with file, row, column and value."""
     try:
         name = str(json.loads((data / FILE).read_text(encoding="utf-8"))["name"])
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         raise InputError(f"{data / FILE}: expected a JSON object with the study's name") from None
     chosen = _source(data, source)
     files = {

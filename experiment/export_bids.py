@@ -89,7 +89,7 @@ def _presentation(data: Dataset, participant: str, session: str) -> dict[str, An
     if found:
         try:
             made = json.loads(found[0].read_text(encoding="utf-8")).get("provenance", {})
-        except (ValueError, AttributeError):
+        except (ValueError, AttributeError, RecursionError):
             raise InputError(f"{found[0]}: expected a JSON object") from None
     display = made.get("display", {})
     return {

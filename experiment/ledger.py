@@ -299,7 +299,7 @@ def study_in(data: Path) -> str:
     try:
         about = json.loads((data / "dataset_description.json").read_text(encoding="utf-8"))
         return str(about["name"])
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return ""
 
 

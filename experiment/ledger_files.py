@@ -65,6 +65,6 @@ def _found(data: Path, name: str, now: datetime) -> Entry | None:
 def _read(path: Path) -> dict:  # type: ignore[type-arg]
     try:
         value = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: not readable as JSON: {error}") from None
     return value if isinstance(value, dict) else {}

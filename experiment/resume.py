@@ -116,5 +116,5 @@ def _completed(table: Path) -> list[int]:
 def _json(path: Path) -> dict:  # type: ignore[type-arg]
     try:
         return json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: not readable as JSON: {error}") from None

@@ -73,7 +73,7 @@ def _verify_end(name: str, last: str, folder: Path) -> str:
     try:
         end = json.loads(path.read_bytes())
         files = dict(end["files"])
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         raise DataError(f"{path.relative_to(folder)}: expected a session's end, as JSON") from None
     if end.get("chain") != last:
         raise DataError(f"{name}: rows at its end were removed or added, or {path.name} changed")

@@ -64,6 +64,7 @@ def load_study(folder: Path, source: str | None = None) -> Study:
     if answers:
         _check_ids(questions)
         _check_source(questions, chosen)
+    _same_people(trials, questions)
     files = [*_records(sources, trials), *_records(answers, questions)]
     sidecars = _sidecars(paths, folder)
     chains = [verify(s, sidecars.get(s.name, {}), folder) for s in sources]
@@ -81,6 +82,13 @@ def load_study(folder: Path, source: str | None = None) -> Study:
     )
 
 
+def _same_people(*tables: pd.DataFrame) -> None:
+    """Give every table all participants as categories, so that nobody is missing unnoticed."""
+    names = sorted({str(name) for table in tables for name in pd.unique(table["participant"])})
+    for table in tables:
+        table["participant"] = pd.Categorical(table["participant"].astype("str"), categories=names)
+
+
 def _description(folder: Path) -> dict[str, Any]:
     """The dataset's description; its presence is what makes a folder a dataset."""
     if not folder.is_dir():
@@ -96,7 +104,7 @@ def _json(path: Path, folder: Path) -> dict[str, Any]:
     name = path.relative_to(folder)
     try:
         value = json.loads(path.read_bytes())
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise DataError(f"{name}: not JSON ({error})") from None
     if not isinstance(value, dict):
         raise DataError(f"{name}: expected a JSON object")
