@@ -48,6 +48,17 @@ def level_codes(column: pd.Series, levels: Sequence[str]) -> NDArray[np.intp]:
     return pd.Categorical(column.astype("str"), categories=list(levels)).codes.astype(np.intp)
 
 
+def people(table: pd.DataFrame) -> list[str]:
+    """Everybody in the study, also those without a row in this part of the table.
+
+    Somebody who never met a task has no row of it; only the categories still know them, and they
+    must be named as missing rather than vanish.
+    """
+    column = table["participant"]
+    known = column.cat.categories if isinstance(column.dtype, pd.CategoricalDtype) else column
+    return sorted({str(name) for name in known})
+
+
 def sums(
     table: pd.DataFrame, columns: Sequence[str], factors: Mapping[str, Sequence[str]]
 ) -> tuple[list[Array], NDArray[np.intp], tuple[str, ...]]:
@@ -55,7 +66,7 @@ def sums(
 
     Rows with levels that are not listed, or with a missing value in any column, do not count.
     """
-    names = sorted(pd.unique(table["participant"]).tolist())
+    names = people(table)
     codes = level_codes(table["participant"], names)
     shape = (len(names), *(len(levels) for levels in factors.values()))
     known = codes >= 0
@@ -72,7 +83,7 @@ def sums(
         np.bincount(flat[known], weights=column[known], minlength=size).reshape(shape)
         for column in values.T
     ]
-    return totals, counts, tuple(str(n) for n in names)
+    return totals, counts, tuple(names)
 
 
 def complete(

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from analysis.cells import Missing, people
 from analysis.comparison import Measure, compare
 from analysis.figures.tradeoff import arrows
 from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
@@ -43,6 +44,7 @@ def tradeoff_section(context: Context) -> Section | None:
     found = changes(context.trials)
     if not found:
         return None
+    context.missing["trade-off"] = _absent(found, people(context.trials))
     table = Table(
         "tradeoff",
         "From standard to dynamic: who became faster, and at what price",
@@ -60,6 +62,13 @@ def tradeoff_section(context: Context) -> Section | None:
         *_scores(context),
     ]
     return Section("tradeoff", "What accuracy costs in time", tuple(blocks))
+
+
+def _absent(found: Sequence[Change], everybody: Sequence[str]) -> tuple[Missing, ...]:
+    """Who lacks time or error in a task, by name."""
+    there = {c.task: set(c.participants) for c in found}
+    lacks = {name: tuple(t for t, who in there.items() if name not in who) for name in everybody}
+    return tuple(Missing(name, tasks) for name, tasks in lacks.items() if tasks)
 
 
 def _row(c: Change) -> dict[str, object]:

@@ -256,6 +256,20 @@ def test_a_participant_without_a_cell_is_left_out_by_name(folder):
     assert ("completion time", "P01", "unique × dynamic") in named
 
 
+def test_somebody_who_never_met_a_task_or_a_question_is_named(folder):
+    """No row is no reason to vanish: in T3's distance, and in the ratings."""
+    path = folder / TRIALS
+    rows = path.read_text().split("\n")
+    path.write_text("\n".join(r for r in rows if ",unique," not in r))
+    (folder / ANSWERS).unlink()
+    report = make_report(folder, Options())
+    section = next(s for s in report.sections if s.key == "participants")
+    missing = next(b for b in section.blocks if getattr(b, "key", "") == "missing")
+    named = {(r["where"], r["participant"]) for r in missing.rows}
+    assert {("distance", "P01"), ("completion time", "P01"), ("ratings", "P01")} <= named
+    assert all(participant == "P01" for _, participant in named)
+
+
 def test_a_repeated_trial_counts_once_and_the_earlier_attempt_is_named(folder):
     path = folder / TRIALS
     lines = path.read_text().rstrip("\n").split("\n")
