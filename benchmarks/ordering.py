@@ -1,0 +1,221 @@
+"""Depth orderings side by side: what each costs, and whether its picture is exact.
+
+`seethrough bench ordering --json FILE`, or `python -m benchmarks.ordering --json FILE --figure
+FILE.svg` for the figure of error against time as well. The published values are in issue 3's
+table (papers 000 and 002). Times are processor time, the fastest of several: all orderings run on
+one thread, and other work on the machine does not count.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from renderer.models.translucent.scenes import TranslucentScene, scene
+from renderer.ordering import boxes, bsp, feudal
+from renderer.ordering.polygons import Polygons
+
+HELP = "depth orderings: splits, relations, times, memory and image error"
+Row = dict[str, Any]
+SEEDS = 100  # of the BSP baseline: the mean of 20, as in paper 002, still moves by 3 %
+ORDERS = 20  # random input orders of the dynamic version
+EYES = int(os.environ.get("SEETHROUGH_BENCH_EYES", "100"))
+IMAGE_SCENES = (
+    "boxes", "panels100", "cottage", "leaves", "fishbowl", "fence", "cow", "vise", "house", "soup1000",
+)  # fmt: skip
+PICTURE = (320, 240)
+
+MEMORY = """
+import resource
+from renderer.models.translucent.scenes import scene
+from renderer.ordering import bsp
+import numpy as np
+from benchmarks.ordering import bare
+prepared = bsp.prepare(bare(scene("soup100000").polygons))
+prepared.order(eye=np.array([3.0, 2.0, 1.0]))
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+"""
+COLD = """
+import time
+import numpy as np
+from renderer.models.translucent.scenes import scene
+from renderer.ordering import boxes, bsp, feudal
+polygons = scene("fence").polygons
+start = time.process_time()
+for method in (bsp, feudal, boxes):
+    method.prepare(polygons).order(eye=np.array([3.0, 2.0, 1.0]))
+print(time.process_time() - start)
+"""
+
+
+def row(
+    figure: str, scene: str, value: float, unit: str, must: float | None = None,
+    aim: float | None = None, more: bool = False,
+) -> Row:  # fmt: skip
+    """One line of the table; `more`: larger is better."""
+    met = must is None or (value >= must if more else value <= must)
+    return {
+        "figure": figure, "scene": scene, "value": float(f"{value:.4g}"), "unit": unit,
+        "must": must, "aim": aim, "met": bool(met),
+    }  # fmt: skip
+
+
+def fastest(call: Callable[[], object], times: int) -> float:
+    """Seconds of the fastest of several calls."""
+    best = np.inf
+    for _ in range(times):
+        start = time.process_time()
+        call()
+        best = min(best, time.process_time() - start)
+    return best
+
+
+def figures() -> Iterator[Row]:
+    """Every row of the table, as it is measured."""
+    for name in ("vise", "house"):
+        yield from closed_volume(scene(name))
+    yield panels_per_second()
+    yield from large_soup()
+    yield row("peak memory", "soup100000", float(_child(MEMORY)), "MiB", 500)
+    with tempfile.TemporaryDirectory() as folder:
+        cold = float(_child(COLD, NUMBA_CACHE_DIR=folder))
+    yield row("first call, compilation not cached", "all methods", cold, "s")
+    yield from image_errors()
+
+
+def bare(polygons: Polygons) -> Polygons:
+    """Without attributes: geometry alone, as the reference figures have it."""
+    nothing = np.empty((len(polygons.vertices), 0))
+    return Polygons(polygons.vertices, polygons.starts, nothing, polygons.objects)
+
+
+def closed_volume(made: TranslucentScene) -> Iterator[Row]:
+    """Tables 6 and 7 of paper 002 for one of its scenes."""
+    streams = np.random.SeedSequence(3, spawn_key=(6,)).spawn(SEEDS + ORDERS)
+    rngs = [np.random.default_rng(s) for s in streams]
+    # The order of a view vector is what the paper times: no Python around the two kernels.
+    trees = [bsp.prepare(made.polygons, "fewest", rng=r) for r in rngs[:SEEDS]]
+    static = feudal.prepare(made.polygons, "static", closed=True)
+    dynamic = [feudal.prepare(made.polygons, "dynamic", True, rng=r) for r in rngs[SEEDS:]]
+
+    def mean(prepared: list, what: str) -> float:
+        return float(np.mean([getattr(p.stats, what) for p in prepared]))
+
+    name = made.name
+    for what in ("splits", "outputs", "relations"):
+        yield row(f"{what}, BSP (mean of {SEEDS})", name, mean(trees, what), "")
+        yield row(f"{what}, feudal static", name, getattr(static.stats, what), "")
+        yield row(f"{what}, feudal dynamic (mean of {ORDERS})", name, mean(dynamic, what), "")
+    yield row(
+        "splits, feudal / BSP", name, static.stats.splits / mean(trees, "splits"), "", 0.2, 0.07
+    )
+    outputs = static.stats.outputs / mean(trees, "outputs")
+    yield row("output polygons, feudal / BSP", name, outputs, "", 0.7, 0.57)
+    tested = mean(trees, "relations")
+    yield row("relations, dynamic / BSP", name, mean(dynamic, "relations") / tested, "", 1)
+    yield row("relations, BSP / static", name, tested / static.stats.relations, "", 1)
+    lengths = [len(p.classes(view=np.array([1.0, -0.4, 0.7]))) for p in (static, dynamic[0])]
+    yield row("priority list, static / dynamic", name, lengths[0] / lengths[1], "", 1)
+    views = np.random.default_rng(rngs[0].integers(2**32)).normal(size=(200, 3))
+    points = np.column_stack([-views, np.zeros(len(views))])
+    after = [
+        fastest(lambda p=p: [p.order(v) for v in points], 15) / len(views)
+        for p in (trees[0].tree, dynamic[0].program)
+    ]
+    yield row("postprocessing, feudal dynamic", name, after[1] * 1e6, "µs")
+    yield row(
+        "postprocessing, BSP / feudal dynamic", name, after[0] / after[1], "", 3, 10, more=True
+    )
+
+
+def panels_per_second() -> Row:
+    """300 parallel panels, ordered by their boxes from eyes all around; drawing not included."""
+    made = scene("panels300")
+    prepared = boxes.prepare(made.polygons)
+    eyes = made.eyes(50, np.random.default_rng(np.random.SeedSequence(3, spawn_key=(7,))))
+    prepared.arrange(eye=eyes[0])
+    seconds = fastest(lambda: [prepared.arrange(eye=eye) for eye in eyes], 7) / len(eyes)
+    return row(
+        "300 panels ordered by boxes (published 55)", made.name, 1 / seconds, "/s", 300, 1000, True
+    )
+
+
+def large_soup() -> Iterator[Row]:
+    """A BSP of 10⁵ triangles: build and order."""
+    made = scene("soup100000")
+    bsp.prepare(bare(scene("soup1000").polygons))
+    polygons = bare(made.polygons)
+    prepared = bsp.prepare(polygons)
+    build = fastest(lambda: bsp.prepare(polygons), 4)
+    eyes = made.eyes(8, np.random.default_rng(np.random.SeedSequence(3, spawn_key=(8,))))
+    order = min(fastest(lambda e=e: prepared.order(eye=e), 4) for e in eyes)
+    yield row("BSP fragments for each triangle", made.name, prepared.stats.outputs / 1e5, "")
+    yield row("BSP build", made.name, build, "s", 1.2, 0.8)
+    yield row("BSP, one order", made.name, order * 1e3, "ms", 15, 5)
+
+
+def image_errors() -> Iterator[Row]:
+    """Pixels more than 1/255 off the exact picture, in the worst of many random eyes."""
+    from benchmarks.ordering_accuracy import Bench
+
+    for name in IMAGE_SCENES:
+        made = scene(name)
+        bench = Bench(made, PICTURE)
+        eyes = made.eyes(EYES, np.random.default_rng(np.random.SeedSequence(3, spawn_key=(9,))))
+        for method, prepared in (
+            ("bsp", bsp.prepare(made.polygons)),
+            ("feudal", feudal.prepare(made.polygons)),
+        ):
+            off = max(bench.off(prepared, eye) for eye in eyes)
+            label = f"pixels over 1/255, {method}, worst of {EYES} eyes"
+            yield row(label, name, 100 * off, "%", 0.1, 0.0)
+        bench.release()
+
+
+def _child(code: str, **environment: str) -> str:
+    """What a fresh Python prints: memory and compilation are a process's own."""
+    done = subprocess.run(
+        [sys.executable, "-c", code], env={**os.environ, **environment}, check=True,
+        capture_output=True, text=True,
+    )  # fmt: skip
+    return done.stdout
+
+
+def main() -> None:
+    """Print the table, and write it and the figure of error against time where asked."""
+    parser = argparse.ArgumentParser(description=HELP)
+    parser.add_argument("--json", type=Path, metavar="FILE")
+    parser.add_argument("--figure", type=Path, metavar="FILE")
+    chosen = parser.parse_args()
+    rows = []
+    for made in figures():
+        rows.append(made)
+        bound = (
+            ""
+            if made["must"] is None
+            else f"must {made['must']:g}: {'met' if made['met'] else 'NOT MET'}"
+        )
+        print(
+            f"{made['figure']:52s} {made['scene']:12s} {made['value']:10.4g} {made['unit']:4s} {bound}",
+            flush=True,
+        )
+    if chosen.json:
+        chosen.json.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    if chosen.figure:
+        from benchmarks.ordering_accuracy import draw_figure, measure_all
+
+        draw_figure(measure_all(), chosen.figure)
+
+
+if __name__ == "__main__":
+    main()

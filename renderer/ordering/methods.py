@@ -1,0 +1,31 @@
+"""Every ordering by name; a method's kernels are loaded when it is asked for."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from renderer.ordering.polygons import Polygons
+from renderer.ordering.prepared import Prepared
+
+# Module, and what to ask of it.
+METHODS: dict[str, tuple[str, dict[str, str]]] = {
+    "distance": ("distance", {}),
+    "depth": ("distance", {"metric": "depth"}),
+    "axis_tree": ("axis_tree", {}),
+    "boxes": ("boxes", {}),
+    "boxes_paper": ("boxes", {"rule": "paper"}),
+    "bsp": ("bsp", {}),
+    "bsp_first": ("bsp", {"splitter": "first"}),
+    "bsp_fewest": ("bsp", {"splitter": "fewest"}),
+    "feudal": ("feudal", {}),
+    "feudal_dynamic": ("feudal", {"version": "dynamic"}),
+}
+
+
+def prepare(name: str, polygons: Polygons) -> Prepared:
+    """Polygons prepared by a method. Raises ValueError for a name there isn't."""
+    if name not in METHODS:
+        raise ValueError(f"order = {name!r}, expected one of {', '.join(METHODS)}")
+    module, options = METHODS[name]
+    prepared: Prepared = import_module(f"renderer.ordering.{module}").prepare(polygons, **options)
+    return prepared
