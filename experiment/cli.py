@@ -24,6 +24,7 @@ COMMANDS = {
     "render": "draw a scene into a picture",
     "view": "look at a scene of translucent polygons, ordered by a method",
     "bench": "measure accuracy against time",
+    "gallery": "draw every mode, mask, granularity and hard case into a page",
     "demo": "play the short study and make its report",
 }
 

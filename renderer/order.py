@@ -65,26 +65,27 @@ def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped
         return IN_FRONT
     if near[i] >= far[j]:
         return BEHIND
-    d = centers[i] - centers[j]
-    found = _try(d[0], d[1], d[2], centers, sides, radius, i, j)
-    for k in range(3):
-        if found == UNCERTAIN:
-            s = sides[i, k]
-            found = _try(s[0], s[1], s[2], centers, sides, radius, i, j)
-        if found == UNCERTAIN:
-            s = sides[j, k]
-            found = _try(s[0], s[1], s[2], centers, sides, radius, i, j)
+    x, y, z = (
+        centers[i, 0] - centers[j, 0], centers[i, 1] - centers[j, 1], centers[i, 2] - centers[j, 2]
+    )  # fmt: skip
+    found = _try(x, y, z, centers, sides, radius, i, j)
+    for k in range(6):
+        if found != UNCERTAIN:
+            return found
+        o = i if k < 3 else j
+        x, y, z = sides[o, k % 3, 0], sides[o, k % 3, 1], sides[o, k % 3, 2]
+        found = _try(x, y, z, centers, sides, radius, i, j)
     # Sides are not at right angles under a shear: the faces' normals are the cross products.
     for k in range(15):
         if found != UNCERTAIN:
             return found
-        if k < 9:
-            a, b = sides[i, k // 3], sides[j, k % 3]
-        elif k < 12:
-            a, b = sides[i, k % 3], sides[i, (k + 1) % 3]
-        else:
-            a, b = sides[j, k % 3], sides[j, (k + 1) % 3]
-        x, y, z = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+        o, p, u, v = i, j, k // 3, k % 3
+        if k >= 9:
+            o = p = i if k < 12 else j
+            u, v = k % 3, (k + 1) % 3
+        ax, ay, az = sides[o, u, 0], sides[o, u, 1], sides[o, u, 2]
+        bx, by, bz = sides[p, v, 0], sides[p, v, 1], sides[p, v, 2]
+        x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
         found = _try(x, y, z, centers, sides, radius, i, j)
     return found
 

@@ -142,7 +142,15 @@ def plan(
     if technique.per_pixel_only:
         return replace(base, exact=_parts(reach[masked], technique, size, without))
     return _with_levels(
-        base, seen, relation, uncertain, blended, masked, size, scene.triangle_counts
+        base,
+        seen,
+        relation,
+        uncertain,
+        blended,
+        masked,
+        size,
+        scene.triangle_counts,
+        technique.doubt,
     )
 
 
@@ -206,6 +214,7 @@ def _with_levels(
     masked: NDArray[np.bool_],
     size: tuple[int, int],
     triangles: Indices,
+    doubt: float,
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right."""
     extents, reach = base.boxes.extents, base.reach
@@ -221,6 +230,8 @@ def _with_levels(
         for k in range(-1, last + 1)
     ]
     parts = merged_parts(doubtful, size)
+    if _area(parts) <= doubt * size[0] * size[1]:
+        parts = parts[:0]
     if "parts" in base.without and len(parts):
         parts = np.array([[0, 0, *size]])
     keep = np.zeros(len(blended), dtype=bool)

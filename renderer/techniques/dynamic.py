@@ -39,9 +39,10 @@ class DynamicTransparency:
     `min_transmittance` the opacities in front of a target fall further where many layers would
     leave less than this share of the light through. `model` says how transparency adds up along a
     line of sight (§III-A). Objects are drawn in the order that planes between their boxes say, and
-    what no plane separates is sorted by pixel; with `order` "centers", in that of the view depth
-    of their groups' centres, as in the paper (§V-B). With `exact`, every pixel is sorted by
-    itself: slower, no approximation.
+    what no plane separates is sorted by pixel if it makes up more than the share `doubt` of the
+    picture, else by its centres; with `order` "centers", everything is drawn by the view depth of
+    the groups' centres, as in the paper (§V-B). With `exact`, every pixel is sorted by itself:
+    slower, no approximation.
     """
 
     alpha_target: float = 0.3
@@ -60,6 +61,7 @@ class DynamicTransparency:
     model: str = "multiplicative"
     ring_size: int = 128
     order: str = "planes"
+    doubt: float = 0.05
     exact: bool = False
 
     def __post_init__(self) -> None:
@@ -85,6 +87,7 @@ class DynamicTransparency:
         checks.choice(_OWNER, "model", self.model, MODELS)
         checks.whole(_OWNER, "ring_size", self.ring_size, 2, 4096)
         checks.choice(_OWNER, "order", self.order, ORDERS)
+        checks.number(_OWNER, "doubt", self.doubt, 0, 1)
 
     @property
     def per_pixel_only(self) -> bool:

@@ -14,7 +14,7 @@ from renderer.techniques.dynamic import DynamicTransparency
 from renderer.techniques.standard import Standard
 
 SIZE = (160, 120)
-TECHNIQUE = DynamicTransparency(width=8, min_transmittance=0.2)
+TECHNIQUE = DynamicTransparency(width=8, min_transmittance=0.2, doubt=0.0)
 SCENES = {
     "column": (column(1, impenetrable=0.2), before_column(1)),
     "row of targets": (column(6, targets=0.8), before_column(6)),
