@@ -151,6 +151,6 @@ def cow() -> tuple[Polygons, Polygons, None]:
     ]
     for x in (-1.0, 1.0):
         for z in (-0.4, 0.4):
-            parts.append(painted(prism(disc((z, x), 0.2, 7, 0.3), 1, 0.0, 1.5, 1.3), hide))
+            parts.append(painted(prism(disc((z, x), 0.2, 7, 0.3), 1, 0.03, 1.5, 1.3), hide))
     ground = painted(box((-3, -0.2, -2), (3.5, 0, 2)), (0.45, 0.6, 0.35, 1.0))
     return join(parts), ground, None
