@@ -11,8 +11,8 @@ from experiment.design import SIMULATED, generator, session_for
 from experiment.errors import InputError
 from experiment.participants.effects import EFFECTS, checked
 from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.profile import AVERAGE, PROFILES, Profile
-from experiment.participants.profile_file import find
+from experiment.participants.profile import AVERAGE, Profile
+from experiment.participants.profile_file import find, names
 from experiment.progress import Progress
 from tasks.catalog import TASKS
 
@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="default: 1")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="data folder")
     parser.add_argument(
-        "--profile", default="average", help=f"{', '.join(PROFILES)}, or a profile file (TOML)"
+        "--profile", default="average", help=f"{', '.join(names())}, or a profile file (TOML)"
     )
     parser.add_argument(
         "--without", default="", metavar="E,…", help=f"effects to leave out: {', '.join(EFFECTS)}"

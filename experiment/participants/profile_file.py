@@ -11,15 +11,22 @@ from typing import Any
 from experiment.errors import InputError
 from experiment.participants.profile import AVERAGE, PROFILES, Profile
 
+SHIPPED = Path(__file__).with_name("profiles")  # files that come with the program
+
+
+def names() -> tuple[str, ...]:
+    """Profiles that need no file of one's own."""
+    return (*PROFILES, *sorted(p.stem for p in SHIPPED.glob("*.toml")))
+
 
 def find(name: str) -> Profile:
     """A profile by its name, or from a TOML file. Raises InputError."""
     if name in PROFILES:
         return PROFILES[name]
-    path = Path(name)
+    path = SHIPPED / f"{name}.toml" if name in names() else Path(name)
     if not path.is_file():
         raise InputError(
-            f"--profile = {name}: expected one of {', '.join(PROFILES)}, or a profile file"
+            f"--profile = {name}: expected one of {', '.join(names())}, or a profile file"
         )
     return read(path)
 

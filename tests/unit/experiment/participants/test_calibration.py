@@ -21,7 +21,7 @@ from experiment.participants.calibration import (
     with_free,
 )
 from experiment.participants.profile import AVERAGE
-from experiment.participants.profile_file import find, read, write
+from experiment.participants.profile_file import SHIPPED, find, read, write
 
 
 def rows_of(means, sds, r, task, n=16, seed=1):
@@ -153,3 +153,10 @@ def test_a_batch_writes_whole_chunks_and_goes_on_where_it_stopped(tmp_path):
     (tmp_path / "dataset_description.json").write_text(about)
     with pytest.raises(InputError, match=r"holds study other, expected demo"):
         batch.missing_chunks(tmp_path, study, 40)
+
+
+def test_the_calibrated_profile_ships_with_its_provenance():
+    profile = find("calibrated")
+    assert profile.name == "calibrated" and profile != AVERAGE
+    text = (SHIPPED / "calibrated.toml").read_text(encoding="utf-8")
+    assert "never evidence" in text and "held_out" in text and "seethrough calibrate" in text
