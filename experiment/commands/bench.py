@@ -13,7 +13,7 @@ from experiment.errors import InputError
 HELP = "measure accuracy against time"
 
 # Each module has figures(), which gives {figure, scene, value, unit, must, aim, met} one by one.
-BENCHES = ("accuracy", "session", "speed", "statistics")
+BENCHES = ("accuracy", "ordering", "ordering_accuracy", "session", "speed", "statistics")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
