@@ -1,0 +1,104 @@
+"""Masks as arrays, against closed forms and brute force."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sample_scenes import SHAPES
+from scipy.spatial import ConvexHull
+
+from renderer import contours, masks, transforms
+from renderer.camera import look_at
+from renderer.fragments import distances, fragments
+from renderer.scene import Object, Scene
+from renderer.silhouettes import topology
+from renderer.techniques.dynamic import DynamicTransparency
+
+
+def test_the_gradient_jumps_at_the_border_and_rises_to_one():
+    """α_T on the target, α_0 just outside, 1 from n pixels on (004 §V-D, Fig. 3)."""
+    technique = DynamicTransparency(0.3, 0.1, 10)
+    found = masks.opacity(np.array([-1, 0, 1e-9, 5, 10, 11, np.inf]), technique)
+    np.testing.assert_allclose(found, [0.3, 0.3, 0.1, 0.55, 1, 1, 1], atol=1e-8)
+
+
+@given(st.lists(st.tuples(st.integers(-50, 50), st.integers(-50, 50)), min_size=3, max_size=60))
+@settings(max_examples=60, deadline=None)
+def test_the_hull_is_that_of_qhull(points):
+    """Same area and corners, whatever coincides or lies in a row."""
+    cloud = np.array(points, float)
+    hull = masks.convex_hull(cloud)
+    spread = np.linalg.matrix_rank(cloud - cloud[0])
+    if spread < 2:
+        assert len(hull) <= 2 or np.ptp(hull, axis=0).min() == 0
+        return
+    x, y = hull.T
+    area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+    truth = ConvexHull(cloud)
+    assert area == pytest.approx(truth.volume)
+    assert len(hull) == len(truth.vertices)
+
+
+def test_a_hull_with_its_skirt_covers_hull_and_rim_once():
+    """The area of the triangles is that of a square, its four rims and a polygon about a circle."""
+    square = np.array([[0, 0], [20, 0], [20, 20], [0, 20.0]])
+    rows, first = masks.hulls_with_skirts(square, np.array([0, 4]), 5.0)
+    a, b, c = rows[:, :2].astype(float).reshape(-1, 3, 2).swapaxes(0, 1)
+    u, v = b - a, c - a
+    area = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2
+    # A corner of 90° is two kites about the circle's tangents at 0, 45 and 90°.
+    corners = 4 * 2 * 25 * np.tan(np.pi / 8)
+    assert area == pytest.approx(400 + 4 * 20 * 5 + corners)
+    assert first.tolist() == [0, len(rows)]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_distances_from_loops_are_those_to_the_triangles(seed):
+    """Tori, cones, boxes and spheres at random, half of them tiny: brute force over all edges."""
+    rng = np.random.default_rng(seed)
+    size = (80, 60)
+    camera = look_at(np.array([0, 0, 6.0]), np.zeros(3), fov_y=0.7, near=0.5, far=50)
+    lens = (0.5 * size[1] / np.tan(camera.fov_y / 2), size[0] / 2, size[1] / 2)
+    for mesh in SHAPES:
+        scale = 0.3 if seed % 2 else 1.0
+        pose = transforms.placed(rng.uniform(-1, 1, 3), transforms.random_rotation(rng), scale)
+        shape = topology(mesh)
+        eye = np.linalg.solve(pose[:3, :3], camera.eye - pose[:3, 3])
+        turn = camera.rotation.T @ pose[:3, :3]
+        move = camera.rotation.T @ (pose[:3, 3] - camera.eye)
+        edges = contours.half_edges(shape)
+        found = contours.distances(shape, edges, (eye, turn, move), lens, (0, 0, *size), 7.0, 0.0)
+        seen = fragments(Scene((Object(mesh, pose),)), camera, size)
+        truth = distances(seen.outlines[0], size[1], size[0], 7.0)
+        truth = np.where(np.isinf(truth), contours.FAR, truth)
+        truth[np.isfinite(seen.depth[0])] = -1
+        off_edge = ~seen.near_edge
+        # float32 holds a distance of 7 pixels to 5e-7.
+        np.testing.assert_allclose(found[off_edge], truth[off_edge], atol=1e-5, rtol=0)
+
+
+def test_the_cap_leaves_the_least_transmittance():
+    """k layers at the cap leave exactly τ, in both models."""
+    counts = np.arange(1, 40)
+    multiply = masks.cap(counts, DynamicTransparency(min_transmittance=0.3))
+    np.testing.assert_allclose((1 - multiply) ** counts, 0.3)
+    add = masks.cap(counts, DynamicTransparency(min_transmittance=0.3, model="additive"))
+    np.testing.assert_allclose(1 - add * counts, 0.3)
+    assert masks.cap(np.zeros(1, int), DynamicTransparency(min_transmittance=0.3))[0] == 1
+
+
+def test_a_circle_and_ellipses_hold_their_points():
+    """Every point lies inside; beyond, the circle's distance is Euclidean."""
+    rng = np.random.default_rng(3)
+    points = rng.normal(size=(40, 2)) * [9, 3] + [50, 40]
+    for shape in ("circle", "ellipse", "oriented-ellipse"):
+        along = np.array([np.cos(0.4), np.sin(0.4)])
+        cx, cy, ux, uy, a, b = masks.bounding_ellipse(points, shape, along)
+        p = (points - [cx, cy]) @ np.array([[ux, -uy], [uy, ux]])
+        assert np.hypot(p[:, 0] / a, p[:, 1] / b).max() <= 1 + 1e-9
+    circle = masks.bounding_ellipse(points, "circle", np.array([1.0, 0.0]))
+    distance = masks.ellipse_distance(circle, (100, 80))
+    expected = np.hypot(10.5 - circle[0], 5.5 - circle[1]) - circle[4]
+    assert distance[5, 10] == pytest.approx(expected)

@@ -1,0 +1,109 @@
+"""Plans: which effects, which order, why; without a GPU."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sample_scenes import SHAPES, before_column, column, room
+
+from renderer import geometry, transforms
+from renderer.camera import look_at
+from renderer.explain import explain
+from renderer.plan import BLENDED, HARD, OUTSIDE, merged_parts, plan
+from renderer.scene import Object, Scene
+from renderer.techniques.dynamic import DynamicTransparency
+from renderer.techniques.standard import Standard
+
+SIZE = (400, 300)
+TECHNIQUE = DynamicTransparency()
+
+
+def place_of(frame, kind, index):
+    """The level of an object or mask; −1 for masks before all, None if it has none."""
+    for k, level in enumerate(frame.levels):
+        if index in getattr(level, kind):
+            return k - 1
+    return None
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_order_and_masks_respect_depth(seed):
+    """In a column every overlapping pair is drawn from back to front, masks in their place."""
+    scene, camera = column(seed, count=20, spread=0.8), before_column(seed)
+    frame = plan(scene, camera, TECHNIQUE, SIZE)
+    depth = camera.depth(scene.centers)
+    boxes = frame.boxes.extents
+    for i in np.nonzero(frame.reasons == BLENDED)[0]:
+        for j in np.nonzero(frame.reasons == BLENDED)[0]:
+            meet = (boxes[i, :2] <= boxes[j, 2:]).all() and (boxes[i, 2:] >= boxes[j, :2]).all()
+            if i != j and meet and depth[i] < depth[j]:
+                assert place_of(frame, "objects", i) > place_of(frame, "objects", j)
+        for s in frame.masked:
+            reach = frame.reach[s]
+            meet = (boxes[i, :2] <= reach[2:]).all() and (boxes[i, 2:] >= reach[:2]).all()
+            if i == s or not meet:
+                continue
+            before = place_of(frame, "masks", s) < place_of(frame, "objects", i)
+            assert before == (depth[i] < depth[s])
+
+
+def test_reasons_name_what_is_hard_outside_and_blended():
+    """The floor is impenetrable, the wall before targets blends, the free target has no mask."""
+    scene, camera = room()
+    away = Object(SHAPES[0], transforms.translation(0, 1, 500))
+    scene = replace(scene, objects=(*scene.objects, away))
+    frame = plan(scene, camera, TECHNIQUE, SIZE)
+    assert frame.reasons[0] == HARD
+    assert frame.reasons[1] == BLENDED
+    assert frame.reasons[-1] == OUTSIDE
+    assert 6 not in frame.masked
+    assert scene.targets[frame.behind[1]]
+    words = "\n".join(explain(scene, frame))
+    assert "object 0: opaque, in one pass with all such: impenetrable" in words
+    assert "object 1: blended, in front of object" in words
+    assert "object 6: no mask: nothing penetrable in front" in words
+    assert "object 7: not drawn: outside the view" in words
+
+
+def test_boxes_that_no_plane_separates_are_sorted_by_pixel():
+    """Two crossing bars before a target, only where they cross; none where they lie apart."""
+    bar = geometry.box(6, 0.5, 0.5)
+    target = Object(geometry.box(8, 8, 0.2), transforms.translation(0, 0, -4), target=True)
+    camera = look_at(np.array([0, 0, 12.0]), np.zeros(3), fov_y=0.8, near=1, far=50)
+    crossing = Scene((Object(bar), Object(bar, transforms.rotation_z(np.pi / 2)), target))
+    strict = replace(TECHNIQUE, doubt=0.0)
+    parts = plan(crossing, camera, strict, SIZE).exact
+    assert len(parts) == 1
+    left, top, right, bottom = parts[0]
+    assert left < SIZE[0] / 2 < right
+    assert top < SIZE[1] / 2 < bottom
+    lifted = transforms.translation(0, 0, 1) @ transforms.rotation_z(np.pi / 2)
+    apart = Scene((Object(bar), Object(bar, lifted), target))
+    assert not len(plan(apart, camera, strict, SIZE).exact)
+
+
+def test_a_standard_frame_needs_nothing():
+    """One pass of everything in view."""
+    scene, camera = room()
+    frame = plan(scene, camera, Standard(), SIZE)
+    assert not frame.levels
+    assert len(frame.opaque) == frame.boxes.inside.sum()
+    assert "the standard frame" in "\n".join(explain(scene, frame))
+
+
+def test_parts_are_merged_until_none_overlap():
+    """Their union covers every box; nearly everything becomes one part."""
+    rng = np.random.default_rng(0)
+    low = rng.uniform(0, 350, (12, 2))
+    boxes = np.concatenate([low, low + rng.uniform(5, 30, (12, 2))], axis=1)
+    parts = merged_parts(boxes, (1000, 1000))
+    for a in range(len(parts)):
+        for b in range(a):
+            meet = (parts[a, :2] < parts[b, 2:]).all() and (parts[a, 2:] > parts[b, :2]).all()
+            assert not meet
+    for box in boxes:
+        assert any((p[:2] <= box[:2]).all() and (p[2:] >= box[2:]).all() for p in parts)
+    whole = merged_parts(np.array([[0, 0, 90, 90.0]]), (100, 100))
+    assert whole.tolist() == [[0, 0, 100, 100]]
