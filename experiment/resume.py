@@ -32,6 +32,8 @@ def past(data: Path, source: str, participant: str) -> Past | None:
     if not folder.exists():
         return None
     sidecars = sorted(folder.glob("*_trials_data.json"))
+    if not sidecars and not list(folder.glob("*_trials_data.csv")):
+        return None  # killed before anything was recorded: as if it had not begun
     if not sidecars:
         raise InputError(f"{folder}: expected a file …_trials_data.json, found none")
     said = [_json(path) for path in sidecars]

@@ -70,9 +70,13 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
             with Ledger.open(data, url, plan, _now()) as ledger:
                 ledger.cancel(entry.participant)
         raise
-    if status == "complete":
+    if status != "left":
         with Ledger.open(data, url, plan, _now()) as ledger:
-            ledger.complete(entry.participant, _now())
+            if status == "complete":
+                ledger.complete(entry.participant, _now())
+            else:
+                # Nobody goes on after the study's own limit: the row is free for somebody else.
+                ledger.void(entry.participant, status, _now())
     return entry.participant, status
 
 

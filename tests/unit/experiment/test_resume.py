@@ -76,3 +76,17 @@ def test_a_second_interruption_is_the_third_session(tmp_path):
     start = starting_point(STUDY, tmp_path, "human", "P01", 1)
     assert start.session == 3
     assert start.attempts[1] == 2 and start.attempts[9] == 1
+
+
+def test_a_folder_in_which_nothing_was_recorded_yet_is_no_past(tmp_path):
+    (tmp_path / "data" / "human" / "P01" / "traces").mkdir(parents=True)
+    assert past(tmp_path, "human", "P01") is None
+    assert starting_point(STUDY, tmp_path, "human", "P01", 2).session == 1
+
+
+def test_tables_without_their_sidecar_are_named(tmp_path):
+    played(tmp_path, 2)
+    for sidecar in tmp_path.rglob("*_trials_data.json"):
+        sidecar.unlink()
+    with pytest.raises(InputError, match=r"P01: expected a file …_trials_data\.json, found none"):
+        past(tmp_path, "human", "P01")
