@@ -31,7 +31,8 @@ SEEDS = 100  # of the BSP baseline: the mean of 20, as in paper 002, still moves
 ORDERS = 20  # random input orders of the dynamic version
 EYES = int(os.environ.get("SEETHROUGH_BENCH_EYES", "100"))
 IMAGE_SCENES = (
-    "boxes", "panels100", "cottage", "leaves", "fishbowl", "fence", "cow", "vise", "house", "soup1000",
+    "boxes", "panels100", "cottage", "leaves", "fishbowl", "fence", "cow", "vise", "house",
+    "soup1000",
 )  # fmt: skip
 PICTURE = (320, 240)
 
@@ -206,7 +207,8 @@ def main() -> None:
             else f"must {made['must']:g}: {'met' if made['met'] else 'NOT MET'}"
         )
         print(
-            f"{made['figure']:52s} {made['scene']:12s} {made['value']:10.4g} {made['unit']:4s} {bound}",
+            f"{made['figure']:52s} {made['scene']:12s} {made['value']:10.4g} "
+            f"{made['unit']:4s} {bound}",
             flush=True,
         )
     if chosen.json:

@@ -184,6 +184,8 @@ def draw_figure(results: list[dict[str, Any]], path: Path) -> None:
                 )
         plot.set(xscale="log", yscale="log", title=name, xlabel="ms a frame", ylabel="RMSE / 255")
         plot.grid(alpha=0.3)
+    for unused in axes[len(names) :]:
+        unused.remove()
     handles, shown = axes[0].get_legend_handles_labels()
     picture.legend(handles, shown, loc="outside right center", fontsize=8)
     picture.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)

@@ -109,7 +109,7 @@ def _given_up(
 
 
 def _shared(corners: Floats, i: Integers, j: Integers, point: Floats) -> Floats:
-    """(p,) area that pairs' upright rectangles share in the picture (boxes may lie aslant in them)."""
+    """(p,) area that pairs' upright rectangles share in the picture (they hold the boxes)."""
     way = corners.mean(axis=(0, 1)) - point[:3] if point[3] else -point[:3]
     way = way / max(float(np.linalg.norm(way)), 1e-300)
     side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])

@@ -12,8 +12,8 @@ the widest plane between the two boxes and the eye's side of it, which is exact:
 the eye to a point on the far side crosses the plane before it gets there.
 
 Exact, with `rule="plane"`, for objects that are convex (their far faces are drawn first, then the
-near ones) and whose boxes don't intersect. Boxes may be in front of each other in a circle, whatever
-the rule: no order is right then. The circle is reported, and broken at the least overlap.
+near ones) and whose boxes don't intersect. Boxes may be in front of each other in a circle,
+whatever the rule: no order is right then. The circle is reported, and broken at the least overlap.
 Intersecting boxes, which the paper excludes, are reported and ordered by the nearest corner.
 """
 

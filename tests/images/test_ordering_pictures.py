@@ -101,7 +101,7 @@ def test_the_exact_picture_is_the_closed_form_of_a_stack(context):
     heights = rng.permutation(5)
     colors = rng.uniform(0, 1, (5, 4))
     columns = [np.hstack([np.tile(c, (4, 1)), np.zeros((4, 3))]) for c in colors]
-    polygons = polygons_from([sheet + [0, 0, h] for h in heights], columns)
+    polygons = polygons_from([sheet + np.array([0, 0, h]) for h in heights], columns)
     background = (0.2, 0.4, 0.6)
     painter = PolygonPainter(context, SIZE, background)
     camera = look_at(np.array([0.0, 0.0, 12.0]), np.zeros(3))

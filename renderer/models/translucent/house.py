@@ -100,7 +100,8 @@ def _leaf(hinge: float, turn: float, opened: float) -> list[tuple[float, float]]
 def _porch() -> Faces:
     """Door, steps, four columns on bases, and a little roof."""
     steps = [
-        (5.9, 0.0), (5.9, 0.14), (5.5, 0.14), (5.5, 0.28), (5.1, 0.28), (5.1, 0.4), (3.3, 0.4), (3.3, 0.0),
+        (5.9, 0.0), (5.9, 0.14), (5.5, 0.14), (5.5, 0.28), (5.1, 0.28), (5.1, 0.4), (3.3, 0.4),
+        (3.3, 0.0),
     ]  # fmt: skip
     roof = [(3.15, -2.5), (3.15, 0.1), (3.2, 0.1), (3.42, -1.2), (3.2, -2.5)]
     parts = box((3.02, 0.45, -1.8), (3.12, 2.7, -0.6)) + prism(steps, 2, -2.4, 0.0)

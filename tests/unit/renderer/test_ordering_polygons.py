@@ -14,7 +14,7 @@ TRIANGLE = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]
 
 
 def stack(count):
-    return polygons_from([np.array(TRIANGLE) + [0, 0, i] for i in range(count)])
+    return polygons_from([np.array(TRIANGLE) + np.array([0, 0, i]) for i in range(count)])
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,7 @@ def test_distance_takes_polygons_in_and_moves_them_without_a_rebuild():
     added = prepared.add(polygons_from([np.array(TRIANGLE) - [0, 0, 5]]))
     assert list(added) == [3]
     assert list(prepared.order(eye=eye)) == [3, 0, 1, 2]
-    prepared.move(np.array([3]), np.array(TRIANGLE) + [0, 0, 9])
+    prepared.move(np.array([3]), np.array(TRIANGLE) + np.array([0, 0, 9]))
     assert list(prepared.order(eye=eye)) == [0, 1, 2, 3]
     with pytest.raises(ValueError, match="vertices: 2 corners, expected 3"):
         prepared.move(np.array([0]), np.zeros((2, 3)))
