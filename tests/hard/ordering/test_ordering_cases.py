@@ -43,8 +43,8 @@ def soup(count, seed, scale=1.0, offset=0.0):
 
 
 def coplanar():
-    turned_over = [*TRIANGLE[::-1], 0.3, 0.2, 0.0]
-    return [TRIANGLE, [*TRIANGLE, 1.0, 0.1, 0.0], turned_over, UPRIGHT]
+    turned_over = TRIANGLE[::-1] + np.array([0.3, 0.2, 0.0])
+    return [TRIANGLE, TRIANGLE + np.array([1.0, 0.1, 0.0]), turned_over, UPRIGHT]
 
 
 def near_coplanar():
@@ -79,7 +79,7 @@ def cyclic():
     for k in range(3):
         a = 2 * np.pi * k / 3
         turn = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]])
-        moved = ([*bar, 0.0, 0.9, 0.0]) @ turn.T
+        moved = (bar + np.array([0.0, 0.9, 0.0])) @ turn.T
         bars += [moved[[0, 1, 2]], moved[[0, 2, 3]]]
     return bars
 
@@ -131,7 +131,8 @@ def concave():
     ]
     ring = [[0, 0], [4, 0], [4, 4], [0, 4], [0, 0], [1, 1], [1, 3], [3, 3], [3, 1], [1, 1]]
     flat = np.column_stack([np.array(comb, float), np.zeros(len(comb))])
-    holed = [*np.column_stack([np.array(ring, float), np.full(len(ring), 0.5)]), 2.0, -1.0, 0.0]
+    holed = np.column_stack([np.array(ring, float), np.full(len(ring), 0.5)])
+    holed += np.array([2.0, -1.0, 0.0])
     knife = np.array([[-1.0, 2.0, -2.0], [10.0, 2.0, -2.0], [10.0, 2.0, 2.0], [-1.0, 2.0, 2.0]])
     slant = np.array([[-1.0, 0.5, -2.0], [10.0, 2.5, -2.0], [10.0, 2.5, 2.0], [-1.0, 0.5, 2.0]])
     return [flat, holed, knife, slant]
@@ -223,7 +224,7 @@ def test_the_quadrilateral_of_csg_js_11_is_refused_as_not_flat():
 
 def test_near_coplanar_sheets_are_told_apart():
     """10⁻¹² apart is far more than rounding: each sheet keeps its place in the stack."""
-    sheets = [[*TRIANGLE, 0, 0, 1e-12 * i] for i in range(6)]
+    sheets = [TRIANGLE + np.array([0, 0, 1e-12 * i]) for i in range(6)]
     for method in METHODS:
         prepared = method(polygons_from(sheets))
         above = prepared.drawable.source[
