@@ -91,11 +91,8 @@ def environment_id() -> str:
 
 def packages_id() -> str:
     """Changes with what is to be installed."""
-    digest = hashlib.sha256()
-    for name in (os.path.join(ROOT, "pyproject.toml"), CONSTRAINTS):
-        with open(name, "rb") as file:
-            digest.update(file.read())
-    return digest.hexdigest()
+    with open(os.path.join(ROOT, "pyproject.toml"), "rb") as one, open(CONSTRAINTS, "rb") as two:
+        return hashlib.sha256(one.read() + two.read()).hexdigest()
 
 
 def read_stamp() -> list[str]:
@@ -293,11 +290,10 @@ def install_packages(extras: str, keep_open: tuple[int, ...]) -> None:
     if status:
         os.remove(UNFINISHED)  # pip undoes what it could not finish
         raise Stop(f"cannot install the packages: {why(output)}")
-    # Else the first frame of the first session would wait for it. A failure is no reason to stop:
-    # what needs OpenGL says so itself.
-    run_logged([PYTHON, "-m", "experiment.warm"], "compiling what draws, once: half a minute or so")
     # pip would do this on one core; a file that is not for this Python may fail to compile.
     run_logged([PYTHON, "-m", "compileall", "-q", "-j", "0", folder], "compiling them")
+    # Else the first session would wait for it. Without OpenGL it fails, and what draws will say so.
+    run_logged([PYTHON, "-m", "experiment.warm"], "compiling what draws: half a minute or so")
 
 
 @contextlib.contextmanager

@@ -38,7 +38,7 @@ STRIDE = 20  # bytes a vertex: position 2 × f4, uv 2 × f4, color 4 × u1
 
 @dataclass(frozen=True)
 class Batch:
-    """Triangles of one texture: `count` indices from `first`; clip is (left, top, right, bottom)."""
+    """Triangles of one texture: `count` indices from `first`; clip: (left, top, right, bottom)."""
 
     texture: int
     first: int
