@@ -34,6 +34,8 @@ class Cells:
             self.depth.compare_func = ""
         pictures = [t for t in (self.color, self.numbers) if t is not None]
         self.framebuffer = context.framebuffer(pictures, self.depth)
+        # With depth, colours count only where something was drawn: they need no clearing.
+        self._emptied = context.framebuffer([], self.depth) if depth else self.framebuffer
 
     def _arrange(self, size: tuple[int, int], count: int, width: int = 0) -> None:
         self.size = size
@@ -51,9 +53,9 @@ class Cells:
 
     def clear(self) -> None:
         """Empty all cells and bind them."""
-        self.framebuffer.use()
         self.framebuffer.scissor = None
-        self.framebuffer.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=(0, 0, *self.whole))
+        self._emptied.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=(0, 0, *self.whole))
+        self.framebuffer.use()
 
     def select(self, k: int, corner: tuple[int, int], frame: tuple[int, int]) -> None:
         """Draw into cell k what the frame shows from `corner` (x, y up) on."""
@@ -63,6 +65,8 @@ class Cells:
 
     def release(self) -> None:
         """Give the GPU's memory back."""
+        if self._emptied is not self.framebuffer:
+            self._emptied.release()
         self.framebuffer.release()
         for texture in (self.color, self.depth, self.numbers):
             if texture is not None:

@@ -236,7 +236,8 @@ class ExactPainter:
                 draws += self._fill(job, part[None])
                 light, which = self._lit(job, part)
                 lit = light > 0
-                np.maximum.at(best, which[lit], light[lit])
+                # Elsewhere nothing was drawn, and cells hold what they happened to hold.
+                np.maximum.at(best, which[lit].astype(np.int64), light[lit])
         hard = impenetrable(scene, job.camera, job.technique)
         if by_surface:
             best[np.repeat(hard, np.diff(job.table.first_triangle))] = 0.0
@@ -267,9 +268,9 @@ class ExactPainter:
         part_of = (0, 0, *cells.whole)
         if cells.numbers is not None:
             data = cells.framebuffer.read(part_of, 1, attachment=1, dtype="f4", alignment=1)
-            return light, np.frombuffer(data, "f4").astype(np.int64)
+            return light, np.frombuffer(data, "f4")
         data = cells.framebuffer.read(part_of, 4, dtype="f4", alignment=1)
-        return light, np.frombuffer(data, "f4")[3::4].astype(np.int64)
+        return light, np.frombuffer(data, "f4")[3::4]
 
     def _resolve(
         self, job: ExactJob, part: NDArray[np.int64], number: int, output: str, first: int = 0

@@ -69,6 +69,7 @@ float place_of(vec4 mask, out int layers) {
             layers = before;
             return depth[k];
         }
+        if (tau == 0.0) continue;  // nobody asks how many
         if (texelFetch(parts, ivec2(object[k] % 1024, object[k] / 1024), 0).x == 0.0) ++before;
     }
     return mask.y;

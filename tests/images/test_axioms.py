@@ -140,7 +140,7 @@ def test_a_thousand_frames_keep_the_least_transmittance(context, tau):
     """
     size = (40, 30)
     renderer = Renderer(context, size)
-    technique = DynamicTransparency(width=4, min_transmittance=tau)
+    technique = DynamicTransparency(0.6, width=4, min_transmittance=tau)
     worst, pixels, reduced = 1.0, 0, 0
     for world in range(50):
         scene = column(100 + world, 14, targets=0.3, impenetrable=0.05, spread=0.5)
