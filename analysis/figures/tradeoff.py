@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analysis.figures.style import COLOURS, FAINT, LEVELS, picked
+from analysis.load.schema import TASK_CODES
 from analysis.page.blocks import Figure, Tips
 from analysis.page.numbers import significant
 from analysis.tradeoff import Change
@@ -51,7 +52,9 @@ def _panel(axes: Any, tips: Tips, c: Change) -> None:
         scale=1,
         color=FAINT,
         width=0.005,
-        headwidth=5,
+        headwidth=5.5,
+        headlength=6,
+        zorder=3,  # the heads lie on the dots they point at
     )
     for side, level in enumerate(LEVELS):
         (dots,) = axes.plot(time[:, side], error[:, side], "o", color=COLOURS[level], markersize=4)
@@ -66,7 +69,7 @@ def _panel(axes: Any, tips: Tips, c: Change) -> None:
     axes.set_xlim(*_roomy(time))
     axes.set_ylim(*_roomy(error))
     _time_ticks(axes)
-    axes.set_title(c.task.replace("_", " "))
+    axes.set_title(f"{TASK_CODES[c.task]} {c.task.replace('_', ' ')}")
     axes.set_xlabel("time (s)")
     axes.set_ylabel(c.error_label)
 

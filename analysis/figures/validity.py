@@ -7,16 +7,20 @@ from typing import Any
 
 import pandas as pd
 
-from analysis.figures.style import COLOURS
+from analysis.figures.style import COLOURS, LEVELS
 from analysis.page.blocks import Figure, Tips
 from analysis.page.numbers import significant
 
 
 def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
     """Geometric mean time by position, a line per transparency level."""
+    parts = dict(list(curve.groupby(curve["transparency"].astype("str"))))
     lines = {
-        str(level): list(zip(part["trial_in_set"].astype(int), part["time"], strict=True))
-        for level, part in curve.groupby("transparency", observed=True)
+        level: list(
+            zip(parts[level]["trial_in_set"].astype(int), parts[level]["time"], strict=True)
+        )
+        for level in LEVELS
+        if level in parts
     }
     told = "; ".join(
         f"{level}: " + ", ".join(f"trial {k} {significant(float(t))} s" for k, t in points[:12])

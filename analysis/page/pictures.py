@@ -103,7 +103,9 @@ def _marked(svg: str, tips: Tips, figure: Figure, inline: bool) -> str:
     # marks inside a role="img" would be hidden from screen readers
     role = "group" if inline else "img"
     opening = f'{svg[start:end]} role="{role}" aria-labelledby="{names}">'
-    opening = re.sub(r' (?:width|height)="[^"]+"', "", opening) if inline else opening
+    if inline:  # as wide as the page allows, and all figures' texts of one size
+        opening = re.sub(r' (?:width|height)="[^"]+"', "", opening)
+        opening = opening[:-1] + f' style="max-width: {7.5 * figure.size[0]:.1f}rem">'
     about = (
         f'<title id="{key}-title">{escape(figure.title)}</title>'
         f'<desc id="{key}-alt">{escape(figure.alt)}</desc>'

@@ -11,6 +11,7 @@ ALPHA = 0.05
 
 
 def equivalence_section(published: Published, tests: Table) -> Section:
+    """T3's distance: a test that shows no difference is not one that shows there is none."""
     key = "distance_T3"
     p = published.measure(key).p.text
     shown = tests.row(key)["tost_p"] < ALPHA

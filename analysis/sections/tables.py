@@ -51,6 +51,7 @@ def name_of(task: str) -> str:
 
 
 def effect_row(effect: Effect) -> dict[str, Any]:
+    """An effect as a row of `EFFECTS`."""
     return {
         "effect": effect.name,
         "n": effect.n,

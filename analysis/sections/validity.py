@@ -80,13 +80,14 @@ def _learning(context: Context) -> list[Block]:
     columns = (
         Column("what", "factor on time"),
         Column("n", "n", "int"),
-        Column("ratio", "ratio", "fixed3"),
+        Column("ratio", "ratio", "fixed3", "95 % interval", "low", "high"),
         Column("low", "from", "fixed3", "95 % interval"),
         Column("high", "to", "fixed3", "95 % interval"),
         Column("t", "t", "fixed2"),
         Column("p", "p", "p"),
     )
-    table = Table("learning", "Learning within a task set", columns, (row,))
+    shown = ("what", "n", "ratio", "t", "p")
+    table = Table("learning", "Learning within a task set", columns, (row,), shown)
     p = table.cite("per trial", "p")
     words = "p " if p.text.startswith(("<", "undefined")) else "p = "
     sentence = say(

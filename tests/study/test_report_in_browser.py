@@ -125,7 +125,8 @@ def test_every_table_can_be_reached_by_keyboard(report, browser):
 
 def test_marks_say_their_numbers_to_mouse_and_keyboard(report, browser):
     place = browser.run(
-        "const m = document.querySelector('.mark'); m.scrollIntoView({block: 'center', behavior: 'instant'});"
+        "const m = document.querySelector('.mark');"
+        "m.scrollIntoView({block: 'center', behavior: 'instant'});"
         "const b = m.getBoundingClientRect();"
         "return [b.x + b.width / 2, b.y + b.height / 2, m.dataset.tip]"
     )
