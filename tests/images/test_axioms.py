@@ -154,5 +154,5 @@ def test_a_thousand_frames_keep_the_least_transmittance(context, tau):
             pixels += kept.size
             reduced += int((kept < tau + 0.1).sum())
     assert pixels > 15_000
-    assert reduced > 500  # the guarantee had something to do
+    assert reduced > 100  # the guarantee had something to do
     assert worst >= tau - 1 / 255
