@@ -72,7 +72,9 @@ def look_at(
     length = np.linalg.norm(back)
     right = np.cross(up, back)
     if length == 0 or np.linalg.norm(right) <= 1e-12 * length:
-        raise ValueError(f"eye {eye} and center {center} leave no direction to look in under up {up}")
+        raise ValueError(
+            f"eye {eye} and center {center} leave no direction to look in under up {up}"
+        )
     back = back / length
     right = right / np.linalg.norm(right)
     rotation = np.stack([right, np.cross(back, right), back], axis=1)
