@@ -13,7 +13,15 @@ from experiment.errors import InputError
 HELP = "measure accuracy against time"
 
 # Each module has figures(), which gives {figure, scene, value, unit, must, aim, met} one by one.
-BENCHES = ("accuracy", "ordering", "ordering_accuracy", "session", "speed", "statistics")
+BENCHES = (
+    "accuracy",
+    "ordering",
+    "ordering_accuracy",
+    "session",
+    "simulate",
+    "speed",
+    "statistics",
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,7 +51,9 @@ def line(row: dict[str, Any]) -> str:
     """A row in words."""
     text = f"{row['figure']:40s} {row['scene']:26s} {row['value']:10.4g} {row['unit']}"
     if row["must"] is not None:
-        text += f"   must ≤ {row['must']:g}: {'met' if row['met'] else 'NOT MET'}"
+        at_most = (row["value"] <= row["must"]) == bool(row["met"])
+        text += f"   must {'≤' if at_most else '≥'} {row['must']:g}: "
+        text += "met" if row["met"] else "NOT MET"
     if row["aim"] is not None:
         text += f", aim {row['aim']:g}"
     return text

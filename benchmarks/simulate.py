@@ -1,7 +1,7 @@
 """What simulating a study costs, and how near simulated people come to the published ones.
 
-`python -m benchmarks.simulation --json FILE` prints the table and writes a list of
-{figure, scene, value, unit, must, aim, met}. Tables are made first and timed apart.
+`seethrough bench simulate` prints the whole table; `python -m benchmarks.simulate --tables FILE`
+parts of it, from tables that are kept. Tables are made first and timed apart.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import json
 import resource
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -128,6 +128,17 @@ def calibration(job: batch.Batch, profile: Profile, count: int = 64) -> list[Fig
 
 def _off(ours: Sequence[float], theirs: Sequence[float]) -> float:
     return max(abs(a / b - 1) for a, b in zip(ours, theirs, strict=True))
+
+
+def figures() -> Iterator[Figure]:
+    """The whole table, tables made anew in a folder of its own."""
+    yield from visual()
+    with tempfile.TemporaryDirectory() as folder:
+        job = batch.Batch(STUDY, 1, 200, Path(folder) / "tables.npz")
+        make_tables(job)
+        yield from data(job)
+        yield from many(job, MANY)
+        yield from calibration(job, find("calibrated"))
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
