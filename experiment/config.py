@@ -89,13 +89,17 @@ class DesignTable(_Table):
 
 
 class DisplayTable(_Table):
-    """[display]: the window, in pixels, and what it promises."""
+    """[display]: the window, in pixels, and what it promises.
+
+    `samples` for antialiasing: "auto" takes 4 on a graphics card and none on a software
+    rasteriser, which would miss 60 Hz.
+    """
 
     width: Annotated[int, Field(ge=1, le=8192)] = 800
     height: Annotated[int, Field(ge=1, le=8192)] = 600
     fullscreen: bool = False
     refresh: Annotated[float, Field(ge=10, le=1000)] = 60.0
-    samples: Literal[0, 2, 4, 8] = 0
+    samples: Literal["auto", 0, 2, 4, 8] = "auto"
 
 
 class SessionTable(_Table):

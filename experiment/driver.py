@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software")  # rasterisers on the processor
+AUTOMATIC = 4  # samples where a graphics card draws
+
 
 def describe(context: Any) -> Mapping[str, str]:
     """Vendor, renderer and version of a context's OpenGL."""
@@ -14,3 +17,12 @@ def describe(context: Any) -> Mapping[str, str]:
         "renderer": info["GL_RENDERER"],
         "opengl": info["GL_VERSION"],
     }
+
+
+def samples_for(wanted: str | int, context: Any) -> int:
+    """Samples a pixel: as the study says, or by what draws. 4 × costs a software rasteriser some
+    20 ms a frame at 800 × 600, a graphics card next to nothing."""
+    if isinstance(wanted, int):
+        return wanted
+    renderer = context.info["GL_RENDERER"].lower()
+    return 0 if any(name in renderer for name in SOFTWARE) else AUTOMATIC

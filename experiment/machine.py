@@ -12,6 +12,7 @@ import numpy as np
 
 from experiment.config import Study
 from experiment.design import Trial
+from experiment.driver import samples_for
 from experiment.scenes import StudyScenes
 from experiment.trial import MISSED
 from renderer.camera import Camera
@@ -39,7 +40,7 @@ def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> Fra
     task = TASKS[trial.task]
     view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
     technique = study.dynamic if trial.transparency == "dynamic" else Standard()
-    renderer = Renderer(context, size, study.display.samples)
+    renderer = Renderer(context, size, samples_for(study.display.samples, context))
     renderer.draw(view.scene, view.camera, technique)
     context.finish()
     took: list[float] = []

@@ -36,6 +36,7 @@ class Recorded:
     camera: Path
     size: tuple[int, int]
     driver: str
+    samples: int
 
     @property
     def technique(self) -> Any:
@@ -89,6 +90,7 @@ def _recorded(table: Path, row: dict[str, str], number: int) -> Recorded:
         table.parent / row["camera_file"],
         (width, height),
         provenance["display"].get("renderer", "unknown"),
+        int(provenance["display"].get("samples", 0)),
     )
 
 

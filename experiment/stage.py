@@ -27,6 +27,7 @@ class Stage:
         self.context = context
         self.size = size
         self.texts = texts
+        self.samples = samples
         self.renderer = Renderer(context, size, samples)
         self.interface = Interface(context)
         self.done = 0.0  # part of the session

@@ -16,7 +16,7 @@ from pyglet.window import key, mouse
 from experiment.clock import Clock
 from experiment.config import DisplayTable
 from experiment.display import Leave
-from experiment.driver import describe
+from experiment.driver import describe, samples_for
 from experiment.errors import InputError
 from experiment.event_time import EventTime
 from experiment.page_drawing import Form
@@ -70,7 +70,8 @@ class Window:
         self.period = 1.0 / table.refresh
         self._window = _open(table, title)
         self.context = moderngl.create_context(require=330)
-        self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, table.samples)
+        samples = samples_for(table.samples, self.context)
+        self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, samples)
         self.technique: Any = None  # what the view shown last was drawn with
         self._when = EventTime(clock.now)
         self._window.event_time = self._when
@@ -114,6 +115,7 @@ class Window:
         return {
             **describe(self.context),
             "size": f"{width}x{height}",
+            "samples": str(self.stage.samples),
             "refresh_declared": f"{1 / self.period:g}",
             "refresh_of_screen": str(rate or "unknown"),
             "window": "yes",

@@ -64,7 +64,7 @@ def _verify(recorded: Recorded) -> int:
         print(f"recorded with {recorded.driver}, drawn with {driver}: pictures may differ")
     study = recorded.study
     texts = Texts(study.study.language, study.texts)
-    stage = Stage(context, recorded.size, texts, study.display.samples)
+    stage = Stage(context, recorded.size, texts, recorded.samples)
     target = context.framebuffer([context.texture(recorded.size, 4)])
     checked = different = 0
     for frame in replay(recorded):

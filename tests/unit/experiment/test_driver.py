@@ -1,0 +1,17 @@
+"""How many samples a pixel gets."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from experiment.driver import samples_for
+
+
+@pytest.mark.parametrize(
+    ("renderer", "samples"),
+    [("llvmpipe (LLVM 15.0.6, 256 bits)", 0), ("NVIDIA H100", 4), ("Apple M2", 4)],
+)
+def test_a_software_rasteriser_is_not_asked_for_antialiasing(renderer, samples):
+    context = SimpleNamespace(info={"GL_RENDERER": renderer})
+    assert samples_for("auto", context) == samples
+    assert samples_for(8, context) == 8
