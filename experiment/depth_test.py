@@ -92,7 +92,7 @@ def _depths(view: View, aspect: float) -> dict[str, float]:
     ahead = depth > view.camera.near
     size = np.array([_radius(view.scene.objects[i]) for i in things]) / np.where(ahead, depth, 1)
     size /= np.tan(view.camera.fov_y / 2)  # half-heights of the picture
-    place = _on_picture(view.camera, centers)
+    place = on_picture(view.camera, centers)
     shown = ahead & (np.abs(place) < [aspect * 1.15, 1.15]).all(axis=1)
     whole = shown & (np.abs(place) + size[:, None] < [aspect, 1.0]).all(axis=1)
     found = {}
@@ -108,7 +108,7 @@ def _radius(thing: Object) -> float:
     return thing.mesh.radius * float(np.linalg.norm(thing.transform[:3, 0]))
 
 
-def _on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, 2) places in half-heights of the picture from its middle."""
     seen = (points - camera.eye) @ camera.rotation
     with np.errstate(divide="ignore", invalid="ignore"):

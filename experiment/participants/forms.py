@@ -7,9 +7,11 @@ from statistics import fmean
 
 import numpy as np
 
+from experiment.depth_test import on_picture
 from experiment.pages import Choice, Page, Paragraph, Picture, PlatePicture, Scale, TextField
 from experiment.participants.person import Person
 
+ASPECT = 4 / 3  # of a page's picture
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]
 MIDDLE, STEEPNESS, WOBBLE = 0.57, 0.28, 0.15  # ratings, 0–1, against log2 of relative time [ours]
@@ -87,11 +89,13 @@ class Opinions:
         p = self.person.profile
         spread = hypot(p.depth_noise, p.through_noise)
         kinds = [o.removeprefix("kind.") for o in options]
-        depth = picture.view.camera.depth(picture.view.scene.centers)
+        camera, scene = picture.view.camera, picture.view.scene
+        depth = camera.depth(scene.centers)
+        place = np.abs(on_picture(camera, scene.centers))
+        shown = (depth > 0) & (place < [ASPECT, 1.0]).all(axis=1)
         looks = []
         for kind in kinds:
-            same = [d for d, o in zip(depth, picture.view.scene.objects, strict=True)
-                    if o.kind == kind and d > 0]  # fmt: skip
+            same = [depth[i] for i in np.nonzero(shown)[0] if scene.objects[i].kind == kind]
             true = min(same, default=np.inf)
             looks.append(true * exp(spread * self.person.rng.standard_normal()))
         return int(np.argmin(looks))
