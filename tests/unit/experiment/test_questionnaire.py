@@ -181,7 +181,7 @@ def test_a_consent_file_that_is_missing_or_no_text_is_named(tmp_path):
     )
     study = tmp_path / "a.toml"
     study.write_text(text)
-    with pytest.raises(InputError, match=r"a\.toml: session\.consent = 'mine\.txt': expected"):
+    with pytest.raises(InputError, match=r'a\.toml: session\.consent = "mine\.txt": expected'):
         load(str(study))
     (tmp_path / "mine.txt").write_bytes(b"\xff\xfe\xff")
     with pytest.raises(InputError, match="not UTF-8"):
