@@ -142,6 +142,8 @@ class Window:
         self._window.set_exclusive_mouse(False)
         form = self._form = Form(page)
         self._events.clear()
+        # Keys that were down in the view before, and whose release went elsewhere, are up now.
+        self.stage.interface.io.clear_input_keys()
         while not self._draw_page(form):
             if self._closed:
                 raise Leave
@@ -285,6 +287,7 @@ class Window:
         now = self._when.time()
         self._events += [KeyRelease(now, name) for name in sorted(self._down)]
         self._down.clear()
+        self.stage.interface.io.clear_input_keys()
         self._events.append(FocusChange(now, False))
 
     def on_close(self) -> bool:

@@ -10,6 +10,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
 from multiprocessing import get_context
 from typing import Any, TypeVar
 
@@ -30,14 +31,14 @@ def ordered_map(
     """`work(item)` for each item, in order; `prepare(*arguments)` runs once in each process.
 
     With one worker everything happens here. Raises RuntimeError when workers keep dying, and
-    whatever `work` raises.
+    whatever `work` raises, the first in the order of the items.
     """
     if workers == 1:
         if prepare is not None:
             prepare(*arguments)
         yield from map(work, items)
         return
-    done: dict[int, Result] = {}
+    done: dict[int, Any] = {}
     given = 0
     left = list(range(len(items)))
     deaths = 0
@@ -49,12 +50,25 @@ def ordered_map(
                     left.remove(index)
                     deaths = 0
                     while given in done:
-                        yield done.pop(given)
+                        yield _result(done.pop(given))
                         given += 1
         except BrokenProcessPool:
             deaths += 1
             if deaths > MOST_DEATHS:
                 raise RuntimeError(f"{deaths} workers died one after the other") from None
+
+
+@dataclass(frozen=True)
+class _Raised:
+    """What `work` raised for an item: raised again when it is the item's turn."""
+
+    error: BaseException
+
+
+def _result(made: Any) -> Any:
+    if isinstance(made, _Raised):
+        raise made.error
+    return made
 
 
 def _executor(
@@ -79,7 +93,7 @@ def _run(
     items: Sequence[Item],
     left: Sequence[int],
     workers: int,
-) -> Iterator[tuple[int, Result]]:
+) -> Iterator[tuple[int, Any]]:
     """(index, result) as they come; only a few items are handed out at a time."""
     waiting = iter(list(left))
     running: dict[Future[Result], int] = {}
@@ -90,4 +104,7 @@ def _run(
             return
         finished, _ = wait(running, return_when=FIRST_COMPLETED)
         for future in finished:
-            yield running.pop(future), future.result()
+            index, error = running.pop(future), future.exception()
+            if isinstance(error, BrokenProcessPool):
+                raise error
+            yield index, future.result() if error is None else _Raised(error)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import moderngl
 
+WIDTH = 2048  # texels; a row of cells is no wider unless one cell is
 MOST = 64  # of slices or masks: the arrays in shaders/exact.frag
 
 
@@ -22,7 +23,8 @@ class Cells:
         self._limit = context.info["GL_MAX_TEXTURE_SIZE"]
         self._arrange(size, max(count, 1))
         # Room for a little more of the same, so that the next frame need not make it anew.
-        self._room = (self.whole[0], min(self._limit, self.whole[1] + self.whole[1] // 4))
+        width = max(self.whole[0], min(self._limit, WIDTH))
+        self._room = (width, min(self._limit, self.whole[1] + self.whole[1] // 4))
         whole = self._room
         self.color = context.texture(whole, 4, dtype=dtype)
         self.depth = context.depth_texture(whole) if depth else None
@@ -37,19 +39,19 @@ class Cells:
         # With depth, colours count only where something was drawn: they need no clearing.
         self._emptied = context.framebuffer([], self.depth) if depth else self.framebuffer
 
-    def _arrange(self, size: tuple[int, int], count: int, width: int = 0) -> None:
+    def _arrange(self, size: tuple[int, int], count: int) -> None:
+        # From size and count alone: a cell's place decides how its edges are rounded, and a frame
+        # must be the same picture whatever was drawn before it.
         self.size = size
-        self.columns = max(1, min((width or min(self._limit, 2048)) // size[0], count))
+        self.columns = max(1, min(min(self._limit, WIDTH) // size[0], count))
         self.whole = (self.columns * size[0], -(-count // self.columns) * size[1])
 
     def lay_out(self, size: tuple[int, int], count: int, dtype: str, numbers: bool) -> bool:
         """Arrange cells of another size or number, if they fit."""
         if self.color.dtype != dtype or (self.numbers is not None) != numbers:
             return False
-        if size[0] > self._room[0]:
-            return False
-        self._arrange(size, max(count, 1), self._room[0])
-        return self.whole[1] <= self._room[1]
+        self._arrange(size, max(count, 1))
+        return self.whole[0] <= self._room[0] and self.whole[1] <= self._room[1]
 
     def clear(self) -> None:
         """Empty all cells and bind them."""

@@ -7,11 +7,10 @@ from pathlib import Path
 
 import pytest
 from desktop import Desktop, wait_until
-from player import START, answer, drag, fill_in, open_session, trials_of
+from player import ARTEFACTS, START, answer, drag, fill_in, open_session, trials_of
 
 from experiment import cli
 
-ARTEFACTS = Path(__file__).parents[2] / "out" / "ci"
 TITLE = "A short session"
 STUDY = f"""
 [study]

@@ -3,12 +3,14 @@
 import itertools
 import subprocess
 import time
+from pathlib import Path
 
 from desktop import Program, wait_until
 
 from experiment.config import load
 from experiment.design import session_for
 
+ARTEFACTS = Path(__file__).parents[2] / "out" / "ci"
 START = 60  # s for a cold start on a busy machine: not a bound on speed
 TRIAL = 60  # s for one trial on a busy machine
 
@@ -74,7 +76,9 @@ def fill_in(desktop, program, seconds=2 * TRIAL, screenshot=None):
     for number in itertools.count():
         if not program.running():
             return
-        assert time.monotonic() < end, program.said()
+        if time.monotonic() > end:
+            desktop.screenshot(ARTEFACTS / "window-stuck.png")
+            raise AssertionError(program.said())
         if number == 1 and screenshot is not None:
             desktop.screenshot(screenshot)
         desktop.keys(*["Down", "space"] * 3, "Tab", "Return")

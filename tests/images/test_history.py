@@ -1,0 +1,44 @@
+"""A frame is the same picture, to the bit, whatever was drawn before it: replay needs that."""
+
+import numpy as np
+import pytest
+
+from renderer.gpu.context import standalone
+from renderer.gpu.renderer import Renderer
+from renderer.techniques.dynamic import DynamicTransparency
+from tasks.catalog import TASKS
+from tasks.parameters import AbstractParameters, BuildingParameters
+
+SIZE = (800, 600)
+CLOUD = AbstractParameters(side=50.0, objects=60, target_share=(0.3, 0.4))
+HOUSE = BuildingParameters(grid=6, objects=8, count=(1, 3), types=("chair", "table", "cat"))
+
+
+def views():
+    """Eight clouds and a building, each with its first view."""
+    found = []
+    for seed, name in enumerate(["count", "pattern"] * 4 + ["unique"]):
+        rng, task = np.random.default_rng(seed), TASKS[name]
+        parameters = CLOUD if task.scenario == "abstract" else HOUSE
+        scene = task.make_scene(rng, parameters)
+        found.append(task.view(task.begin(rng, parameters, 4 / 3, scene)))
+    return found
+
+
+def drawn(renderer, view):
+    renderer.draw(view.scene, view.camera, DynamicTransparency())
+    return renderer.read().copy()
+
+
+@pytest.fixture(scope="module")
+def context():
+    return standalone()
+
+
+def test_a_picture_does_not_depend_on_what_was_drawn_before(context):
+    shown = views()
+    alone = [drawn(Renderer(context, SIZE), view) for view in shown]
+    one = Renderer(context, SIZE)
+    for order in (range(9), reversed(range(9))):
+        for k in order:
+            np.testing.assert_array_equal(drawn(one, shown[k]), alone[k])
