@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import count
 
 from imgui_bundle import imgui
 
@@ -32,6 +33,7 @@ class Form:
     page: Page
     answers: Answers = field(default_factory=dict)
     was_complete: bool = False  # when it was drawn last
+    number: int = field(default_factory=count().__next__)  # no other form has it
 
     @property
     def complete(self) -> bool:
@@ -62,7 +64,7 @@ class PageDrawing:
         imgui.push_font(self.interface.regular, 0.034 * height)
         imgui.begin(
             # A window of its own for each form: ImGui gives a new one the keyboard.
-            f"page{id(form)}",
+            f"page{form.number}",
             None,
             flags.no_decoration & ~flags.no_scrollbar | flags.no_move | flags.no_saved_settings,
         )
