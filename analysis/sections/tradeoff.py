@@ -13,6 +13,7 @@ from analysis.figures.tradeoff import arrows
 from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
+from analysis.stats.ranks import sign_test
 from analysis.stats.undefined import Undefined
 from analysis.tradeoff import Change, accuracy_by_speed, changes, correlation, scores
 
@@ -25,6 +26,7 @@ CHANGES = (
     Column("faster_better", "faster, fewer errors", "int"),
     Column("faster_same", "faster, same errors", "int"),
     Column("slower", "not faster", "int"),
+    Column("p_errors", "p of the faster", "p", "more against fewer errors, sign test"),
     Column("r", "r of changes", "bound2", "95 % interval", "r_low", "r_high"),
     Column("r_low", "from", "bound2", "95 % interval"),
     Column("r_high", "to", "bound2", "95 % interval"),
@@ -85,6 +87,7 @@ def _row(c: Change) -> dict[str, object]:
         "faster_better": int(np.sum(faster & (error < 0))),
         "faster_same": int(np.sum(faster & (error == 0))),
         "slower": int(np.sum(~faster)),
+        "p_errors": sign_test(int(np.sum(faster & (error > 0))), int(np.sum(faster & (error < 0)))),
         "r": r.r,
         "r_low": r.interval[0],
         "r_high": r.interval[1],
@@ -103,19 +106,29 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
             table.cite(c.task, "n"),
             f" in {name_of(c.task)}",
         ]
-    traded = [
-        name_of(c.task)
-        for c in found
-        if not isinstance((row := table.row(c.task))["p"], Undefined)
-        and row["p"] < alpha
-        and row["r"] < 0
+    rows = {name_of(c.task): table.row(c.task) for c in found}
+    group = [
+        name
+        for name, row in rows.items()
+        if row["p_errors"] < alpha and row["faster_worse"] > row["faster_better"]
     ]
+    gained = [
+        name
+        for name, row in rows.items()
+        if not isinstance(row["p"], Undefined) and row["p"] < alpha and row["r"] < 0
+    ]
+    verdicts = []
+    if group:
+        verdicts.append(
+            f"in {' and '.join(group)} most of those who became faster made more errors"
+        )
+    if gained:
+        verdicts.append(f"in {' and '.join(gained)} those who gained more time lost more accuracy")
     verdict = (
-        f"in {' and '.join(traded)} those who gained more time lost more accuracy: there speed "
-        "was bought with errors"
-        if traded
-        else "in no task did those who gained more time lose more accuracy, so there is no sign "
-        "that speed was bought with errors"
+        f"{', and '.join(verdicts)}: there speed was bought with errors"
+        if verdicts
+        else "in no task did most of the faster make more errors, nor those who gained more time "
+        "lose more accuracy, so there is no sign that speed was bought with errors"
     )
     return say(
         f"Faster and with more errors under dynamic transparency were {{}}; {verdict}.", runs
