@@ -16,7 +16,10 @@ class Desktop:
 
     def __enter__(self):
         read, write = os.pipe()
-        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", self.size, "-nolisten", "tcp"]
+        # Without -noreset the server starts again when its last client ends, and refuses the next
+        # one in the meantime: a killed session is such a last client.
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", self.size]
+        command += ["-nolisten", "tcp", "-noreset"]
         self.server = subprocess.Popen(
             command, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )
