@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from experiment.errors import InputError
+
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software")  # rasterisers on the processor
 AUTOMATIC = 4  # samples where a graphics card draws
 
@@ -26,3 +28,13 @@ def samples_for(wanted: str | int, context: Any) -> int:
         return wanted
     renderer = context.info["GL_RENDERER"].lower()
     return 0 if any(name in renderer for name in SOFTWARE) else AUTOMATIC
+
+
+def open_context() -> Any:
+    """A context without a window. Raises InputError, one line, where there is no OpenGL."""
+    from renderer.gpu.context import standalone  # here: who only names drivers needs no OpenGL
+
+    try:
+        return standalone()
+    except RuntimeError as error:
+        raise InputError(str(error)) from None

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from experiment.driver import open_context
 from experiment.errors import InputError
 from experiment.replay import Recorded, replay
 from experiment.stage import Stage
 from experiment.texts import Texts
-from renderer.gpu.context import standalone
 
 RATE = 30
 
@@ -23,7 +23,7 @@ def write_video(recorded: Recorded, path: Path) -> None:
         raise InputError(
             "--video: needs the package imageio-ffmpeg; install the extra `video`"
         ) from None
-    context = standalone()
+    context = open_context()
     study = recorded.study
     stage = Stage(context, recorded.size, Texts(study.study.language, study.texts))
     texture = context.texture(recorded.size, 4)

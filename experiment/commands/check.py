@@ -45,10 +45,9 @@ def run(arguments: argparse.Namespace) -> int:
         print(line)
     if arguments.config_only:
         return 0
-    from experiment.driver import describe
-    from renderer.gpu.context import standalone
+    from experiment.driver import describe, open_context
 
-    context = standalone()
+    context = open_context()
     for name, value in describe(context).items():
         print(f"machine     {name}: {value}")
     measured = _measured(study, context)

@@ -54,11 +54,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _verify(recorded: Recorded) -> int:
     """Draw every frame that has a digest and compare."""
+    from experiment.driver import open_context
     from experiment.stage import Stage
     from experiment.texts import Texts
-    from renderer.gpu.context import standalone
 
-    context = standalone()
+    context = open_context()
     driver = context.info["GL_RENDERER"]
     if driver != recorded.driver:
         print(f"recorded with {recorded.driver}, drawn with {driver}: pictures may differ")
@@ -80,10 +80,10 @@ def _verify(recorded: Recorded) -> int:
 
 def _visibility(recorded: Recorded, path: Path) -> None:
     """One row for each look and target: how much of it could be seen, how strongly."""
+    from experiment.driver import open_context
     from experiment.looking import Looking
-    from renderer.gpu.context import standalone
 
-    looking = Looking(standalone(), recorded.size[0] / recorded.size[1])
+    looking = Looking(open_context(), recorded.size[0] / recorded.size[1])
     looking.technique = recorded.technique
     with open(path, "x", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")

@@ -83,9 +83,9 @@ def simulate(
     explain: bool = False,
 ) -> None:
     """Play `count` sessions into the data folder `out`. Raises InputError if they are there."""
-    from renderer.gpu.context import standalone
+    from experiment.driver import open_context
 
-    context = standalone()
+    context = open_context()
     trials = sum(len(s.trials) for s in session_for(1, study.design.factors())) * count
     with Progress("simulating", trials) as progress:
         for slot in range(1, count + 1):

@@ -4,7 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from experiment.driver import samples_for
+from experiment.driver import open_context, samples_for
+from experiment.errors import InputError
+from renderer.gpu import context as gpu
 
 
 @pytest.mark.parametrize(
@@ -15,3 +17,14 @@ def test_a_software_rasteriser_is_not_asked_for_antialiasing(renderer, samples):
     context = SimpleNamespace(info={"GL_RENDERER": renderer})
     assert samples_for("auto", context) == samples
     assert samples_for(8, context) == 8
+
+
+def test_a_machine_without_opengl_is_one_line(monkeypatch):
+    def nothing():
+        raise RuntimeError("OpenGL 3.3: not available, expected a graphics driver")
+
+    monkeypatch.setattr(gpu, "standalone", nothing)
+    with pytest.raises(
+        InputError, match=r"^OpenGL 3\.3: not available, expected a graphics driver$"
+    ):
+        open_context()
