@@ -7,7 +7,7 @@ from pathlib import Path
 
 from experiment.columns import TABLES
 from experiment.errors import InputError
-from experiment.export import Dataset
+from experiment.export.dataset import Dataset
 from experiment.private import FILE, make_folder
 
 TYPES = {"text": "VARCHAR", "integer": "BIGINT", "number": "DOUBLE", "boolean": "BOOLEAN"}

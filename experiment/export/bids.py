@@ -12,8 +12,8 @@ from typing import Any
 
 from experiment.columns import TRIALS, Column
 from experiment.errors import InputError
-from experiment.export import Dataset, Row, as_json, put
-from experiment.export_wide import item_name
+from experiment.export.dataset import Dataset, Row, as_json, put
+from experiment.export.wide import item_name
 
 VERSION = "1.10.0"
 TASK = "seethrough"

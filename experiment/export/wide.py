@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from experiment.columns import QUESTIONNAIRE, TRIALS
-from experiment.export import Dataset, Row, as_csv, as_json, latest_attempts, put
+from experiment.export.dataset import Dataset, Row, as_csv, as_json, latest_attempts, put
 
 MEASURES = ("time", "time_clean", "timed_out", "correct", "count_error", "distance")
 NUMBERS = {"true": "1", "false": "0"}

@@ -1,4 +1,4 @@
-"""A study's data in another form: read checked from the data folder, written into a new one.
+"""What every format of export reads and writes: a study's tables, checked; new private files.
 
 The data folder is only read. Sources (human, simulated, pilot) are never mixed.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -139,24 +139,3 @@ def fits(text: str, kind: str) -> bool:
         return (kind == "integer" and str(int(text)) == text) or math.isfinite(float(text))
     except ValueError:
         return False
-
-
-def psychds(data: Dataset, out: Path) -> None:
-    """A copy whose file names are strictly key-value pairs (decisions/0004)."""
-    put(out / FILE, (data.folder / FILE).read_text(encoding="utf-8"))
-    for table, paths in data.files.items():
-        for path in paths:
-            for old in (path, path.with_suffix(".json")):
-                if old.exists():
-                    name = old.name.replace(f"_{table}_data.", f"_table-{table}_data.")
-                    put(out / old.relative_to(data.folder).with_name(name),
-                        old.read_bytes().decode("utf-8"))  # fmt: skip
-
-
-def formats() -> dict[str, Callable[[Dataset, Path], None]]:
-    """What `--format` may be."""
-    from experiment.export_bids import bids
-    from experiment.export_parquet import parquet
-    from experiment.export_wide import wide
-
-    return {"wide": wide, "parquet": parquet, "bids": bids, "psychds": psychds}
