@@ -10,10 +10,18 @@ from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    field_validator,
+)
 
 from experiment.design import Factors
 from experiment.errors import InputError
+from experiment.folders import PARTICIPANT
 from experiment.parameter_tables import from_table
 from renderer.techniques.dynamic import DynamicTransparency
 from tasks.parameters import AbstractParameters, BuildingParameters
@@ -28,6 +36,17 @@ TASK_SCENARIO: Mapping[str, str] = {
 
 
 QuestionnaireBlock = Literal["ratings", "comparison", "tlx", "sus", "depth_test", "remarks"]
+
+# What `analysis` knows by these names; a contract test holds both to each other.
+AnalysisTest = Literal["time", "accuracy", "ratings", "tradeoff", "validity", "mixed"]
+EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed")
+
+
+def _exclusion(value: str) -> str:
+    kind, _, name = value.partition(":")
+    if value not in EXCLUSIONS and not (kind == "participant" and PARTICIPANT.fullmatch(name)):
+        raise ValueError(f"one of {', '.join(EXCLUSIONS)} or participant:ID")
+    return value
 
 
 def _as_tuple(value: Any) -> Any:
@@ -131,10 +150,11 @@ class AnalysisTable(_Table):
     """[analysis]: what is decided before anybody is invited; the report lists deviations."""
 
     alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
-    tests: tuple[str, ...] = ()
-    exclude: tuple[str, ...] = ()
+    tests: tuple[AnalysisTest, ...] = ()
+    exclude: tuple[Annotated[str, AfterValidator(_exclusion)], ...] = ()
 
     _arrays = field_validator("tests", "exclude", mode="before")(_as_tuple)
+    _unique = field_validator("tests", "exclude")(_once)
 
 
 class Study(_Table):

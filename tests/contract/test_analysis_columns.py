@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
+from analysis import exclude, plan
 from analysis.load import schema
 from analysis.load.chain import link, start_of
-from experiment import chain
+from experiment import chain, config
 from experiment.columns import TABLES
 
 
@@ -34,6 +36,12 @@ def test_the_chain_is_the_same_chain(tmp_path: Path) -> None:
     again = json.loads(json.dumps(sidecar))
     assert start_of(again, "row_id,chain") == chain.start_of(sidecar, "row_id,chain")
     assert link("before", "row, text ü") == chain.link("before", "row, text ü")
+
+
+def test_a_study_may_plan_what_the_analysis_knows() -> None:
+    """The names of [analysis] are checked when a study is read, long before there are data."""
+    assert set(get_args(config.AnalysisTest)) == set(plan.TESTS)
+    assert set(config.EXCLUSIONS) == set(exclude.RULES)
 
 
 def test_the_published_numbers_are_the_same_beside_the_data_and_in_the_package(root: Path) -> None:

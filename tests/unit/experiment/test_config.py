@@ -53,6 +53,10 @@ WRONG = [
     ("display", "samples", 3, r"display\.samples = 3: expected 'auto', 0, 2, 4 or 8"),
     ("session", "trial_limit", -3, r"session\.trial_limit = -3: expected greater than"),
     ("analysis", "alpha", 1.5, r"analysis\.alpha = 1\.5: expected less than 1"),
+    ("analysis", "tests", ["time", "x"], r"analysis\.tests\[1\] = \"x\": expected 'time', 'acc"),
+    ("analysis", "tests", ["time", "time"], r"analysis\.tests = .*: expected each name once"),
+    ("analysis", "exclude", ["x"], r"analysis\.exclude\[0\] = \"x\": expected one of timed_out, "),
+    ("analysis", "exclude", ["participant:.."], r"analysis\.exclude\[0\] = .* or participant:ID"),
     ("techniques", "x", 1, r"techniques = \{\"x\": 1\}: unknown key"),
     ("texts", "welcome", 3, r"texts\.welcome = 3: expected a valid string"),
 ]
