@@ -12,7 +12,7 @@ from analysis.cells import Array, Cells
 from analysis.page.blocks import Cited, Column, Table
 from analysis.stats.anova import repeated_measures
 from analysis.stats.distributions import holm
-from analysis.stats.paired import paired, ratio_of_means, tost
+from analysis.stats.paired import paired, ratio_of_means, tost, within_halfwidths
 from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
 
 NO_PAIR = "there is only one transparency level"
@@ -45,7 +45,8 @@ def measure(
     return Measure(key, label, unit, digits, pair[0], pair[1], family)
 
 
-def _sd(x: Array) -> Number:
+def sd_of(x: Array) -> Number:
+    """Standard deviation over participants."""
     return float(np.std(x, ddof=1)) if len(x) > 1 else Undefined(ONE_PARTICIPANT)
 
 
@@ -102,10 +103,12 @@ def compare(measures: Sequence[Measure], margin: float) -> Table:
             "digits": m.digits,
             "n": len(m.standard),
             "mean_standard": float(m.standard.mean()),
-            "sd_standard": _sd(m.standard),
+            "sd_standard": sd_of(m.standard),
             "mean_dynamic": float(m.dynamic.mean()),
-            "sd_dynamic": _sd(m.dynamic),
+            "sd_dynamic": sd_of(m.dynamic),
             "r": _correlation(m.standard, m.dynamic),
+            # of two conditions both have the same one
+            "within_half": within_halfwidths(np.stack([m.standard, m.dynamic], axis=1))[0],
             **_f_columns(m.standard, m.dynamic),
             **_paired_columns(m.standard, m.dynamic),
             "ratio": ratio,
@@ -230,6 +233,7 @@ COLUMNS = (
     Column("mean_dynamic", "M dynamic", "own"),
     Column("sd_dynamic", "s.d.", "own"),
     Column("r", "r", "bound2", "between the two conditions"),
+    Column("within_half", "± within", "sig3", "95 % within-participant interval"),
     *_TEST,
     *_DIFFERENCE,
     *_RATIO,

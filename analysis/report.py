@@ -41,29 +41,19 @@ class Options:
     seed: int = 1
 
 
-Draw = Callable[[Figure], None]
-
-
-def _no_drawing(figure: Figure) -> None:
-    """For callers who want the numbers alone."""
-
-
-def make_report(data: Path, options: Options, draw: Draw = _no_drawing) -> Report:
-    """Load, analyse, and put into words; nothing is written. Raises DataError.
-
-    `draw` is given each figure as soon as it is known, to draw while the rest is calculated.
-    """
+def make_report(data: Path, options: Options) -> Report:
+    """Load, analyse, and put into words; nothing is written. Raises DataError."""
     study = load_study(data, options.source)
     plan = make_plan(study, options.alpha, options.exclude)
     trials, excluded = apply_rules(study.trials, plan.exclude)
     context = Context(study, plan, trials, excluded, options.seed)
-    sections = _sections(context, draw)
+    sections = _sections(context)
     banner = {"simulated": SIMULATED, "pilot": PILOT}.get(study.source, "")
     subtitle = f"Source: {study.source}. {study.description}"
     return Report(f"Study “{study.name}”: report", subtitle, banner, tuple(sections))
 
 
-def _sections(context: Context, draw: Draw) -> list[Section]:
+def _sections(context: Context) -> list[Section]:
     """All sections in reading order; `participants` comes late to know who is missing where."""
     time, logs = time_section(context)
     accuracy, tests = accuracy_section(context)
@@ -77,9 +67,7 @@ def _sections(context: Context, draw: Draw) -> list[Section]:
         "tradeoff": tradeoff_section(context),
         "validity": validity_section(context),
     }
-    for figure in figures_of([optional[n] for n in optional if n in context.plan.tests]):
-        draw(figure)
-    if "mixed" in context.plan.tests:  # the slowest, while the figures are drawn
+    if "mixed" in context.plan.tests:
         optional["mixed"] = sensitivity_section(context, logs)
     chosen = [optional[name] for name in TESTS if name in context.plan.tests]
     return [
@@ -113,26 +101,24 @@ def check_out(out: Path) -> None:
         raise DataError(f"--out = {out}: not empty and no earlier report: expected a new folder")
 
 
-def write(out: Path, make: Callable[[Draw], Report], formats: Sequence[str]) -> Path:
+def write(out: Path, make: Callable[[], Report], formats: Sequence[str]) -> Path:
     """Make the report and write it into `out`; returns the page's path.
 
     report.html, report.md, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if asked for.
     """
-    from analysis.page.drawing import Drawing
+    from analysis.page.charts import library, write_files  # V8 starts only where charts are drawn
 
     check_out(out)
     browser = find_browser() if "pdf" in formats else ""
-    with Drawing(out / "figures") as drawing:
-        report = make(drawing.add)
-        for figure in figures_of(report.sections):
-            drawing.add(figure)
-        (out / "tables").mkdir(parents=True, exist_ok=True)
-        for table in _tables(report):
-            (out / "tables" / f"{table.key}.csv").write_text(as_csv(table), encoding="utf-8")
-        (out / "report.md").write_text(as_markdown(report), encoding="utf-8")
-        pictures = drawing.pictures()
+    report = make()
+    pictures = {f.key: write_files(f, out / "figures") for f in figures_of(report.sections)}
+    (out / "tables").mkdir(parents=True, exist_ok=True)
+    for table in _tables(report):
+        (out / "tables" / f"{table.key}.csv").write_text(as_csv(table), encoding="utf-8")
+    (out / "report.md").write_text(as_markdown(report), encoding="utf-8")
     page = out / "report.html"
-    page.write_text(as_html(report, pictures, version("seethrough")), encoding="utf-8")
+    text = as_html(report, pictures, version("seethrough"), library())
+    page.write_text(text, encoding="utf-8")
     if browser:
         print_pdf(browser, page, out / "report.pdf")
     return page

@@ -1,11 +1,14 @@
-"""What the figures share."""
+"""What the figures share: colours, and the pieces of a Vega-Lite specification."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+Spec = dict[str, Any]
 
 INK = "#1f2328"
 RULE = "#d0d7de"
@@ -13,9 +16,15 @@ FAINT = "#8c959f"
 STANDARD = "#c2570c"
 DYNAMIC = "#0b69b7"
 LEVELS = ("standard", "dynamic")
-COLOURS = {"standard": STANDARD, "dynamic": DYNAMIC}
-SIDES = (-0.2, 0.2)
 MOST_DOTS = 200
+
+LEVEL_COLOUR: Spec = {
+    "field": "level",
+    "type": "nominal",
+    "title": None,
+    "scale": {"domain": list(LEVELS), "range": [STANDARD, DYNAMIC]},
+    "legend": {"orient": "top"},
+}
 
 
 def picked(n: int) -> NDArray[np.intp]:
@@ -23,7 +32,42 @@ def picked(n: int) -> NDArray[np.intp]:
     return np.unique(np.linspace(0, n - 1, min(n, MOST_DOTS)).round().astype(np.intp))
 
 
-def legend(axes: Any, **place: Any) -> None:
-    """Colours of the two levels."""
-    handles = [axes.bar(0, 0, color=COLOURS[level]) for level in LEVELS]
-    axes.legend(handles, LEVELS, **place)
+def number(field: str, title: str | None = None, **more: Any) -> Spec:
+    """A quantitative channel."""
+    return {"field": field, "type": "quantitative", "title": title, **more}
+
+
+def layer(mark: str, rows: Sequence[Spec], encoding: Spec, **options: Any) -> Spec:
+    """A layer with data of its own; where rows have a `tip`, marks say it."""
+    tipped = any("tip" in row for row in rows)
+    said = {"field": "tip", "type": "nominal"}
+    return {
+        "data": {"values": list(rows)},
+        # marks that say nothing are drawn for the eye alone
+        "mark": {"type": mark, "aria": tipped, **options},
+        "encoding": {**encoding, **({"tooltip": said, "description": said} if tipped else {})},
+    }
+
+
+def zero_line(channel: str, title: str | None = None) -> Spec:
+    """A line at 0 across the plot; `channel` is x or y."""
+    return layer("rule", [{"zero": 0}], {channel: number("zero", title)}, color=FAINT)
+
+
+def categories(labels: Sequence[str], channel: str = "x") -> Spec:
+    """A quantitative axis with a label at each whole number, so that marks can stand beside it.
+
+    A blank in a label of the x axis breaks the line.
+    """
+    named = [label.split(" ") if channel == "x" else label for label in labels]
+    return {
+        "type": "quantitative",
+        "title": None,
+        "scale": {"domain": [-0.5, len(labels) - 0.5], "nice": False, "reverse": channel == "y"},
+        "axis": {
+            "values": list(range(len(labels))),
+            "labelExpr": f"{named!r}[datum.value]",
+            "labelAngle": 0,
+            "grid": False,
+        },
+    }

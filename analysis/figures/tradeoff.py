@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.figures.style import COLOURS, FAINT, LEVELS, picked
+from analysis.figures.style import FAINT, LEVEL_COLOUR, LEVELS, Spec, layer, number, picked
 from analysis.load.schema import TASK_CODES
-from analysis.page.blocks import Figure, Tips
+from analysis.page.blocks import Figure
 from analysis.page.numbers import significant
 from analysis.tradeoff import Change
+
+SIDE = 150
+"""Width and height of a panel in pixels."""
 
 
 def arrows(key: str, changes: Sequence[Change]) -> Figure:
@@ -25,65 +26,58 @@ def arrows(key: str, changes: Sequence[Change]) -> Figure:
         for c in changes
     )
     alt = f"Time against error, an arrow per participant from standard to dynamic. {told}."
-    size = (2.4 * len(changes) + 0.4, 2.9)
-    draw = partial(_arrows, changes=tuple(changes))
-    return Figure(key, "Time against error, from standard to dynamic", alt, draw, size)
+    spec = {"hconcat": [_panel(c) for c in changes]}
+    return Figure(key, "Time against error, from standard to dynamic", alt, spec)
 
 
-def _arrows(canvas: Any, tips: Tips, changes: tuple[Change, ...]) -> None:
-    panels = canvas.subplots(1, len(changes), squeeze=False)[0]
-    for axes, c in zip(panels, changes, strict=True):
-        _panel(axes, tips, c)
-    marks = [panels[-1].plot([], [], "o", color=COLOURS[level])[0] for level in LEVELS]
-    canvas.legend(marks, LEVELS, loc="outside upper right", ncols=2)
-
-
-def _panel(axes: Any, tips: Tips, c: Change) -> None:
+def _panel(c: Change) -> Spec:
     shown = picked(len(c.time))
-    # logarithms on a plain axis: arrows on a logarithmic one would miss their heads
-    time, error = np.log10(c.time[shown]), c.error[shown]
-    axes.quiver(
-        time[:, 0],
-        error[:, 0],
-        time[:, 1] - time[:, 0],
-        error[:, 1] - error[:, 0],
-        angles="xy",
-        scale_units="xy",
-        scale=1,
-        color=FAINT,
-        width=0.005,
-        headwidth=5.5,
-        headlength=6,
-        zorder=3,  # the heads lie on the dots they point at
-    )
-    for side, level in enumerate(LEVELS):
-        (dots,) = axes.plot(time[:, side], error[:, side], "o", color=COLOURS[level], markersize=4)
-        tips.mark_each(
-            dots,
-            [
-                f"{c.participants[i]}, {level}: {significant(c.time[i, side])} s, "
-                f"{c.error_label} {significant(c.error[i, side])}"
-                for i in shown
-            ],
-        )
-    axes.set_xlim(*_roomy(time))
-    axes.set_ylim(*_roomy(error))
-    _time_ticks(axes)
-    axes.set_title(f"{TASK_CODES[c.task]} {c.task.replace('_', ' ')}")
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel(c.error_label)
+    time, error = c.time[shown], c.error[shown]
+    xs, ys = _roomy(np.log10(time)), _roomy(error)
+    # an arrow head turns with its arrow as drawn, in pixels
+    right = np.diff(np.log10(time)).ravel() / (xs[1] - xs[0])
+    up = np.diff(error).ravel() / (ys[1] - ys[0])
+    angles = np.degrees(np.arctan2(-up, right))
+    starts, heads, lines = [], [], []
+    for i, t, e, angle in zip(shown, time.tolist(), error.tolist(), angles.tolist(), strict=True):
+        tips = [
+            f"{c.participants[i]}, {level}: {significant(t[side])} s, "
+            f"{c.error_label} {significant(e[side])}"
+            for side, level in enumerate(LEVELS)
+        ]
+        starts.append({"x": t[0], "y": e[0], "level": LEVELS[0], "tip": tips[0]})
+        heads.append({"x": t[1], "y": e[1], "level": LEVELS[1], "angle": angle, "tip": tips[1]})
+        lines.append({"x": t[0], "y": e[0], "x2": t[1], "y2": e[1]})
+    domain = [10.0 ** xs[0], 10.0 ** xs[1]]
+    scale = {"type": "log", "domain": domain, "nice": False}
+    place = {
+        "x": number("x", "time (s)", scale=scale, axis={"values": _ticks(*xs), "format": "~g"}),
+        "y": number("y", c.error_label, scale={"domain": list(ys), "nice": False}),
+    }
+    turned = {"angle": {"field": "angle", "type": "quantitative", "scale": None}}
+    colour = {"color": LEVEL_COLOUR}
+    return {
+        "title": f"{TASK_CODES[c.task]} {c.task.replace('_', ' ')}",
+        "width": SIDE,
+        "height": SIDE,
+        "layer": [
+            layer("rule", lines, {**place, "x2": {"field": "x2"}, "y2": {"field": "y2"}},
+                  color=FAINT),
+            layer("point", starts, {**place, **colour}, filled=True, size=24, opacity=1),
+            layer("point", heads, {**place, **colour, **turned}, filled=True, size=60,
+                  shape="triangle-right", opacity=1),
+        ],
+    }  # fmt: skip
 
 
 def _roomy(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Limits with a margin; quiver itself takes no part in automatic limits."""
+    """Limits with a margin."""
     low, high = float(values.min()), float(values.max())
     pad = 0.06 * (high - low) or 0.05
     return low - pad, high + pad
 
 
-def _time_ticks(axes: Any) -> None:
-    """Plain seconds on an axis of log₁₀ seconds."""
-    low, high = axes.get_xlim()
+def _ticks(low: float, high: float) -> list[float]:
+    """Plain seconds within limits given as log₁₀ seconds; a log axis has more."""
     nice = [a * 10.0**b for b in range(-2, 5) for a in (1, 2, 5)]
-    ticks = [t for t in nice if low <= np.log10(t) <= high]
-    axes.set_xticks(np.log10(ticks), [f"{t:g}" for t in ticks])
+    return [t for t in nice if low <= np.log10(t) <= high]

@@ -2,45 +2,47 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import Any
-
 import pandas as pd
 
-from analysis.figures.style import COLOURS, LEVELS
-from analysis.page.blocks import Figure, Tips
+from analysis.figures.style import LEVEL_COLOUR, LEVELS, layer, number
+from analysis.page.blocks import Figure
 from analysis.page.numbers import significant
 
 
 def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
     """Geometric mean time by position, a line per transparency level."""
-    parts = dict(list(curve.groupby(curve["transparency"].astype("str"))))
-    lines = {
-        level: list(
-            zip(parts[level]["trial_in_set"].astype(int), parts[level]["time"], strict=True)
+    rows = [
+        {
+            "level": level,
+            "trial": int(trial),
+            "time": float(time),
+            "tip": f"{level}, trial {int(trial)}: geometric mean {significant(float(time))} s",
+        }
+        for level, trial, time in zip(
+            curve["transparency"].astype("str"), curve["trial_in_set"], curve["time"], strict=True
         )
-        for level in LEVELS
-        if level in parts
-    }
+    ]
     told = "; ".join(
-        f"{level}: " + ", ".join(f"trial {k} {significant(float(t))} s" for k, t in points[:12])
-        for level, points in lines.items()
+        f"{level}: "
+        + ", ".join(f"trial {r['trial']} {significant(float(str(r['time'])))} s" for r in own[:12])
+        for level in LEVELS
+        if (own := [r for r in rows if r["level"] == level])
     )
     alt = f"Lines of geometric mean time by position in the task set. {told}."
-    title = "Time by position in the task set"
-    return Figure(key, title, alt, partial(_learning, lines=lines), (5.2, 2.8))
-
-
-def _learning(canvas: Any, tips: Tips, lines: dict[str, list[tuple[int, float]]]) -> None:
-    axes = canvas.subplots()
-    for level, points in lines.items():
-        places, times = zip(*points, strict=True)
-        (line,) = axes.plot(places, times, "o-", color=COLOURS[level], markersize=5, label=level)
-        tips.mark_each(
-            line, [f"{level}, trial {k}: geometric mean {significant(t)} s" for k, t in points]
-        )
-        axes.set_xticks(places)
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel("trial in its task set")
-    axes.set_ylabel("geometric mean time (s)")
-    axes.legend()
+    places = sorted({r["trial"] for r in rows})
+    encoding = {
+        "x": number("trial", "trial in its task set", axis={"values": places, "format": "d"},
+                    scale={"domain": [places[0] - 0.2, places[-1] + 0.2], "nice": False}),
+        "y": number("time", "geometric mean time (s)", scale={"zero": True}),
+        "color": LEVEL_COLOUR,
+    }  # fmt: skip
+    lines = [{k: v for k, v in r.items() if k != "tip"} for r in rows]
+    spec = {
+        "width": 320,
+        "height": 170,
+        "layer": [
+            layer("line", lines, encoding, strokeWidth=1.5),
+            layer("point", rows, encoding, filled=True, size=50, opacity=1),
+        ],
+    }
+    return Figure(key, "Time by position in the task set", alt, spec)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -110,35 +110,14 @@ def say(template: str, *values: str | Cited | Sequence[str | Cited], kind: str =
     return Prose(tuple(r for r in runs if r != ""), kind)
 
 
-@dataclass(slots=True)
-class Tips:
-    """Collects what a mark says when pointed at: `mark` an artist while drawing."""
-
-    texts: dict[str, str] = field(default_factory=dict)
-    lists: dict[str, list[str]] = field(default_factory=dict)
-
-    def mark(self, artist: Any, text: str) -> None:
-        """Let `artist` (matplotlib) say `text`."""
-        name = f"tip{len(self.texts)}"
-        artist.set_gid(name)
-        self.texts[name] = text
-
-    def mark_each(self, artist: Any, texts: list[str]) -> None:
-        """Let each marker of a line of markers say its own text."""
-        name = f"tips{len(self.lists)}"
-        artist.set_gid(name)
-        self.lists[name] = texts
-
-
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A picture: `draw` fills a matplotlib figure of `size` inches; `alt` tells what it shows."""
+    """A chart: `spec` is Vega-Lite without the page's theme; `alt` tells what it shows."""
 
     key: str
     title: str
     alt: str
-    draw: Callable[[Any, Tips], None] = field(repr=False)
-    size: tuple[float, float] = (7.2, 3.4)
+    spec: Mapping[str, Any] = field(repr=False)
 
 
 @dataclass(frozen=True, slots=True)

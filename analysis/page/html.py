@@ -61,13 +61,14 @@ def _run(run: str | Cited) -> Markup:
     return _CITED.format(cell(run.value), run.file, run.row, run.column, text)
 
 
-def as_html(report: Report, pictures: Mapping[str, str], version: str) -> str:
-    """The page. `pictures` maps a figure's key to its inline SVG; `version` ours."""
+def as_html(report: Report, pictures: Mapping[str, str], version: str, library: str = "") -> str:
+    """The page. `pictures` maps a figure's key to its chart; `version` ours; `library` Vega."""
     page = _environment().get_template("report.html.j2")
     return page.render(
         report=report,
         pictures={key: Markup(svg) for key, svg in pictures.items()},
         version=version,
         css=Markup(_template("report.css")),
+        library=Markup(library),
         script=Markup(_template("report.js")),
     )

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from analysis.cells import Cells
-from analysis.comparison import Measure
+from analysis.comparison import Measure, sd_of
 from analysis.page.blocks import Column, Prose, Table, say
 from analysis.sections.context import Context
 from analysis.stats.ranks import friedman, post_hoc
@@ -20,7 +20,9 @@ FRIEDMAN = (
     Column("n", "n", "int"),
     Column("k", "k", "int"),
     Column("mean_standard", "M standard", "fixed3"),
+    Column("sd_standard", "s.d.", "fixed3"),
     Column("mean_dynamic", "M dynamic", "fixed3"),
+    Column("sd_dynamic", "s.d.", "fixed3"),
     Column("chi2", "χ²", "fixed2"),
     Column("df", "df", "int"),
     Column("p", "p (χ²)", "p"),
@@ -41,7 +43,9 @@ def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, object
         "n": result.n,
         "k": result.k,
         "mean_standard": float(m.standard.mean()),
+        "sd_standard": sd_of(m.standard),
         "mean_dynamic": float(m.dynamic.mean()),
+        "sd_dynamic": sd_of(m.dynamic),
         "chi2": result.chi2,
         "df": result.df,
         "p": result.p,
@@ -104,7 +108,7 @@ def four_conditions(context: Context, cells: Cells, purpose: int) -> list[Table]
         return []
     y = np.stack([cells.at(transparency=c, scenario=s) for c, s in levels], axis=1)
     result = friedman(y, context.rng(purpose))
-    columns = tuple(c for c in FRIEDMAN if not c.name.startswith("mean_"))
+    columns = tuple(c for c in FRIEDMAN if not c.name.startswith(("mean_", "sd_")))
     row = {
         "measure": "rating_conditions",
         "label": "transparency × scenario",

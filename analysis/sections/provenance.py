@@ -11,7 +11,7 @@ from analysis.page.blocks import Block, Column, Fold, Section, Table, say
 from analysis.plan import Plan, config_of, digest
 from analysis.sections.context import Context
 
-PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "matplotlib", "Jinja2")
+PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "vl-convert-python", "Jinja2")
 PAIRS = (Column("what", "what"), Column("value", "value"))
 
 

@@ -60,7 +60,7 @@ def _ratings(context: Context, cells: Cells) -> list[Block]:
         return []
     tests = friedman_table("friedman_ratings", "Ratings (0–4): Friedman tests", rows)
     sentence = friedman_sentence(tests, "rating_overall", "Overall rating (0–4)")
-    figure = ratings_figure("ratings", each, cells.factors["scenario"])
+    figure = ratings_figure("ratings", each, cells.factors["scenario"], tests)
     return [sentence, figure, tests, *four_conditions(context, cells, 50)]
 
 

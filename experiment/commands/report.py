@@ -46,11 +46,7 @@ def run(args: argparse.Namespace) -> int:
     try:
         if args.published == (args.data is not None):
             raise DataError("report: expected either DATA or --published")
-        make = (
-            (lambda _: make_published())
-            if args.published
-            else (lambda draw: make_report(args.data, options, draw))
-        )
+        make = make_published if args.published else lambda: make_report(args.data, options)
         page = write(args.out, make, args.format)
     except DataError as error:
         for line in error.shown():

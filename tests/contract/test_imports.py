@@ -62,7 +62,8 @@ OWNERS = {
     "imgui_bundle": ("experiment/",),
     "pandas": ("analysis/", "experiment/", "benchmarks/"),
     "statsmodels": ("analysis/", "experiment/", "benchmarks/"),
-    "matplotlib": ("analysis/", "experiment/", "benchmarks/"),
+    "matplotlib": ("experiment/", "benchmarks/"),
+    "vl_convert": ("analysis/page/charts.py",),
     "PIL": ("experiment/", "analysis/", "benchmarks/"),
     "renderer.gpu": ("renderer/gpu/", "experiment/", "benchmarks/"),
 }
