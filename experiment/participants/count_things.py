@@ -70,10 +70,13 @@ def count_things(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, N
     while walker.hands.time - began < MOST_SECONDS:
         found = walker.look()
         new = tally.add(walker, found)
-        walker.hands.wait(p.count * new + p.recheck * (len(found.index) - new))
+        if len(found.index):
+            walker.settle()
+            walker.hands.wait(p.count * new + p.recheck * (len(found.index) - new))
         count += new + slips(new, mood)
         if walker.known.left < p.diligence / mood.care:
             break
         goal = yield from _go_on(walker, goal)
+    walker.settle()
     walker.hands.type(str(max(count, 0)))
     yield walker.hands.take()

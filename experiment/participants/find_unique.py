@@ -27,6 +27,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
     while walker.hands.time - began < MOST_SECONDS:
         found = walker.look()
         if len(found.index):
+            walker.settle()
             index = int(found.index[0])
             believed = walker.place(index, found.seen)
             way = believed - walker.error - walker.eye
@@ -37,6 +38,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
         if walker.known.left < AGAIN:
             walker.known.doubt()
         goal = yield from _go_on(walker, goal)
+    walker.settle()
     walker.hands.wait(mood.profile.prepare)
     walker.hands.key("space")
     glance = yield walker.hands.take()
@@ -46,6 +48,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
 def _go_on(walker: Walker, goal):  # type: ignore[no-untyped-def]
     """One step of the search: on to a goal, or whatever is worth most now; the goal, if any."""
     if goal is None or hypot(*(goal - walker.eye)) < THERE:
+        walker.settle()
         turn, goal = walker.choose()
         if goal is None:
             yield from walker.turn(turn)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import cache
 from math import hypot, log2
 
 from experiment.participants.person import Mood
@@ -69,9 +71,17 @@ class Hands:
         self._events.append(PointerRelease(self.time, x, y))
 
     def turn(self, yaw: float, pitch: float = 0.0, drag: bool = False) -> None:
-        """Turn by these angles with the mouse: bits of the turn over bits per second.
+        """Turn by these angles with the mouse; see `turning`."""
+        for _ in self.turning(yaw, pitch, drag):
+            pass
 
-        `drag` holds the world (orbit); without, the pointer turns the walker.
+    def turning(
+        self, yaw: float, pitch: float = 0.0, drag: bool = False, parts: int = 1
+    ) -> Iterator[bool]:
+        """A turn that takes its bits over bits per second; True once it has ended.
+
+        Comes back after each of so many equal parts of the way, for a look in passing. `drag`
+        holds the world (orbit); without, the pointer turns the walker.
         """
         p = self.mood.profile
         angle = hypot(yaw, pitch)
@@ -85,24 +95,36 @@ class Hands:
         x, y = GRIP
         if drag:
             self._events.append(PointerPress(self.time, x, y))
-        done = 0.0
-        for step in range(1, MOVES + 1):
-            share = _minimum_jerk(step / MOVES)
-            part, done = share - done, share
-            x, y = x + dx * part, y + dy * part
-            at = self.time + seconds * step / MOVES
-            self._events.append(PointerMove(at, x, y, dx * part, dy * part, drag))
-        self.time += seconds
+        began, moves = self.time, -(-MOVES // parts) * parts
+        for move in range(1, moves + 1):
+            x, y = x + dx / moves, y + dy / moves
+            self.time = began + seconds * _reach_time(move / moves)
+            self._events.append(PointerMove(self.time, x, y, dx / moves, dy / moves, drag))
+            if move < moves and move % (moves // parts) == 0:
+                yield False
         if drag:
             self._events.append(PointerRelease(self.time, x, y))
+        yield True
 
-    def walk(self, distance: float) -> None:
-        """Walk straight on: hold the key for as long as it should take."""
-        self._events.append(KeyPress(self.time, "up"))
-        self.time += distance / self.speed
+    def walking(self, distance: float, parts: int = 1) -> Iterator[bool]:
+        """Walk straight on, a key held for as long as it should take; see `turning`."""
+        began, seconds = self.time, distance / self.speed
+        self._events.append(KeyPress(began, "up"))
+        for part in range(1, parts):
+            self.time = began + seconds * part / parts
+            yield False
+        self.time = began + seconds
         self._events.append(KeyRelease(self.time, "up"))
+        yield True
 
 
-def _minimum_jerk(s: float) -> float:
-    """Share of a reach done at share s of its time (Flash & Hogan 1985)."""
-    return s**3 * (10 - 15 * s + 6 * s * s)
+@cache
+def _reach_time(share: float) -> float:
+    """Share of its time after which a reach has got that far (minimum jerk, Flash & Hogan 1985)."""
+    if share > 0.5:
+        return 1.0 - _reach_time(1.0 - share)  # its end is its beginning turned round
+    low, high = 0.0, 1.0
+    for _ in range(53):  # halves until no double lies between
+        s = (low + high) / 2
+        low, high = (s, high) if s**3 * (10 - 15 * s + 6 * s * s) < share else (low, s)
+    return high

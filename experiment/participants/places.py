@@ -17,6 +17,10 @@ from renderer.transforms import moved
 
 CELL = 5.0
 DIRECTIONS = 8  # headings one looks and walks in: every 45°
+# From one cell to the next in each heading: cells in (x, z), and the parts a step is walked in. One
+# looks after each part: at the usual speed twice a second or more, across corners as well.
+AHEAD = ((0, -1), (-1, -1), (-1, 0), (-1, 1), (0, 1), (1, 1), (1, 0), (1, -1))
+STRIDES = (2, 3) * 4
 HALF_VIEW = np.arctan(np.tan(np.pi / 6) * 4 / 3)  # half of the horizontal field of view
 
 

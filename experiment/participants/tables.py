@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import asin, atan2, pi
+from math import asin, atan2, floor, inf, pi
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from experiment.participants.count_red import TILT
 from experiment.participants.name_letter import FROM_ABOVE
-from experiment.participants.places import CELL, DIRECTIONS
+from experiment.participants.places import AHEAD, CELL, DIRECTIONS, STRIDES
 from renderer.camera import Camera
 from renderer.scene import Scene
 from renderer.visibility import Visibility
@@ -55,17 +55,34 @@ def views_of(task: str, camera: Camera) -> list[Camera]:
 
 
 def walk_key(camera: Camera) -> Key:
-    """The nearest lattice viewpoint of a walk: cell in x, cell in z, heading."""
+    """The nearest lattice viewpoint of a walk: cell in x, cell in z, heading.
+
+    Headings from 8 on are passed on the way to the next cell: 8 and more after the first of the
+    equal parts that a step in that heading is walked in (`STRIDES`), 16 and more after the second.
+    """
     r, eye = camera.rotation, camera.eye
     yaw = atan2(-r[2, 0], r[0, 0])
-    cells = (int(np.floor(eye[0] / CELL)), int(np.floor(eye[2] / CELL)))
-    return (*cells, round(yaw / (2 * pi / DIRECTIONS)) % DIRECTIONS)
+    heading = round(yaw / (2 * pi / DIRECTIONS)) % DIRECTIONS
+    across, along = AHEAD[heading]
+    x, z = eye[0] / CELL, eye[2] / CELL
+    key, nearest = (0, 0, 0), inf
+    for part in range(STRIDES[heading]):
+        share = part / STRIDES[heading]
+        i, j = floor(x - share * across), floor(z - share * along)
+        way = abs(i + 0.5 + share * across - x) + abs(j + 0.5 + share * along - z)
+        if way < nearest:
+            key, nearest = (i, j, heading + part * DIRECTIONS), way
+    return key
 
 
 def walk_camera(camera: Camera, key: Key) -> Camera:
     """The lattice's camera at `key`, at the height and with the lens of `camera`."""
-    eye = np.array([(key[0] + 0.5) * CELL, camera.eye[1], (key[1] + 0.5) * CELL])
-    rotation = turned(key[2] * 2 * pi / DIRECTIONS)
+    part, heading = divmod(key[2], DIRECTIONS)
+    across, along = AHEAD[heading]
+    share = part / STRIDES[heading]
+    x, z = key[0] + 0.5 + share * across, key[1] + 0.5 + share * along
+    eye = np.array([x * CELL, camera.eye[1], z * CELL])
+    rotation = turned(heading * 2 * pi / DIRECTIONS)
     return Camera(eye, rotation, camera.fov_y, camera.near, camera.far)
 
 

@@ -25,6 +25,7 @@ from experiment.participants.places import (
     CELL,
     DIRECTIONS,
     HALF_VIEW,
+    STRIDES,
     Known,
     apart,
     bearing,
@@ -69,7 +70,9 @@ class Walker:
         self.asked = _asked(glance)
         self.error = np.zeros(2)  # where one believes to be, less where one is
         self.recognised: set[int] = set()  # what has been made out, and is known again
+        self.passed: set[int] = set()  # things of the asked kind made out in passing
         self.through: list[float] = []  # clearness of things seen through walls
+        self._busy = glance.now  # until then one thinks about what was seen last
 
     @property
     def glance(self) -> Glance:
@@ -98,24 +101,49 @@ class Walker:
         return heading(self.glance.view)[0]
 
     def look(self) -> Found:
-        """Look, and remember what has been seen; takes the time of the search."""
-        mood, p = self.mood, self.mood.profile
+        """Look, and remember what has been seen; found is also what was made out in passing."""
+        self.settle()
         seen = self.glance.look()
+        things, asked = self._make_out(seen, noticed(seen, self.mood))
+        self._see_through(seen, things)
+        self._inspect()
+        self._think(self.mood.profile.count, len(things))
+        asked = np.union1d(asked, np.array(sorted(self.passed), dtype=np.int64))
+        self.passed.clear()
+        return Found(asked, seen)
+
+    def pass_by(self) -> None:
+        """Look while on the move: at nothing that is known already."""
+        seen = self.glance.look()
+        index = noticed(seen, self.mood)
+        things, asked = self._make_out(seen, index[[i not in self.recognised for i in index]])
+        self.passed.update(asked.tolist())
+        self._think(0.0, len(things))
+
+    def _make_out(
+        self, seen: Visibility, index: NDArray[np.int64]
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Of what is noticed, the things; and those made out to be of the asked kind."""
         self.known.see_walls(seen.pixels > 0)
         objects = self.glance.view.scene.objects
-        index = noticed(seen, mood)
         things = index[[objects[i].target for i in index]]
-        known = recognised(seen, things, mood)
+        known = recognised(seen, things, self.mood)
         clear = things[known]
         self.recognised.update(clear.tolist())
         for made_out in clear.tolist():
             self.known.unclear.pop(made_out, None)
-        self._see_through(seen, things)
-        self._inspect()
         self._wonder(seen, things[~known])
-        spread = len(things) * (p.search_slope + saccade(0.2, mood))
-        self.hands.wait(p.attention_shift + p.count + spread)
-        return Found(clear[[objects[i].kind == self.asked for i in clear]], seen)
+        return things, clear[[objects[i].kind == self.asked for i in clear]]
+
+    def _think(self, seconds: float, things: int) -> None:
+        """Thinking about a look begins now and goes on while the feet and hands do."""
+        p = self.mood.profile
+        seconds += p.attention_shift + things * (p.search_slope + saccade(0.2, self.mood))
+        self._busy = max(self._busy, self.hands.time) + seconds * self.mood.pace
+
+    def settle(self) -> None:
+        """Think to the end about what was seen: before the next look, and before decisions."""
+        self.hands.time = max(self.hands.time, self._busy)
 
     def _see_through(self, seen: Visibility, things: NDArray[np.int64]) -> None:
         """Learn whether things shine through walls: was one seen that a known wall is before?"""
@@ -178,10 +206,12 @@ class Walker:
         return choice
 
     def turn(self, angle: float) -> Generator[list[Event], Glance, None]:
-        """Turn, and see where that led."""
+        """Turn, with a look at each heading in passing, and see where that led."""
         before = self.yaw
-        self.hands.turn(angle)
-        self.glance = yield self.hands.take()
+        for ended in self.hands.turning(angle, parts=max(1, round(abs(angle) / STEP))):
+            self.glance = yield self.hands.take()
+            if not ended:
+                self.pass_by()
         turned = float(apart(self.yaw, before))
         if turned * angle > 0 and not 0.7 < turned / angle < 1.4:
             self.hands.gain *= turned / angle
@@ -190,12 +220,16 @@ class Walker:
         """One cell on towards `cell`: face one of eight directions, walk, see how far it went."""
         way = cell - self.eye
         aim = round(float(bearing(way)) / STEP) * STEP
-        yield from self.turn(float(apart(aim, self.yaw)))
-        diagonal = round(aim / STEP) % 2 == 1
-        distance = CELL * (2**0.5 if diagonal else 1.0)
+        if abs(turn := float(apart(aim, self.yaw))) > 1e-9:
+            yield from self.turn(turn)
+            self.pass_by()
+        direction = round(aim / STEP)
+        distance = CELL * (2**0.5 if direction % 2 == 1 else 1.0)
         before = self.eye
-        self.hands.walk(distance)
-        self.glance = yield self.hands.take()
+        for ended in self.hands.walking(distance, STRIDES[direction % DIRECTIONS]):
+            self.glance = yield self.hands.take()
+            if not ended:
+                self.pass_by()
         self.known.move()
         went = hypot(*(self.eye - before))
         if not 0.7 < went / distance < 1.4 and went > 0:

@@ -1,10 +1,13 @@
 """Simulated participants at the tasks, with eyes that see what a test lets them see."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from experiment.participants.effects import EFFECTS
+from experiment.participants.hands import Hands
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.profile import PROFILES, Profile, profile
 from renderer import geometry
@@ -100,6 +103,53 @@ def test_things_in_the_building_are_counted(seed):
     outcome, seconds, _, _ = play("count_in_building", seed, without=QUIET)
     assert outcome.correct
     assert 10 < seconds < 300
+
+
+@pytest.mark.parametrize("name", ["unique", "count_in_building"])
+def test_a_walker_looks_at_every_view_it_comes_to_twice_a_second_or_more(name):
+    """While a key is held, the view changes: half a second at most from look to look."""
+    task, state = TASKS[name], begun(name, 1)
+    participant = SimulatedParticipant(np.random.default_rng(1), without=QUIET)
+    participant.begin_trial(name, 0.0)
+    now, held, spans, looked = 0.0, False, [], []
+    while task.outcome(state) is None:
+        view = task.view(state)
+        looks = []
+
+        def look(view=view, looks=looks):
+            looks.append(view)
+            return sight(view, np.ones(len(view.scene.objects), bool))
+
+        batch = participant.events(view, look, now, name)
+        keys = [e for e in batch if getattr(e, "key", "") == "up"]
+        if keys:
+            spans.append(keys[-1].time - (now if held else keys[0].time))
+            held = isinstance(keys[-1], KeyPress)
+            if held:
+                spans[-1] = batch[-1].time - keys[-1].time
+        elif held:
+            spans.append(batch[-1].time - now)
+        looked.append(bool(looks))
+        for event in batch:
+            state = task.on_event(state, event)
+        now = max(e.time for e in batch)
+    assert len(spans) > 5 and max(spans) <= 0.5
+    assert all(looked[:-2])  # the last two views are those of the plan
+
+
+@pytest.mark.parametrize("angle", [np.pi / 4, np.pi / 2, 3 * np.pi / 4, np.pi])
+def test_turns_come_back_for_a_look_at_each_heading_in_half_a_second(angle):
+    participant = SimulatedParticipant(np.random.default_rng(1), without=QUIET)
+    participant.begin_trial("unique", 0.0)
+    hands = Hands(participant._mood, 0.0)
+    hands.mood = replace(hands.mood, pace=1.0)
+    times, turned = [0.0], [0.0]
+    for _ in hands.turning(angle, parts=round(angle / (np.pi / 4))):
+        moves = [e.dx for e in hands.take() if isinstance(e, PointerMove)]
+        turned.append(turned[-1] - sum(moves) * np.pi)
+        times.append(hands.time)
+    assert_allclose(turned, np.arange(len(turned)) * np.pi / 4, atol=1e-12)
+    assert max(np.diff(times)) <= 0.5
 
 
 def test_what_nobody_could_see_is_not_counted():

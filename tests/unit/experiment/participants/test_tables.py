@@ -10,6 +10,7 @@ from experiment.config import load
 from experiment.design import generator
 from experiment.participants.data_mode import play_session, play_trial, trial_row
 from experiment.participants.participant import SimulatedParticipant
+from experiment.participants.places import AHEAD, STRIDES
 from experiment.participants.pool import Pool, fingerprint, same
 from experiment.participants.tables import (
     PITCHES,
@@ -55,8 +56,21 @@ def test_orbit_lattice_poses_are_their_own_nearest():
 def test_walk_lattice_poses_are_their_own_nearest():
     start = walk(BuildingParameters(), (2.5, 2.5)).camera()
     assert_allclose(walk_camera(start, walk_key(start)).eye, start.eye)
-    for key in ((-8, 7, 0), (0, -1, 3), (7, 7, 7)):
+    for key in ((-8, 7, 0), (0, -1, 3), (7, 7, 7), (3, -2, 8), (0, 0, 11), (-4, 5, 21)):
         assert walk_key(walk_camera(start, key)) == key
+    # Every stop of a step, on to the next cell, lies on the lattice.
+    for heading, ((across, along), parts) in enumerate(zip(AHEAD, STRIDES, strict=True)):
+        yaw = heading * np.pi / 4
+        for part in range(parts + 1):
+            share = part / parts
+            place = (2.5 + 5 * share * across, -7.5 + 5 * share * along)
+            camera = walk(BuildingParameters(), place, yaw).camera()
+            assert_allclose(walk_camera(camera, walk_key(camera)).eye, camera.eye, atol=1e-9)
+            assert_allclose(
+                place - np.array([2.5, -7.5]),
+                5 * share * camera.forward[[0, 2]] * 2 ** (heading % 2 / 2),
+                atol=1e-9,
+            )
 
 
 def test_a_table_gives_back_what_was_put_to_the_last_bit(tmp_path):
