@@ -3,15 +3,20 @@
 A table with a chain ends in the column `chain`: in each row the SHA-256, in hexadecimal, of the
 value in the row before followed by the row's own text up to (without) the comma before `chain`.
 The sidecar's `chain.start` stands before the first row; it is itself made from the sidecar and the
-table's header. The session's end file, if the session was closed, holds the last value and the
-hashes of the session's other tables. Traces are not read by a report, and not checked by it.
+table's header. Each row holds the hashes of its trial's traces. The session's end file, if the
+session was closed, holds the last value and the hashes of the session's other files; the sidecar of
+a session that goes on holds the last value of the one before (CONVENTIONS.md).
+
+Data may be handed on without their traces: a session whose traces folder is gone is verified
+without them and says so. A single trace that is missing was removed.
 """
 
 from __future__ import annotations
 
+import csv
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,12 +28,22 @@ COLUMN = "chain"
 END = "_end.json"
 
 
+TRACES = "traces"
+_PAIRS = (("events_file", "events_sha256"), ("camera_file", "camera_sha256"))
+
+
 @dataclass(frozen=True, slots=True)
 class ChainState:
-    """`state`: verified, open (verified, but the session was never closed), or none."""
+    """`state`: verified, open (verified, but the session was never closed), or none.
+
+    `traces`: how many trace files were verified, None where their folder is gone; `last`: the
+    chain's end.
+    """
 
     file: str
     state: str
+    traces: int | None = 0
+    last: str = ""
 
 
 def link(before: str, text: str) -> str:
@@ -43,8 +58,35 @@ def start_of(sidecar: Mapping[str, Any], header: str) -> str:
     return link(plain, header)
 
 
+def verify_all(
+    sources: Sequence[Source], sidecars: Mapping[str, Mapping[str, Any]], folder: Path
+) -> list[ChainState]:
+    """Every table, and that each participant's sessions follow one another.
+
+    Raises DataError naming the first place that is not as it was written.
+    """
+    ends: dict[str, str] = {}
+    states = {}
+    for source in sorted(sources, key=lambda s: _session(s.name)):
+        sidecar = sidecars.get(source.name, {})
+        state = verify(source, sidecar, folder)
+        person = source.name.rpartition("/")[0]
+        if state.state != "none":
+            if sidecar["chain"].get("follows", "") != ends.get(person, ""):
+                raise DataError(f"{source.name}: does not follow the session before it")
+            ends[person] = state.last
+        states[source.name] = state
+    return [states[source.name] for source in sources]
+
+
+def _session(name: str) -> tuple[str, int]:
+    """Participants, and their sessions in order: session-10 comes after session-9."""
+    number = name.partition("_session-")[2].partition("_")[0]
+    return name.rpartition("/")[0], int(number) if number.isdigit() else 0
+
+
 def verify(source: Source, sidecar: Mapping[str, Any], folder: Path) -> ChainState:
-    """Check header, sidecar, every row and the session's end.
+    """Check header, sidecar, every row, the traces and the session's end.
 
     Raises DataError naming the first place that is not as it was written.
     """
@@ -62,27 +104,56 @@ def verify(source: Source, sidecar: Mapping[str, Any], folder: Path) -> ChainSta
         if value != link(before, text):
             raise DataError(f"{source.name}: row {number}: changed, or a row before it removed")
         before = value
-    return ChainState(source.name, _verify_end(source.name, before, folder))
+    traces = _verify_traces(source.name, lines, folder)
+    state, more = _verify_end(source.name, before, folder, traces is not None)
+    return ChainState(source.name, state, None if traces is None else traces + more, before)
 
 
-def _verify_end(name: str, last: str, folder: Path) -> str:
-    """The end file against the table and the session's other tables."""
+def _verify_traces(name: str, lines: Sequence[str], folder: Path) -> int | None:
+    """The traces named in the rows; how many there are, None if their folder is gone."""
+    own = (folder / name).parent
+    header, *rows = csv.reader(lines)
+    places = [(header.index(f), header.index(h)) for f, h in _PAIRS if f in header and h in header]
+    if not (own / TRACES).is_dir():
+        return None
+    count = 0
+    for number, cells in enumerate((row for row in rows if row), start=2):
+        for file, digest in places:
+            if cells[file]:
+                where = f" (the trial in row {number} of {name})"
+                _same(own, cells[file], cells[digest], folder, where)
+                count += 1
+    return count
+
+
+def _same(own: Path, name: str, digest: str, folder: Path, where: str = "") -> None:
+    """Raises DataError unless the file beside the table is as it was written."""
+    path = own / name
+    if not path.resolve().is_relative_to(own.resolve()):
+        raise DataError(f"{own.relative_to(folder)}: {name!r}: expected a file in this folder")
+    if not path.is_file():
+        raise DataError(f"{path.relative_to(folder)}: removed after the session{where}")
+    if hashlib.sha256(path.read_bytes()).hexdigest() != digest:
+        raise DataError(f"{path.relative_to(folder)}: changed after the session{where}")
+
+
+def _verify_end(name: str, last: str, folder: Path, traced: bool) -> tuple[str, int]:
+    """The end file against the table and the session's other files; how many were traces."""
     path = folder / name.replace("_trials_data.csv", END)
     if not path.is_file():
-        return "open"
+        return "open", 0
     try:
         end = json.loads(path.read_bytes())
-        files = dict(end["files"])
+        files = {str(name): str(digest) for name, digest in dict(end["files"]).items()}
     except (ValueError, KeyError, TypeError, RecursionError):
         raise DataError(f"{path.relative_to(folder)}: expected a session's end, as JSON") from None
     if end.get("chain") != last:
         raise DataError(f"{name}: rows at its end were removed or added, or {path.name} changed")
+    traces = 0
     for other, digest in files.items():
-        if not other.endswith("_data.csv"):
+        trace = other.startswith(f"{TRACES}/")
+        if trace and not traced:
             continue
-        table = path.parent / Path(other).name
-        if not table.is_file():
-            raise DataError(f"{table.relative_to(folder)}: removed after the session")
-        if hashlib.sha256(table.read_bytes()).hexdigest() != digest:
-            raise DataError(f"{table.relative_to(folder)}: changed after the session")
-    return "verified"
+        _same(path.parent, other, digest, folder)
+        traces += trace
+    return "verified", traces

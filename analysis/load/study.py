@@ -14,7 +14,7 @@ import pandas as pd
 
 from analysis.errors import DataError
 from analysis.load import schema
-from analysis.load.chain import ChainState, verify
+from analysis.load.chain import ChainState, verify_all
 from analysis.load.table import Source, read_table
 
 
@@ -67,7 +67,7 @@ def load_study(folder: Path, source: str | None = None) -> Study:
     _same_people(trials, questions)
     files = [*_records(sources, trials), *_records(answers, questions)]
     sidecars = _sidecars(paths, folder)
-    chains = [verify(s, sidecars.get(s.name, {}), folder) for s in sources]
+    chains = verify_all(sources, sidecars, folder)
     return Study(
         folder,
         str(about.get("name", folder.name)),

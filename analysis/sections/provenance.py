@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from analysis.load.chain import ChainState
 from analysis.page.blocks import Block, Column, Fold, Section, Table, say
 from analysis.plan import Plan, config_of, digest
 from analysis.sections.context import Context
@@ -30,18 +31,17 @@ def provenance_section(context: Context) -> Section:
     """The last section of a study's report."""
     study = context.study
     configs = sorted({digest(config_of(s)) for s in study.sidecars.values() if config_of(s)})
-    states = [c.state for c in study.chains]
     ran = [
         *software(),
         {"what": "analysis stream", "value": f"seed {context.seed}, spawn key (3, …)"},
         {"what": "source", "value": study.source},
         {"what": "config hash (12 of 64)", "value": ", ".join(configs) or "no config recorded"},
         {"what": "analysis plan", "value": _plan(context.plan)},
-        {"what": "hash chains", "value": _chains(states)},
+        {"what": "hash chains", "value": _chains(study.chains)},
         *_recorded(study.sidecars.values()),
     ]
     blocks: list[Block] = [
-        say(f"Hash chains: {_chains(states)}."),
+        say(f"Hash chains: {_chains(study.chains)}."),
         Table("ran", "What ran", PAIRS, tuple(ran)),
         Fold(f"The {len(study.files)} files read, with their SHA-256", (_files(context),)),
     ]
@@ -58,15 +58,22 @@ def _plan(plan: Plan) -> str:
     )
 
 
-def _chains(states: list[str]) -> str:
+def _chains(chains: Sequence[ChainState]) -> str:
     """The chains' state in a sentence; a broken one never gets this far."""
     said = {
         "verified": "verified to the end of the session",
         "open": "verified as far as they go, of sessions that were never closed",
         "none": "without a chain, where later changes would not show",
     }
+    states = [chain.state for chain in chains]
     counts = {state: states.count(state) for state in said}
     parts = [f"{count} {said[state]}" for state, count in counts.items() if count]
+    chained = [chain.traces for chain in chains if chain.state != "none"]
+    gone = chained.count(None)
+    if chained:
+        parts.append(f"{sum(count or 0 for count in chained)} traces as they were recorded")
+    if gone:
+        parts.append(f"{gone} without their traces, which are not in this folder")
     return f"of {len(states)} trial tables {'; '.join(parts)}"
 
 

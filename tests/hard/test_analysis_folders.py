@@ -15,6 +15,7 @@ from made_data import Made, make_folder
 from analysis.errors import SHOWN, DataError
 from analysis.load.chain import link, start_of
 from analysis.load.study import load_study
+from analysis.page.markdown import as_markdown
 from analysis.report import Options, make_report
 from experiment.cli import main
 
@@ -186,22 +187,38 @@ def test_free_text_with_line_breaks_counts_rows_not_lines(folder):
     refused(folder, r"row 3: value = 'x\d': expected a finite number")
 
 
+def sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
 def chain(folder: Path) -> Path:
-    """Give P01's table a hash chain, as the recorder does."""
+    """Give P01's table a hash chain and traces, as the recorder does."""
     path = folder / TRIALS
+    traces = path.parent / "traces"
+    traces.mkdir()
     lines = path.read_text().rstrip("\n").split("\n")
-    header = lines[0] + ",chain"
+    names = lines[0].split(",")
+    header = lines[0] + ",events_sha256,camera_sha256,chain"
     sidecar = path.with_suffix(".json")
     about = {**json.loads(sidecar.read_text()), "chain": {}}
     before = start_of(about, header)
     sidecar.write_text(json.dumps({**about, "chain": {"start": before}}))
     out = [header]
-    for line in lines[1:]:
-        before = link(before, line)
-        out.append(f"{line},{before}")
+    for number, line in enumerate(lines[1:], start=1):
+        cells = line.split(",")
+        for trace in ("events", "camera"):
+            name = f"traces/session-1_trial-{number:03d}_{trace}.csv"
+            (path.parent / name).write_text(f"t,{trace}\n{number},0.5\n")
+            cells[names.index(f"{trace}_file")] = name
+        cells += [
+            sha256(path.parent / cells[names.index(f"{t}_file")]) for t in ("events", "camera")
+        ]
+        before = link(before, ",".join(cells))
+        out.append(",".join([*cells, before]))
     path.write_text("\n".join(out) + "\n")
-    answers = folder / ANSWERS
-    files = {answers.name: hashlib.sha256(answers.read_bytes()).hexdigest()}
+    training = traces / "session-1_training-101_events.csv"
+    training.write_text("t,event\n")
+    files = {str(p.relative_to(path.parent)): sha256(p) for p in (folder / ANSWERS, training)}
     end = path.with_name(path.name.replace("_trials_data.csv", "_end.json"))
     end.write_text(json.dumps({"chain": before, "files": files}))
     return end
@@ -243,6 +260,69 @@ def test_a_changed_questionnaire_is_found(folder):
     chain(folder)
     edit(folder / ANSWERS, 4, "value", "4")
     refused(folder, r"P01.*questionnaire_data.csv: changed after the session")
+
+
+def test_a_changed_byte_in_any_recorded_file_is_found_and_named(folder):
+    """Each file of a session in turn: tables, sidecar, traces of trials and of training."""
+    chain(folder)
+    load_study(folder)
+    for path in sorted((folder / TRIALS).parent.rglob("*")):
+        if not path.is_file() or path.name.endswith("_end.json"):
+            continue
+        whole = path.read_bytes()
+        # the last letter or digit: still a table, still JSON, and no longer what was written
+        at = max(i for i, byte in enumerate(whole) if chr(byte).isalnum())
+        path.write_bytes(
+            whole[:at] + (b"1" if whole[at : at + 1] != b"1" else b"2") + whole[at + 1 :]
+        )
+        named = path if path.suffix == ".csv" else path.with_suffix(".csv")
+        refused(folder, f"{named.relative_to(folder)}: .*changed")
+        path.write_bytes(whole)
+    load_study(folder)
+
+
+def test_a_trace_names_its_trial(folder):
+    chain(folder)
+    (folder / TRIALS).parent.joinpath("traces/session-1_trial-003_camera.csv").write_text("")
+    refused(folder, r"trial-003_camera.csv: changed after .*the trial in row 4 of .*P01")
+
+
+def test_a_removed_trace_is_found_and_data_without_any_say_so(folder):
+    chain(folder)
+    traces = (folder / TRIALS).parent / "traces"
+    (traces / "session-1_trial-002_events.csv").unlink()
+    refused(folder, "trial-002_events.csv: removed after the session")
+    shutil.rmtree(traces)
+    text = as_markdown(make_report(folder, Options()))
+    assert "1 without their traces, which are not in this folder" in text
+
+
+def test_the_report_prints_what_the_chains_say(folder):
+    chain(folder)
+    text = as_markdown(make_report(folder, Options()))
+    rows = (folder / TRIALS).read_text().count("\n") - 1
+    assert "1 verified to the end of the session; 2 without a chain" in text
+    assert f"{2 * rows + 1} traces as they were recorded" in text
+
+
+def test_a_session_that_does_not_follow_the_one_before_is_found(folder):
+    """Session 2's chain goes on from session 1's end: exchanging or dropping a session shows."""
+    chain(folder)
+    first = folder / TRIALS
+    second = Path(str(first).replace("session-1", "session-2"))
+    header = first.read_text().split("\n")[0]
+    for follows, pattern in (("", "does not follow the session before"), (None, "")):
+        last = first.read_text().rstrip("\n").rpartition(",")[2] if follows is None else follows
+        about = {"chain": {"follows": last}}
+        start = start_of(about, header)
+        second.with_suffix(".json").write_text(
+            json.dumps({"chain": {**about["chain"], "start": start}})
+        )
+        second.write_text(header + "\n")
+        if pattern:
+            refused(folder, f"session-2.*: {pattern}")
+        else:
+            load_study(folder)
 
 
 def test_a_participant_without_a_cell_is_left_out_by_name(folder):
