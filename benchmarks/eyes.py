@@ -17,15 +17,18 @@ from typing import Any
 
 import numpy as np
 
-from experiment.config import load
+from experiment.config import Study, load
 from experiment.design import SIMULATED, Trial, generator, session_for
 from experiment.pages import Page, Paragraph
-from experiment.participants.data_mode import DataTrial, play_trial
+from experiment.participants.data_mode import play_trial
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import LazyDraw, Pool
+from experiment.trial import TrialRecord
 from renderer.gpu.context import standalone
 from renderer.gpu.renderer import Renderer
 from renderer.techniques.standard import Standard
+from renderer.visibility import Visibility
+from tasks.base import View
 
 HEIGHTS = (300, 150, 75, 38)  # of the id picture, in pixels; the first is the reference
 ASPECT = 4 / 3
@@ -37,18 +40,20 @@ class Eyes:
 
     name: str
     seconds: float
-    trials: tuple[DataTrial, ...]
+    trials: tuple[TrialRecord, ...]
 
 
-class _Open:
+class OpenEyes(Pool):
     """Looks from where the camera is, into a picture of a given size."""
 
-    def __init__(self, renderer: Renderer, technique: Any, height: int) -> None:
-        self.renderer, self.technique = renderer, technique
-        self.size = (round(height * ASPECT), height)
+    def __init__(self, study: Study, size: int, renderer: Renderer, height: int) -> None:
+        super().__init__(study, size)
+        self.renderer, self.picture = renderer, (round(height * ASPECT), height)
 
-    def look(self, scene: Any, camera: Any) -> Any:
-        return self.renderer.look(scene, camera, self.technique, self.size)
+    def look(self, view: View, level: str) -> Visibility:
+        """What is seen in the view, drawn anew."""
+        technique = self.study.dynamic if level == "dynamic" else Standard()
+        return self.renderer.look(view.scene, view.camera, technique, self.picture)
 
 
 def play(trials: Sequence[Trial], pool: Pool, name: str, repeats: int) -> Eyes:
@@ -60,7 +65,7 @@ def play(trials: Sequence[Trial], pool: Pool, name: str, repeats: int) -> Eyes:
             person = SimulatedParticipant(generator(1, (SIMULATED, 1 + k, repeat)))
             text = Paragraph(f"transparency.{trial.transparency}")
             person.answer(Page("instruction", "", (text,)))
-            played.append(play_trial(person, pool, trial, 0.0, ASPECT)[0])
+            played.append(play_trial(person, pool, trial)[0])
     return Eyes(name, (time.perf_counter() - start) / len(played), tuple(played))
 
 
@@ -86,10 +91,7 @@ def run(repeats: int) -> list[dict[str, Any]]:
     renderer = Renderer(standalone(), (800, 600))
     ways = []
     for height in HEIGHTS:
-        pool = Pool(study, 4)
-        pool.eyes = lambda name, trial, scene, h=height: _Open(  # type: ignore[method-assign]
-            renderer, study.dynamic if trial.transparency == "dynamic" else Standard(), h
-        )
+        pool = OpenEyes(study, 4, renderer, height)
         ways.append(play(trials, pool, f"visual, {height} px", repeats))
     pool = Pool(study, 4, LazyDraw(study, ASPECT))
     play(trials, pool, "making tables", repeats)

@@ -4,6 +4,7 @@ three pairs of things in it: which is nearer?"""
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from renderer.scene import Object
 from renderer.transforms import rotation_y
 from tasks.base import View
 from tasks.catalog import TASKS
+from tasks.parameters import BuildingParameters
 
 PAIRS = 3
 RATIO = 1.2  # the farther of a pair is at least this much farther: ours
@@ -60,11 +62,16 @@ def depth_test(study: Study, aspect: float) -> DepthTest:
     Each kind in a pair occurs once in the picture, so that its name is enough to point at it, and
     is large enough to be recognised.
     """
+    return _made(study.study.seed, study.walkthrough, aspect)
+
+
+@lru_cache(maxsize=4)
+def _made(seed: int, building: BuildingParameters, aspect: float) -> DepthTest:
     task = TASKS["unique"]
     for number in range(MOST_SCENES):
-        rng = generator(study.study.seed, (*STREAM, number))
-        scene = task.make_scene(rng, study.walkthrough)
-        shown = task.view(task.begin(rng, study.walkthrough, aspect, scene))
+        rng = generator(seed, (*STREAM, number))
+        scene = task.make_scene(rng, building)
+        shown = task.view(task.begin(rng, building, aspect, scene))
         for camera in _around(shown.camera):
             view = View(shown.scene, camera)
             depths = _depths(view, aspect)

@@ -7,7 +7,7 @@ differs in lightness, for everybody to see.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.random import Generator
@@ -27,29 +27,46 @@ DARK, LIGHT = (0.25, 0.25, 0.35), (0.75, 0.75, 0.70)
 DOTS = 6000  # tried; about one in twenty finds room
 
 
-@dataclass(frozen=True, eq=False)
 class Plate:
-    """Dots in the unit square, origin upper left: (n, 2) places, (n,) radii, (n, 3) colours."""
+    """Dots in the unit square, origin upper left: (n, 2) places, (n,) radii, (n, 3) colours.
 
-    digit: int
-    places: NDArray[np.float64]
-    radii: NDArray[np.float64]
-    colors: NDArray[np.float64]
+    They are packed when somebody asks for them: a simulated participant reads the digit.
+    """
+
+    def __init__(self, digit: int, control: bool, rng: Generator) -> None:
+        self.digit, self.control = digit, control
+        self._rng = rng
+
+    @property
+    def places(self) -> NDArray[np.float64]:
+        """(n, 2) middles of the dots."""
+        return self._dots[0]
+
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """(n,) radii of the dots."""
+        return self._dots[1]
+
+    @property
+    def colors(self) -> NDArray[np.float64]:
+        """(n, 3) colours of the dots."""
+        return self._dots[2]
+
+    @cached_property
+    def _dots(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        places, radii = _packed(self._rng)
+        inside = _in_digit(places, self.digit)
+        figure, ground = (DARK, LIGHT) if self.control else (FIGURE, GROUND)
+        colors = np.where(inside[:, None], figure, ground)
+        lightness = self._rng.uniform(0.75, 1.2, len(places))
+        return places, radii, np.clip(colors * lightness[:, None], 0, 1)
 
 
 def plates(rng: Generator) -> tuple[Plate, ...]:
     """One plate that everybody can read, then three that need red–green vision."""
     digits = rng.permutation(sorted(DIGITS))[:4]
-    return tuple(_plate(rng, int(d), control=i == 0) for i, d in enumerate(digits))
-
-
-def _plate(rng: Generator, digit: int, control: bool) -> Plate:
-    places, radii = _packed(rng)
-    inside = _in_digit(places, digit)
-    figure, ground = (DARK, LIGHT) if control else (FIGURE, GROUND)
-    colors = np.where(inside[:, None], figure, ground)
-    lightness = rng.uniform(0.75, 1.2, len(places))
-    return Plate(digit, places, radii, np.clip(colors * lightness[:, None], 0, 1))
+    own = rng.spawn(len(digits))
+    return tuple(Plate(int(d), i == 0, own[i]) for i, d in enumerate(digits))
 
 
 def _packed(rng: Generator) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

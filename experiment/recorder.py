@@ -134,7 +134,7 @@ class FileRecorder:
         self._trials.append(
             {
                 **self._identity(f"trial{number:03d}" + (f".{attempt}" if attempt > 1 else "")),
-                **_trial_row(record),
+                **trial_row(record),
                 "slot": self.who.slot,
                 "attempt": attempt,
                 "started": self._started,
@@ -213,7 +213,8 @@ def _json(content: Mapping[str, Any]) -> str:
     return json.dumps(content, indent=2) + "\n"
 
 
-def _trial_row(record: TrialRecord) -> dict[str, Any]:
+def trial_row(record: TrialRecord) -> dict[str, Any]:
+    """What a trial's record says about its row of the trial table."""
     trial, outcome = record.trial, record.outcome
     row = {
         "trial": trial.number,

@@ -17,6 +17,7 @@ from experiment.config import Study
 from experiment.design import TaskSet, Trial, session_for
 from experiment.display import Display, Input, Leave
 from experiment.pages import Page, Paragraph, Picture
+from experiment.scenes import StudyScenes
 from experiment.trial import TrialRecord, TrialRun
 from tasks.base import Task
 
@@ -60,6 +61,7 @@ class World:
     recorder: Recorder
     tasks: Mapping[str, Task]
     progress: Callable[[TrialRecord], None] = lambda record: None
+    scenes: StudyScenes | None = None  # others than the study's own
 
 
 def run_session(study: Study, slot: int, world: World, done: frozenset[int] = frozenset()) -> str:

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 from experiment.clock import SimulatedClock
-from experiment.offscreen import OffscreenDisplay
 from experiment.pages import Answers, Page
 from experiment.participants.participant import SimulatedParticipant
+from renderer.visibility import Visibility
 from tasks.base import View
 from tasks.events import Event, Tick
+
+
+class Looks(Protocol):
+    """A display that tells what can be seen in the view it shows."""
+
+    def look(self) -> Visibility:
+        """What can be seen in the view shown last."""
 
 
 class SimulatedInput:
     """Asks the participant what it does next and lets the simulated clock go on to then."""
 
     def __init__(
-        self, participant: SimulatedParticipant, display: OffscreenDisplay, clock: SimulatedClock
+        self, participant: SimulatedParticipant, display: Looks, clock: SimulatedClock
     ) -> None:
         self.participant = participant
         self.display = display

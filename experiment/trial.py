@@ -93,7 +93,7 @@ class TrialRun:
     def __init__(self, study: Study, world: World) -> None:
         self.study = study
         self.world = world
-        self.scenes = StudyScenes(study)
+        self.scenes = world.scenes or StudyScenes(study)
 
     def technique(self, trial: Trial) -> Any:
         """What the trial's transparency level draws with."""

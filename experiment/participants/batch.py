@@ -15,10 +15,11 @@ from experiment.config import Study, load
 from experiment.dataset import describe_dataset
 from experiment.design import Trial, session_for
 from experiment.errors import InputError
-from experiment.participants.data_mode import play_session, trial_row
+from experiment.participants.data_mode import play_session
 from experiment.participants.pool import LazyDraw, Pool
 from experiment.participants.profile import AVERAGE, Profile
 from experiment.workers import ordered_map
+from tasks.catalog import TASKS
 
 CHUNK = 16  # participants a file: the published study's number
 
@@ -55,8 +56,7 @@ def play_chunk(slots: Sequence[int], profile: Profile | None = None) -> list[dic
     person = profile or batch.profile
     rows = []
     for slot in slots:
-        played = play_session(study, slot, batch.seed, pool, person, batch.without)
-        rows += [trial_row(study, slot, trial) for trial in played]
+        rows += play_session(study, slot, batch.seed, pool, person, batch.without).trials
     return rows
 
 
@@ -85,12 +85,10 @@ def fill(batch: Batch, progress: Any = None) -> int:
     aspect = study.display.width / study.display.height
     for trial in abstract_trials(study):
         for which in range(batch.pool):
-            name, state = pool.scene(trial, which, aspect)
-            camera = state.orbit.camera()
-            scene = (state.world if hasattr(state, "world") else state).scene
-            eyes = pool.eyes(name, trial, scene)
-            for view in views_of(trial.task, camera):
-                eyes.look(scene, view)
+            view = TASKS[trial.task].view(pool.world(trial, which, aspect))
+            eyes = pool.eyes(view.scene, trial.transparency)
+            for camera in views_of(trial.task, view.camera):
+                eyes.look(view.scene, camera)
             if progress is not None:
                 progress.step(f"{trial.task} {trial.transparency}")
     assert batch.tables is not None

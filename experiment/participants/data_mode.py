@@ -1,68 +1,128 @@
-"""Data mode: the same decisions as in the real session, from visibility tables made beforehand."""
+"""Data mode: the real session with visibility tables in place of what a display would draw.
+
+The session, the trials, the pages and the tasks are those of visual mode (experiment/session.py);
+only the eyes are others, and the rows stay in memory.
+"""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
+from experiment.clock import SimulatedClock
 from experiment.config import Study
-from experiment.design import SIMULATED, Trial, generator, session_for
-from experiment.pages import Page, Paragraph
+from experiment.design import SIMULATED, Trial, generator
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import Pool
 from experiment.participants.profile import AVERAGE, Profile
-from tasks.base import Outcome
+from experiment.recorder import trial_row
+from experiment.session import World, run_session
+from experiment.simulated_input import SimulatedInput
+from experiment.trial import TrialRecord, TrialRun
+from renderer.visibility import Visibility
+from tasks.base import View
 from tasks.catalog import TASKS
-from tasks.events import Event, Tick
+from tasks.events import Event
+
+Row = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class DataTrial:
-    """A trial as it went; `events` are kept where somebody asks for them."""
+class TableDisplay:
+    """Shows nothing; `look` reads from the pool's tables what would be seen."""
 
-    trial: Trial
-    outcome: Outcome | None
-    time: float
-    looks: int
-    targets: int
-    events: tuple[Event, ...] = ()
+    def __init__(self, pool: Pool, clock: SimulatedClock, aspect: float) -> None:
+        self.pool, self.clock = pool, clock
+        self._aspect = aspect
+        self._shown: View | None = None
+        self._level = ""
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of the view."""
+        return self._aspect
+
+    def show(self, view: View, technique: Any) -> float:
+        """Keep the view; the time now."""
+        self._shown = view
+        self._level = "dynamic" if technique is self.pool.study.dynamic else "standard"
+        return self.clock.now()
+
+    def digest(self) -> str:
+        """Nothing is drawn for nobody."""
+        return ""
+
+    def progress(self, fraction: float) -> None:
+        """Nobody sees the progress line."""
+
+    def describe(self) -> Mapping[str, str]:
+        """No driver draws."""
+        return {"window": "no"}
+
+    def look(self) -> Visibility:
+        """What is seen in the view shown last. Raises RuntimeError before the first."""
+        if self._shown is None:
+            raise RuntimeError("nothing has been shown yet")
+        return self.pool.look(self._shown, self._level)
 
 
-def play_trial(
-    participant: SimulatedParticipant,
-    pool: Pool,
-    trial: Trial,
-    now: float,
-    aspect: float,
-    keep: bool = False,
-) -> tuple[DataTrial, float]:
-    """One trial from its scene's table; the trial and the time after it."""
-    task = TASKS[trial.task]
-    name, state = pool.begin(trial, aspect)
-    view = task.view(state)
-    eyes = pool.eyes(name, trial, view.scene)
-    participant.begin_trial(trial.task, now)
-    first, looks, kept = now, 0, []
-    outcome = None
-    while outcome is None:
-        events = participant.events(
-            view, lambda v=view: eyes.look(v.scene, v.camera), now, trial.task
+@dataclass
+class Played:
+    """A session as it went: the recorder of data mode. `events` of each trial, where asked for."""
+
+    study: str
+    participant: str
+    slot: int
+    keep: bool = False
+    trials: list[Row] = field(default_factory=list)
+    questions: list[Row] = field(default_factory=list)
+    records: list[TrialRecord] = field(default_factory=list)
+    events: list[list[Event]] = field(default_factory=list)
+    status: str = ""
+
+    def trial_begins(self, trial: Trial) -> None:
+        """Room for its events; training counts as well."""
+        if self.keep:
+            self.events.append([])
+
+    def event(self, event: Event) -> None:
+        """One input event of the running trial."""
+        if self.keep:
+            self.events[-1].append(event)
+
+    def frame(self, time: float, view: View, digest: str = "") -> None:
+        """Nobody replays it."""
+
+    def trial_ends(self, record: TrialRecord) -> None:
+        """The trial's row, as the recorder of a real session writes it."""
+        if self.keep:
+            self.records.append(record)
+        more = {"slot": self.slot, "attempt": 1}
+        self.trials.append(
+            {**self._identity(f"trial{record.trial.number:03d}"), **trial_row(record), **more}
         )
-        looks += 1
-        now = max(e.time for e in events)
-        ended = now
-        # The Tick is the session's: it closes each batch at the time of its last event.
-        for event in (*events, Tick(now)):
-            if keep:
-                kept.append(event)
-            state = task.on_event(state, event)
-            outcome = task.outcome(state)
-            if outcome is not None:
-                ended = event.time
-                break
-        view = task.view(state)
-    targets = int(view.scene.targets.sum())
-    return DataTrial(trial, outcome, ended - first, looks, targets, tuple(kept)), now
+
+    def answers(self, rows: list[Mapping[str, str]]) -> None:
+        """Rows of the questionnaire."""
+        for row in rows:
+            number = len(self.questions) + 1
+            self.questions.append({**self._identity(f"question{number:03d}"), **row})
+
+    def note(self, trial: Trial | None, text: str) -> None:
+        """Nobody writes any."""
+
+    def close(self, status: str) -> None:
+        """How it ended."""
+        self.status = status
+
+    def _identity(self, row: str) -> Row:
+        return {
+            "row_id": f"simulated-{self.participant}-1-{row}",
+            "study": self.study,
+            "participant": self.participant,
+            "session": 1,
+            "source": "simulated",
+        }
 
 
 def play_session(
@@ -72,51 +132,27 @@ def play_session(
     pool: Pool,
     profile: Profile = AVERAGE,
     without: frozenset[str] = frozenset(),
-) -> list[DataTrial]:
-    """The trials of a participant's whole session; the pages around them are left out."""
-    aspect = study.display.width / study.display.height
-    participant = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
-    now, trials = 0.0, []
-    for task_set in session_for(slot, study.design.factors()):
-        now += participant.answer(_instruction(task_set.trials[0]))[1]
-        for trial in task_set.training:
-            _, now = play_trial(participant, pool, trial, now, aspect)
-        for trial in task_set.trials:
-            played, now = play_trial(participant, pool, trial, now, aspect)
-            trials.append(played)
-    return trials
+    keep: bool = False,
+) -> Played:
+    """A participant's whole session; `keep` its records and events as well as the rows."""
+    person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
+    played = Played(study.study.name, f"S{slot:02d}", slot, keep)
+    run_session(study, slot, _world(person, pool, study, played))
+    return played
 
 
-def _instruction(trial: Trial) -> Page:
-    texts = (f"{trial.task}.instruction", f"{trial.scenario}.controls",
-             f"transparency.{trial.transparency}", "progress")  # fmt: skip
-    return Page("instruction", f"{trial.task}.title", tuple(Paragraph(t) for t in texts))
+def play_trial(
+    person: SimulatedParticipant, pool: Pool, trial: Trial
+) -> tuple[TrialRecord, list[Event]]:
+    """One trial alone, and its events."""
+    played = Played(pool.study.study.name, "S01", 1, keep=True)
+    world = _world(person, pool, pool.study, played)
+    record = TrialRun(pool.study, world).play(trial, 0.0)
+    return record, played.events[-1]
 
 
-def trial_row(study: Study, slot: int, played: DataTrial) -> dict[str, Any]:
-    """The trial's row of the trial table (experiment/columns.py)."""
-    trial = played.trial
-    who = f"S{slot:02d}"
-    row = {
-        "row_id": f"simulated-{who}-1-trial{trial.number:03d}",
-        "study": study.study.name,
-        "participant": who,
-        "session": 1,
-        "source": "simulated",
-        "slot": slot,
-        "trial": trial.number,
-        "block": trial.block,
-        "task_set": trial.task_set,
-        "trial_in_set": trial.in_set,
-        "attempt": 1,
-        "transparency": trial.transparency,
-        "scenario": trial.scenario,
-        "task": trial.task,
-        "scene": trial.scene,
-        "targets": played.targets,
-        "time": played.time,
-        "time_clean": played.time,
-        "timed_out": False,
-        "frames": played.looks,
-    }
-    return row | (asdict(played.outcome) if played.outcome else {})
+def _world(person: SimulatedParticipant, pool: Pool, study: Study, played: Played) -> World:
+    clock = SimulatedClock()
+    display = TableDisplay(pool, clock, study.display.width / study.display.height)
+    seat = SimulatedInput(person, display, clock)
+    return World(display, seat, clock, played, TASKS, scenes=pool)

@@ -1,7 +1,7 @@
 """Scenes for data mode, made once: a pool of abstract worlds for each task, the study's buildings.
 
 Every abstract trial draws its world from the pool by its own stream; buildings are those of the
-study, the same for everybody.
+study, the same for everybody, as in the real session.
 """
 
 from __future__ import annotations
@@ -15,60 +15,57 @@ import numpy as np
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, Trial, generator
 from experiment.participants.tables import Draw, Table, TableEyes, load, save
+from experiment.scenes import StudyScenes
 from renderer.camera import Camera
 from renderer.scene import Scene
 from renderer.visibility import Visibility
+from tasks.base import Task, View
 from tasks.catalog import TASKS
 
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
 
 
-class Pool:
+class Pool(StudyScenes):
     """Scenes by name, and their visibility tables by scene and transparency level.
 
     `draw(level)` makes the function that draws for a level; without it only what the tables hold
-    can be looked at.
+    can be looked at. A pool of no worlds plays every trial in its own, as the real session does.
     """
 
     def __init__(self, study: Study, size: int, draw: Any = None) -> None:
-        if size < 1:
-            raise ValueError(f"pool = {size}: expected at least 1 scene a task")
-        self.study, self.size, self._draw = study, size, draw
+        if size < 0:
+            raise ValueError(f"pool = {size}: expected at least 1 scene a task, 0 for the study's")
+        super().__init__(study)
+        self.size, self._draw = size, draw
         self.tables: dict[str, Table] = {}
         self._scenes: dict[str, Any] = {}
+        self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, its scenario
         self._draws: dict[str, Draw | None] = {}
-        self._digests: dict[str, str] = {}
+        self._eyes: dict[tuple[int, str], TableEyes] = {}
 
-    def begin(self, trial: Trial, aspect: float) -> tuple[str, Any]:
-        """The name of a trial's scene in the pool, and the trial's first state in it."""
+    def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
+        """The first state of a trial."""
         rng = generator(self.study.study.seed, trial.stream)
-        return self.scene(trial, int(rng.integers(self.size)), aspect)
+        stream = trial.stream
+        if trial.scenario == "abstract" and self.size:
+            stream = self._stream(trial.task, int(rng.integers(self.size)))
+        return self._begun(task, trial, aspect, stream)
 
-    def scene(self, trial: Trial, which: int, aspect: float) -> tuple[str, Any]:
-        """As `begin`, in the pool's world number `which` (walkthrough: in the trial's own)."""
-        task = TASKS[trial.task]
-        rng = generator(self.study.study.seed, trial.stream)
-        if trial.scenario == "abstract":
-            parameters: Any = self.study.abstract
-            stream: tuple[int, ...] = (STUDY_SCENES, POOL, sorted(TASKS).index(trial.task), which)
-        else:
-            parameters, stream = self.study.walkthrough, trial.stream
-        name = f"{trial.task}-" + "-".join(map(str, stream))
-        if name not in self._scenes:
-            made = generator(self.study.study.seed, stream)
-            self._scenes[name] = task.make_scene(made, parameters)
-        return name, task.begin(rng, parameters, aspect, self._scenes[name])
+    def world(self, trial: Trial, which: int, aspect: float) -> Any:
+        """As `begin`, in the pool's world number `which` of an abstract task."""
+        stream = self._stream(trial.task, which)
+        return self._begun(TASKS[trial.task], trial, aspect, stream)
 
-    def eyes(self, name: str, trial: Trial, scene: Scene) -> TableEyes:
-        """Eyes for a scene of the pool, at the trial's transparency level."""
-        level = trial.transparency
-        if name not in self._digests:
-            self._digests[name] = fingerprint(scene, self.study.dynamic)
-        key = f"{name}-{self._digests[name]}/{level}"
-        table = self.tables.setdefault(key, Table(len(scene.objects)))
-        if level not in self._draws:
-            self._draws[level] = None if self._draw is None else self._draw(level)
-        return TableEyes(table, trial.scenario, self._draws[level])
+    def look(self, view: View, level: str) -> Visibility:
+        """What is seen in a view of one of the pool's scenes, at a transparency level."""
+        return self.eyes(view.scene, level).look(view.scene, view.camera)
+
+    def eyes(self, scene: Scene, level: str) -> TableEyes:
+        """Eyes for one of the pool's scenes at a transparency level."""
+        key = (id(scene), level)
+        if key not in self._eyes:
+            self._eyes[key] = self._open(scene, level)
+        return self._eyes[key]
 
     def save(self, path: Path) -> None:
         """Write all tables."""
@@ -83,6 +80,28 @@ class Pool:
     def looks(self) -> int:
         """How many viewpoints the tables hold."""
         return sum(len(t.rows) for t in self.tables.values())
+
+    def _stream(self, task: str, which: int) -> tuple[int, ...]:
+        return (STUDY_SCENES, POOL, sorted(TASKS).index(task), which)
+
+    def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> Any:
+        study = self.study
+        parameters: Any = study.abstract if trial.scenario == "abstract" else study.walkthrough
+        name = f"{trial.task}-" + "-".join(map(str, stream))
+        if name not in self._scenes:
+            made = task.make_scene(generator(study.study.seed, stream), parameters)
+            self._scenes[name] = made
+            self._names[id(getattr(made, "scene", made))] = (name, trial.scenario)
+        rng = generator(study.study.seed, trial.stream)
+        return task.begin(rng, parameters, aspect, self._scenes[name])
+
+    def _open(self, scene: Scene, level: str) -> TableEyes:
+        name, scenario = self._names[id(scene)]
+        key = f"{name}-{fingerprint(scene, self.study.dynamic)}/{level}"
+        table = self.tables.setdefault(key, Table(len(scene.objects)))
+        if level not in self._draws:
+            self._draws[level] = None if self._draw is None else self._draw(level)
+        return TableEyes(table, scenario, self._draws[level])
 
 
 def fingerprint(scene: Scene, technique: object) -> str:
@@ -115,10 +134,10 @@ class LazyDraw:
 
     def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:
         if self._renderer is None:
-            from renderer.gpu.context import standalone
+            from experiment.driver import open_context
             from renderer.gpu.renderer import Renderer
 
-            self._renderer = Renderer(standalone(), self.size)
+            self._renderer = Renderer(open_context(), self.size)
         return self._renderer.look(scene, camera, technique, self.size)
 
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from experiment.config import load
 from experiment.design import generator
-from experiment.participants.data_mode import play_session, play_trial, trial_row
+from experiment.participants.data_mode import play_session, play_trial
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.places import AHEAD, STRIDES
 from experiment.participants.pool import Pool, fingerprint, same
@@ -25,6 +25,7 @@ from experiment.participants.tables import (
 from experiment.participants.tables import load as load_tables
 from experiment.participants.tables import save as save_tables
 from renderer.visibility import Visibility
+from tasks.catalog import TASKS
 from tasks.controls import orbit, walk
 from tasks.parameters import AbstractParameters, BuildingParameters
 
@@ -144,23 +145,20 @@ def test_on_the_lattice_tables_lead_to_the_same_events(task, level):
     study = small_study()
     trial = trial_of(study, task, level)
     runs = []
-    for lattice in (True, False):
-        pool = Pool(study, 2, shown)
-        if not lattice:
-            pool.eyes = lambda name, trial, scene: _OpenEyes(shown(trial.transparency))
+    for pool in (Pool(study, 2, shown), OpenEyes(study, 2)):
         person = SimulatedParticipant(np.random.default_rng(3), without=["motor_noise"])
-        runs.append(play_trial(person, pool, trial, 0.0, ASPECT, keep=True)[0])
-    with_tables, with_eyes = runs
-    assert len(with_tables.events) > 10
-    assert with_tables.events == with_eyes.events
-    assert with_tables.outcome == with_eyes.outcome
+        runs.append(play_trial(person, pool, trial))
+    (tables, tables_events), (eyes, eyes_events) = runs
+    assert len(tables_events) > 10
+    assert tables_events == eyes_events
+    assert tables == eyes
 
 
-class _OpenEyes:
+class OpenEyes(Pool):
     """Looks from where the camera is."""
 
-    def __init__(self, draw):
-        self.look = draw
+    def look(self, view, level):
+        return shown(level)(view.scene, view.camera)
 
 
 def test_tables_made_beforehand_play_the_same_without_drawing(tmp_path):
@@ -173,15 +171,15 @@ def test_tables_made_beforehand_play_the_same_without_drawing(tmp_path):
     using = Pool(study, 2)
     using.load(tmp_path / "pool.npz")
     again = play_session(study, 1, 5, using)
-    rows = [[trial_row(study, 1, t) for t in s] for s in (first, again)]
-    assert rows[0] == rows[1]
-    assert len({r["row_id"] for r in rows[0]}) == len(rows[0]) == 8
+    assert first.trials == again.trials and first.questions == again.questions
+    assert len({r["row_id"] for r in first.trials}) == len(first.trials) == 8
+    assert first.status == "complete"
 
 
 def test_a_table_belongs_to_its_scene_and_technique():
     study = small_study()
-    _, state = Pool(study, 2).begin(trial_of(study, "count", "dynamic"), ASPECT)
-    scene = state.scene
+    trial = trial_of(study, "count", "dynamic")
+    scene = Pool(study, 2).begin(TASKS["count"], trial, ASPECT).scene
     moved = scene.objects[0].transform.copy()
     moved[0, 3] += 0.001
     objects = (type(scene.objects[0])(scene.objects[0].mesh, moved), *scene.objects[1:])
@@ -191,8 +189,8 @@ def test_a_table_belongs_to_its_scene_and_technique():
 
 
 def test_an_empty_pool_is_refused():
-    with pytest.raises(ValueError, match=r"pool = 0: expected at least 1 scene a task"):
-        Pool(small_study(), 0)
+    with pytest.raises(ValueError, match=r"pool = -1: expected at least 1 scene a task"):
+        Pool(small_study(), -1)
 
 
 @pytest.mark.parametrize("task", ["count", "pattern", "unique", "count_in_building"])
@@ -205,16 +203,15 @@ def test_off_the_lattice_the_measures_are_equivalent(task):
     """
     study = small_study()
     trial = trial_of(study, task, "dynamic")
-    with_tables, with_eyes = Pool(study, 16, shown), Pool(study, 16, shown)
-    with_eyes.eyes = lambda name, trial, scene: _OpenEyes(shown("dynamic"))
+    with_tables, with_eyes = Pool(study, 16, shown), OpenEyes(study, 16)
     times, errors = [], []
     for seed in range(16):
         trial = replace(trial, stream=(*trial.stream[:-1], seed))
         runs = [
-            play_trial(SimulatedParticipant(generator(seed, (2,))), pool, trial, 0.0, ASPECT)
+            play_trial(SimulatedParticipant(generator(seed, (2,))), pool, trial)[0]
             for pool in (with_tables, with_eyes)
         ]
-        times.append([run.time for run, _ in runs])
-        errors.append([run.outcome.count_error or 0 for run, _ in runs])
+        times.append([run.time for run in runs])
+        errors.append([run.outcome.count_error or 0 for run in runs])
     assert abs(np.diff(np.log(np.mean(times, axis=0)))[0]) < 0.10
     assert abs(np.diff(np.mean(errors, axis=0))[0]) <= 0.5
