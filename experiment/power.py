@@ -33,8 +33,11 @@ class Effect(Protocol):
     def draw(self, rng: Generator, replications: int, n: int) -> Array:
         """Values of n participants, again and again."""
 
-    def dz(self) -> float | None:
-        """Mean over s.d. of the difference, where differences are normal; else None."""
+    def found(self, values: Array, alpha: float) -> NDArray[np.bool_]:
+        """(replications,) whether the study's test is significant; `values` (…, n, 2)."""
+
+    def exact(self, n: int, alpha: float) -> float | None:
+        """Power with n participants in closed form, where there is one."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,14 @@ class NormalEffect:
         a, b = self.sds
         return (self.means[0] - self.means[1]) / (a * a + b * b - 2 * self.r * a * b) ** 0.5
 
+    def found(self, values: Array, alpha: float) -> NDArray[np.bool_]:
+        """By the F test of the contrast."""
+        return rejections(values, alpha)
+
+    def exact(self, n: int, alpha: float) -> float:
+        """By the noncentral F."""
+        return closed_form(self.dz(), n, alpha)
+
 
 @dataclass(frozen=True, eq=False)
 class SampledEffect:
@@ -75,7 +86,11 @@ class SampledEffect:
         """Whole participants, so that their two values stay together."""
         return self.values[rng.integers(len(self.values), size=(replications, n))]
 
-    def dz(self) -> None:
+    def found(self, values: Array, alpha: float) -> NDArray[np.bool_]:
+        """By the F test of the contrast."""
+        return rejections(values, alpha)
+
+    def exact(self, n: int, alpha: float) -> None:
         """Unknown: nothing says that the differences are normal."""
         return
 
@@ -120,12 +135,10 @@ def power(effect: Effect, n: int, replications: int, alpha: float, rng: Generato
     """Power with n participants. Raises ValueError for n < 2."""
     if n < 2:
         raise ValueError(f"participants = {n}, expected at least 2")
-    found = int(rejections(effect.draw(rng, replications, n), alpha).sum())
+    found = int(effect.found(effect.draw(rng, replications, n), alpha).sum())
     interval = share_interval(found, replications)
     assert isinstance(interval, tuple)
-    dz = effect.dz()
-    exact = None if dz is None else closed_form(dz, n, alpha)
-    return Power(effect.name, n, found / replications, *interval, exact)
+    return Power(effect.name, n, found / replications, *interval, effect.exact(n, alpha))
 
 
 def curve(

@@ -11,27 +11,38 @@ from analysis.cells import Cells
 from analysis.errors import DataError
 from analysis.load.study import load_study
 from experiment.errors import InputError
-from experiment.power import SampledEffect
+from experiment.power import Effect, SampledEffect
+from experiment.power_ranks import RankEffect
 
 LEVELS = ("standard", "dynamic")
 
 
-def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect]:
-    """Times, errors and distances of a folder's participants. Raises InputError."""
+def sampled(folder: Path, source: str = "simulated") -> list[Effect]:
+    """Times, errors, right answers, distances and ratings of a folder's participants.
+
+    Each with the test that the analysis makes of it. Raises InputError.
+    """
     try:
-        trials = load_study(folder, source).trials
+        study = load_study(folder, source)
     except DataError as error:
         raise InputError(f"--effect = {folder}: {error}") from None
+    trials = study.trials
     if tuple(measures.design(trials)["transparency"]) != LEVELS:
         raise InputError(f"--effect = {folder}: expected trials of both transparency levels")
     times = measures.time_by_task(trials)
-    effects = [_effect("time, overall", measures.over_tasks(times))]
+    effects: list[Effect] = [_effect("time, overall", measures.over_tasks(times))]
     effects += [_effect(f"time {task}", times, task) for task in times.factors["task"]]
     errors = measures.relative_error(trials)
     effects += [_effect(f"relative error {task}", errors, task) for task in errors.factors["task"]]
     if (trials["task"] == "unique").any():
         effects.append(_effect("distance unique", measures.distance(trials)))
-    if any(len(e.values) < 2 for e in effects):
+    if "pattern" in times.factors["task"]:
+        correct = measures.share_correct(trials)
+        effects.append(RankEffect(_effect("right answers pattern", correct, "pattern")))
+    asked = measures.rating(study.questionnaire)
+    if asked.values.size:
+        effects.append(RankEffect(_effect("rating, overall", asked)))
+    if any(len(e.people.values if isinstance(e, RankEffect) else e.values) < 2 for e in effects):
         raise InputError(f"--effect = {folder}: expected at least 2 complete participants")
     return effects
 

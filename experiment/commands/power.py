@@ -75,12 +75,14 @@ def _sizes(text: str) -> list[int]:
 
 
 def _effects(source: str):  # type: ignore[no-untyped-def]
-    from experiment.power import published
+    from experiment import power, power_ranks
 
     if source == "published":
-        return published(), (
+        return [*power.published(), *power_ranks.published()], (
             "Participants are drawn from normal populations with the paper's printed means and "
-            "s.d. and the correlation that its F implies (paper 004, tables 3 and 4)."
+            "s.d. and the correlation that its F implies (paper 004, tables 3 and 4); for the "
+            "ratings, whose correlation is not printed, r = 0. Right answers and preference are "
+            "drawn with replacement from the only 16 people that fit what is printed."
         )
     from experiment.power_data import sampled
 

@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy import stats
 
 from analysis.stats.anova import repeated_measures
+from analysis.stats.ranks import friedman
+from experiment import power_ranks
+from experiment.config import load
+from experiment.design import session_for
+from experiment.participants import batch
 from experiment.power import (
     NormalEffect,
     SampledEffect,
@@ -15,6 +21,8 @@ from experiment.power import (
     published,
     rejections,
 )
+from experiment.power_data import sampled
+from experiment.power_ranks import RankEffect, trinomial_power
 
 SHIFT = NormalEffect("shift", (0.5, 0.0), (1.0, 1.0), 0.5)
 
@@ -102,3 +110,71 @@ def test_identical_conditions_are_no_effect():
 def test_what_makes_no_sense_is_refused(build, message):
     with pytest.raises(ValueError, match=message):
         build()
+
+
+def test_what_is_significant_by_ranks_is_significant_to_the_analysis():
+    rng = np.random.default_rng(5)
+    values = rng.integers(0, 3, (60, 14, 2)) + np.array([0, 0.0])
+    values[30:, :, 1] += rng.integers(0, 3, (30, 14))
+    found = RankEffect(SampledEffect("x", values[0])).found(values, 0.05)
+    expected = []
+    for table in values:
+        exact = friedman(table, rng).exact
+        expected.append(isinstance(exact, float) and exact < 0.05)
+    assert found.tolist() == expected and 0 < sum(expected) < 60
+
+
+def test_rank_tests_agree_with_the_trinomial_and_that_with_scipy():
+    people = SampledEffect("x", np.array([[0.0, 1.0]] * 6 + [[1.0, 0.0]] * 2 + [[1.0, 1.0]] * 2))
+    normal = RankEffect(NormalEffect("y", (1.0, 0.0), (1.0, 1.0), 0.2))
+    for effect in (RankEffect(people), normal):
+        for point in curve([effect], (8, 16, 30), 4000, 0.05, 3):
+            error = max((point.exact * (1 - point.exact) / 4000) ** 0.5, 1 / 4000)
+            assert abs(point.found - point.exact) < 4 * error
+    # Without ties: the binomial's own tails. 12 of 14 is significant (p = .013), 11 is not.
+    win = normal.chances()[0]
+    tails = stats.binom.sf(11, 14, win) + stats.binom.cdf(2, 14, win)
+    assert_allclose(trinomial_power(win, 1 - win, 14, 0.05), tails, rtol=1e-9)
+    assert trinomial_power(0.0, 0.0, 20, 0.05) == 0
+
+
+def test_the_papers_rank_tested_people_have_its_moments():
+    correct, rating, preferred = power_ranks.published()
+    values = correct.people.values
+    assert_allclose(values.mean(axis=0), 0.963, atol=6e-4)  # printed to three places
+    assert_allclose(values.std(axis=0, ddof=1), (0.109, 0.150), atol=6e-4)
+    assert sorted(c * 16 for c in correct.chances()) == [1, 1]  # so that Friedman's p is 1
+    assert_allclose(preferred.people.values[:, 1].mean() * 16, 15.5)
+    assert rating.exact(16, 0.05) > 0.99  # "Friedman p < .01" with 16
+
+
+def test_a_folder_gives_every_test_the_analysis_makes(tmp_path):
+    study = load("demo")
+    rows = []
+    rng = np.random.default_rng(1)
+    for slot in range(1, 5):
+        for task_set in session_for(slot, study.design.factors()):
+            for trial in task_set.trials:
+                rows.append(_trial(trial, slot, rng))
+    batch.write(tmp_path, batch.Batch("demo", 1, 1), study, (1, 2, 3, 4), rows)
+    names = [e.name for e in sampled(tmp_path)]
+    assert names == [
+        "time, overall", "time count", "time pattern", "time unique", "time count_in_building",
+        "relative error count", "relative error count_in_building", "distance unique",
+        "right answers pattern (Friedman)",
+    ]  # fmt: skip
+
+
+def _trial(trial, slot, rng):
+    answer = {"count": "20", "count_in_building": "6", "pattern": "C", "unique": ""}[trial.task]
+    counts = trial.task.startswith("count")
+    return {
+        "row_id": f"simulated-S{slot:02d}-1-trial{trial.number:03d}", "study": "demo",
+        "participant": f"S{slot:02d}", "session": 1, "source": "simulated", "slot": slot,
+        "trial": trial.number, "block": trial.block, "task_set": trial.task_set,
+        "trial_in_set": trial.in_set, "attempt": 1, "transparency": trial.transparency,
+        "scenario": trial.scenario, "task": trial.task, "scene": trial.scene, "targets": 20,
+        "time": float(rng.uniform(5, 50)), "time_clean": 5.0, "timed_out": False, "frames": 9,
+        "answer": answer, "truth": answer, "correct": bool(rng.random() < 0.7),
+        "count_error": 0 if counts else None, "distance": None if trial.task != "unique" else 3.0,
+    }  # fmt: skip
