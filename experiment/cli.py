@@ -60,6 +60,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except InputError as error:
         print(f"seethrough: {one_line(str(error))}", file=sys.stderr)
         return 2
+    except OSError as error:
+        if error.filename is None:
+            raise
+        print(f"seethrough: {one_line(f'{error.filename}: {error.strerror}')}", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         print("seethrough: interrupted; every completed trial is saved", file=sys.stderr)
         return 130

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
+from experiment.errors import InputError
 from experiment.pages import Answers, Page
 from tasks.base import View
 from tasks.events import Event
@@ -12,6 +13,16 @@ from tasks.events import Event
 
 class Leave(Exception):
     """The participant or the experimenter ends the session now."""
+
+
+class DisplayLost(InputError):
+    """The graphics context is gone: the driver was reset or updated, or ran out of memory."""
+
+    def __init__(self, said: str) -> None:
+        super().__init__(
+            f"display: the graphics driver gave up ({said}); every completed trial is saved: "
+            "go on with the same --participant"
+        )
 
 
 class Display(Protocol):

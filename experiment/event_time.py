@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import Any
 
 MOST_LAG = 1.0  # s; an event that claims to be older waited for the program, or another clock runs
 WRAP = 2**32  # ms
@@ -32,3 +33,16 @@ class EventTime:
             if lag <= MOST_LAG:
                 return now - lag
         return now
+
+
+# X11's numbers of KeyPress, KeyRelease, ButtonPress, ButtonRelease and MotionNotify.
+_X11_KEYS, _X11_BUTTONS, _X11_MOTION = (2, 3), (4, 5), 6
+
+
+def x11_stamp(event: Any) -> int | None:
+    """Milliseconds, or None for an event that carries no time."""
+    if event.type in _X11_KEYS:
+        return int(event.xkey.time)
+    if event.type in _X11_BUTTONS:
+        return int(event.xbutton.time)
+    return int(event.xmotion.time) if event.type == _X11_MOTION else None

@@ -11,7 +11,7 @@ from experiment.config import Study
 from experiment.display import Input
 from experiment.provenance import provenance
 from experiment.recorder import FileRecorder, Who
-from experiment.resume import starting_point
+from experiment.resume import going_on, starting_point
 from experiment.session import World, run_session
 from experiment.texts import Texts
 from experiment.trial import TrialRecord
@@ -37,6 +37,8 @@ def play_in_window(
     simulated participant, it plays and somebody looks on; without, the window's own events count.
     """
     start = starting_point(study, data, source, participant, slot)
+    if start.session > 1:
+        print(going_on(study, start), file=sys.stderr, flush=True)
     texts = Texts(study.study.language, study.texts)
     window = Window(study.display, texts, clock, study.study.title)
     window.stage.pilot = source == "pilot"

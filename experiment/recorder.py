@@ -170,7 +170,7 @@ class FileRecorder:
             raise refused(error, path) from None
 
     def close(self, status: str) -> None:
-        """Close the files and note how the session ended: `complete`, `left` or `time limit`."""
+        """Close the files and note how the session ended (experiment/session.py)."""
         with ExitStack() as last:  # from the last to the first; an error in one stops no other
             last.callback(self._end, status)
             for file in (self._trials, self._questions, self._notes, self._traces):

@@ -84,6 +84,16 @@ def starting_point(study: Study, data: Path, source: str, participant: str, slot
     return Start(before.sessions + 1, before.slot, done, before.attempts)
 
 
+def going_on(study: Study, start: Start) -> str:
+    """A line for the experimenter: where an interrupted session goes on."""
+    sets = session_for(start.slot, study.design.factors())
+    coming = [t for s in sets for t in s.trials if t.number not in start.done]
+    where = f"trial {coming[0].number}, part {coming[0].task_set} of {len(sets)}" if coming else ""
+    again = sum(t.number in start.attempts for t in coming)
+    said = f"session {start.session} goes on at {where or 'the questionnaire'}"
+    return f"{said}; {again} trials of a broken block are played again" if again else said
+
+
 def already_done(task_sets: tuple[TaskSet, ...], past_: Past, policy: str) -> frozenset[int]:
     """Numbers of the trials that need not be played again.
 

@@ -15,7 +15,7 @@ from experiment import questionnaire
 from experiment.clock import Clock
 from experiment.config import Study
 from experiment.design import TaskSet, Trial, session_for
-from experiment.display import Display, Input, Leave
+from experiment.display import Display, DisplayLost, Input, Leave
 from experiment.pages import Page, Paragraph, Picture
 from experiment.scenes import StudyScenes
 from experiment.trial import TrialRecord, TrialRun
@@ -44,7 +44,7 @@ class Recorder(Protocol):
         """A note of the experimenter's: on disk when this returns."""
 
     def close(self, status: str) -> None:
-        """The session ended: `complete`, `left` or `time limit`."""
+        """The session ended: `complete`, `left`, `time limit` or `display lost`."""
 
 
 class TimeIsUp(Leave):
@@ -65,7 +65,7 @@ class World:
 
 
 def run_session(study: Study, slot: int, world: World, done: frozenset[int] = frozenset()) -> str:
-    """Run a slot's session: `complete`, `left` or `time limit`.
+    """Run a slot's session: `complete`, `left` or `time limit`. Raises DisplayLost.
 
     Trials numbered in `done` are not played again (experiment/resume.py).
     """
@@ -75,6 +75,9 @@ def run_session(study: Study, slot: int, world: World, done: frozenset[int] = fr
         status = "complete"
     except TimeIsUp:
         status = "time limit"
+    except DisplayLost:
+        status = "display lost"
+        raise
     except Leave:
         pass  # the caller and the record are told by the status
     finally:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import moderngl
@@ -15,10 +18,10 @@ from pyglet.window import key, mouse
 
 from experiment.clock import Clock
 from experiment.config import DisplayTable
-from experiment.display import Leave
+from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for
 from experiment.errors import InputError
-from experiment.event_time import EventTime
+from experiment.event_time import EventTime, x11_stamp
 from experiment.page_drawing import Form
 from experiment.pages import Answers, Page
 from experiment.stage import Stage
@@ -62,6 +65,12 @@ _KEYS = {
 }
 
 
+# What the driver's refusals are raised as, and the errors after which no picture can be trusted:
+# GL_CONTEXT_LOST is newer than the version that moderngl names the errors of.
+BROKEN = (moderngl.Error, pyglet.gl.GLException, pyglet.gl.ContextException)
+GONE = ("GL_UNKNOWN_ERROR", "GL_OUT_OF_MEMORY")
+
+
 class Window:
     """Display and Input of a session. Raises InputError where no window can be opened."""
 
@@ -69,6 +78,8 @@ class Window:
         self.clock = clock
         self.period = 1.0 / table.refresh
         self._window = _open(table, title)
+        if _ON_X11:
+            _say_when_the_server_goes()
         self.context = moderngl.create_context(require=330)
         samples = samples_for(table.samples, self.context)
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, samples)
@@ -96,13 +107,15 @@ class Window:
         """Draw a view and flip; the time of the flip."""
         self._window.set_exclusive_mouse(view.captured)
         self.technique = technique
-        self.stage.draw_view(view, technique, self.context.screen, self._passed)
+        with self._graphics():
+            self.stage.draw_view(view, technique, self.context.screen, self._passed)
         self.on_frame()
         return self._flip()
 
     def digest(self) -> str:
         """A digest of the picture shown last, without its HUD."""
-        return self.stage.digest()
+        with self._graphics():
+            return self.stage.digest()
 
     def progress(self, fraction: float) -> None:
         """Draw the progress line up to `fraction` from now on."""
@@ -119,7 +132,7 @@ class Window:
             "refresh_declared": f"{1 / self.period:g}",
             "refresh_of_screen": str(rate or "unknown"),
             "window": "yes",
-            "input_time": "X11 event time, 1 ms" if _has_stamps() else "dispatch, one frame",
+            "input_time": "X11 event time, 1 ms" if _ON_X11 else "dispatch, one frame",
         }
 
     # Input
@@ -177,11 +190,13 @@ class Window:
         """Close the window."""
         self.stage.interface.close()
         self._window.remove_handlers(self)
-        self._window.close()
+        with suppress(*BROKEN):  # its context is lost: there is nothing left to give back
+            self._window.close()
 
     def _draw_page(self, form: Form) -> bool:
         self._pump()
-        pressed = self.stage.draw_form(form, self.context.screen, self._passed)
+        with self._graphics():
+            pressed = self.stage.draw_form(form, self.context.screen, self._passed)
         self.on_frame()
         self._flip()
         return pressed
@@ -195,9 +210,20 @@ class Window:
         self._window.switch_to()
         self._window.dispatch_events()
 
+    @contextmanager
+    def _graphics(self) -> Iterator[None]:
+        """Raises DisplayLost where the driver refuses, or says that the context is no more."""
+        try:
+            yield
+        except BROKEN as error:
+            raise DisplayLost(str(error)) from error
+        if (said := self.context.error) in GONE:
+            raise DisplayLost(said)
+
     def _flip(self) -> float:
         """Flip, and pace: a display without a vertical retrace returns from the flip at once."""
-        self._window.flip()
+        with self._graphics():
+            self._window.flip()
         early = self._flipped + self.period - time.perf_counter()
         if early > 0:
             time.sleep(early)
@@ -312,24 +338,11 @@ class _StampedWindow(pyglet.window.Window):
     def _stamped(self, dispatch: Callable[[Any], None], event: Any) -> None:
         if self.event_time is None:
             return dispatch(event)
-        self.event_time.stamp = _x11_stamp(event)
+        self.event_time.stamp = x11_stamp(event)
         try:
             return dispatch(event)
         finally:
             self.event_time.stamp = None
-
-
-# X11's numbers of KeyPress, KeyRelease, ButtonPress, ButtonRelease and MotionNotify.
-_X11_KEYS, _X11_BUTTONS, _X11_MOTION = (2, 3), (4, 5), 6
-
-
-def _x11_stamp(event: Any) -> int | None:
-    """Milliseconds, or None for an event that carries no time."""
-    if event.type in _X11_KEYS:
-        return int(event.xkey.time)
-    if event.type in _X11_BUTTONS:
-        return int(event.xbutton.time)
-    return int(event.xmotion.time) if event.type == _X11_MOTION else None
 
 
 def _open(table: DisplayTable, title: str) -> pyglet.window.Window:
@@ -355,8 +368,21 @@ def measured_refresh(window: Window, flips: int = 60) -> float:
     return flips / (time.perf_counter() - start)
 
 
-def _has_stamps() -> bool:
-    return hasattr(pyglet.window.Window, "dispatch_platform_event")
+_ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
+_kept_handlers: list[Any] = []  # Xlib does not keep them
+
+
+def _say_when_the_server_goes() -> None:
+    """Xlib ends the program when its server does: with one line of ours instead of its own."""
+    from pyglet.libs.x11 import xlib
+
+    def end(_: Any) -> int:
+        line = "seethrough: display: the desktop went away; every completed trial is saved"
+        print(line, file=sys.stderr, flush=True)
+        os._exit(2)
+
+    _kept_handlers.append(xlib.XIOErrorHandler(end))
+    xlib.XSetIOErrorHandler(_kept_handlers[-1])
 
 
 def available() -> bool:

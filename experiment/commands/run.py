@@ -70,13 +70,19 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
             with Ledger.open(data, url, plan, _now()) as ledger:
                 ledger.cancel(entry.participant)
         raise
-    if status != "left":
-        with Ledger.open(data, url, plan, _now()) as ledger:
-            if status == "complete":
-                ledger.complete(entry.participant, _now())
-            else:
-                # Nobody goes on after the study's own limit: the row is free for somebody else.
-                ledger.void(entry.participant, status, _now())
+    try:
+        if status != "left":
+            with Ledger.open(data, url, plan, _now()) as ledger:
+                if status == "complete":
+                    ledger.complete(entry.participant, _now())
+                else:
+                    # Nobody goes on after the study's own limit: the row is somebody else's.
+                    ledger.void(entry.participant, status, _now())
+    except InputError as error:
+        later = ": `seethrough status` enters it" if status == "complete" else ""
+        raise InputError(
+            f"{error}; the session of {entry.participant} is {status} on disk{later}"
+        ) from None
     return entry.participant, status
 
 

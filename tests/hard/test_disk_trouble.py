@@ -8,16 +8,15 @@ import csv
 import errno
 import json
 import os
-import pwd
 import re
 import stat
 import subprocess
 import sys
 import tempfile
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from disks import nobody, small_disk
 
 from experiment.chain import verify
 from experiment.columns import TRIALS, Column
@@ -104,20 +103,6 @@ def is_one_line(run, pattern):
     assert re.fullmatch(rf"seethrough: [^\n]*{pattern}[^\n]*\n", run.stderr), run.stderr
 
 
-@contextmanager
-def small_disk(folder, kilobytes):
-    """A disk of this size where this user may mount one; yields the largest file elsewhere."""
-    folder.mkdir(parents=True, exist_ok=True)
-    mount = ["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k,mode=755", "tmpfs", str(folder)]
-    if os.geteuid() or subprocess.run(mount, capture_output=True, check=False).returncode:
-        yield 1024 * kilobytes // 40
-        return
-    try:
-        yield 0
-    finally:
-        subprocess.run(["umount", str(folder)], check=True)
-
-
 # Sizes at which the disk is full in different files: traces, a row, the sidecar, the first folder.
 @pytest.mark.parametrize("kilobytes", [2000, 900, 300, 100, 48, 12, 4])
 def test_a_full_disk_keeps_every_completed_trial(tmp_path, kilobytes):
@@ -172,8 +157,7 @@ def test_a_folder_in_which_nothing_may_be_made_is_one_line():
         closed.mkdir()
         for folder, mode in ((closed, 0o555), (closed.parent, 0o755)):
             folder.chmod(mode)
-        user = 0 if os.geteuid() else pwd.getpwnam("nobody").pw_uid
-        is_one_line(record(closed / "study", user=user), "cannot be written: Permission denied")
+        is_one_line(record(closed / "study", user=nobody()), "cannot be written: Permission denied")
         assert list(closed.iterdir()) == []
 
 

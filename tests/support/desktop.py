@@ -83,10 +83,10 @@ class Desktop:
 class Program:
     """`seethrough …` on a desktop; what it says is read from its log as it comes."""
 
-    def __init__(self, desktop, log, *words):
+    def __init__(self, desktop, log, *words, start=(sys.executable, "-m", "experiment")):
         self.log = Path(log)
         self._file = open(self.log, "w", encoding="utf-8")
-        command = [sys.executable, "-m", "experiment", *map(str, words)]
+        command = [*map(str, start), *map(str, words)]
         self.process = subprocess.Popen(
             command, env=desktop.env, stdout=self._file, stderr=self._file, stdin=subprocess.DEVNULL
         )

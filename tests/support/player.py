@@ -36,11 +36,11 @@ def has_window(desktop, title):
     return subprocess.run(search, env=desktop.env, capture_output=True, timeout=20).returncode == 0
 
 
-def open_session(desktop, study_file, data, title, *words):
-    """Start participant P01's session and wait for its window."""
+def open_session(desktop, study_file, data, title, *words, **how):
+    """Start participant P01's session and wait for its window; `how` as Program takes it."""
     log = data.with_suffix(f".{len(list(data.parent.glob('*.log')))}.log")
     command = ["run", study_file, "--participant", "P01", "--data", data, *words]
-    program = Program(desktop, log, *command)
+    program = Program(desktop, log, *command, **how)
     try:
         shown = lambda: has_window(desktop, title) or not program.running()  # noqa: E731
         wait_until(shown, START, "the window")

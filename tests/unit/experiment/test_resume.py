@@ -6,7 +6,7 @@ from experiment.config import load
 from experiment.design import session_for
 from experiment.errors import InputError
 from experiment.recorder import FileRecorder, Who
-from experiment.resume import already_done, past, starting_point
+from experiment.resume import already_done, going_on, past, starting_point
 from experiment.trial import TrialRecord
 from tasks.base import Outcome
 
@@ -41,6 +41,19 @@ def test_an_interrupted_session_goes_on_at_the_start_of_its_block(tmp_path, coun
     assert (start.session, start.slot) == (2, SLOT)  # its own slot, not the one offered
     assert start.done == frozenset(range(1, whole + 1))
     assert start.attempts == dict.fromkeys(range(1, count + 1), 1)
+
+
+@pytest.mark.parametrize(
+    ("count", "said"),
+    [
+        (6, "session 2 goes on at trial 7, part 3 of 8"),
+        (8, "goes on at trial 7, part 3 of 8; 2 trials of a broken block are played again"),
+        (24, "session 2 goes on at the questionnaire"),
+    ],
+)
+def test_the_experimenter_is_told_where_it_goes_on(tmp_path, count, said):
+    played(tmp_path, count)
+    assert going_on(STUDY, starting_point(STUDY, tmp_path, "human", "P01", 9)).endswith(said)
 
 
 def test_by_config_it_goes_on_at_the_trial(tmp_path):

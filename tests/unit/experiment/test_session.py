@@ -7,7 +7,7 @@ import pytest
 
 from experiment.clock import SimulatedClock
 from experiment.config import parse
-from experiment.display import Leave
+from experiment.display import DisplayLost, Leave
 from experiment.session import World, run_session
 from tasks.base import View
 from tasks.catalog import TASKS
@@ -235,6 +235,23 @@ def test_an_error_in_a_task_still_closes_the_record():
         run_session(study(), 1, world)
     assert recorder.status == "left"
     assert Leave is not RuntimeError
+
+
+def test_a_lost_display_ends_the_session_and_is_told_to_the_caller_and_the_record():
+    class Fails(FakeDisplay):
+        def show(self, view, technique):
+            if len(self.shown) == 10:  # in the third trial
+                raise DisplayLost("GL_CONTEXT_LOST")
+            return super().show(view, technique)
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    config = study(design={"trials": 2, "training": 0, "tasks": ["count", "pattern"]})
+    world = World(Fails(clock), ScriptedInput(clock, ANSWERS), clock, recorder, TASKS)
+    with pytest.raises(DisplayLost, match=r"^display: .*\(GL_CONTEXT_LOST\); every completed tr"):
+        run_session(config, 1, world)
+    assert recorder.status == "display lost"
+    assert [r.trial.number for r in recorder.ended] == [1, 2]
 
 
 def test_the_same_slot_gives_the_same_scenes_and_another_slot_others():
