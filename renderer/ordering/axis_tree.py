@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from renderer.ordering.distance import centers
 from renderer.ordering.polygons import Floats, Integers, Polygons, check
 from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
-from renderer.ordering.tree import Tree, subtree_sizes
+from renderer.ordering.tree import EVERYTHING, Tree, tree
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -42,10 +42,9 @@ def prepare(polygons: Polygons) -> PreparedAxisTree:
     planes, children, counts, leaves, depth = _grow(centers(polygons))
     drawn = drawable(polygons.take(leaves), leaves)
     items = drawn.bounds[np.concatenate([[0], np.cumsum(counts)])]
-    tree = Tree(planes, children, items, subtree_sizes(children, np.diff(items)), depth)
     kinds = {"switch": int((children[:, 0] >= 0).sum()), "leaf": int((counts > 0).sum())}
     stats = Stats(inputs=len(polygons), outputs=len(polygons), depth=depth, nodes=kinds)
-    return PreparedAxisTree(drawn, tree, stats)
+    return PreparedAxisTree(drawn, tree(planes, children, items, EVERYTHING, depth), stats)
 
 
 def _grow(points: Floats) -> tuple[Floats, Integers, Integers, Integers, int]:

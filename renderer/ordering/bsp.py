@@ -21,7 +21,7 @@ from renderer.ordering.bsp_kernels import choose, deal
 from renderer.ordering.fragments import CUT, Fragments
 from renderer.ordering.polygons import Floats, Integers, Polygons
 from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
-from renderer.ordering.tree import Tree, subtree_sizes
+from renderer.ordering.tree import AGAINST, ALONG, EITHER, EVERYTHING, Tree, tree
 
 SPLITTERS = ("first", "fewest", "sampled")
 CANDIDATES = 5
@@ -51,12 +51,14 @@ def prepare(
     rng: np.random.Generator | None = None,
     tolerance: float = 0.0,
     halves: bool | None = None,
+    closed: bool = False,
 ) -> PreparedBsp:
     """Build the tree.
 
     `rng` draws the candidates; without one a fixed stream is used. `tolerance` is the distance
     (world units) within which a corner counts as on the plane: 0 is exact, 001 uses 10⁻³.
     `halves` cuts triangles into triangles only (001); by default if all polygons are triangles.
+    `closed` leaves out the faces that look away from the eye: for opaque closed volumes (002).
     Raises ValueError for polygons that `polygons.check` refuses and for an unknown splitter.
     """
     if splitter not in SPLITTERS:
@@ -68,7 +70,7 @@ def prepare(
     fragments = Fragments(polygons, tolerance, halves)
     rule = _Rule(splitter, candidates, rng or np.random.default_rng(np.random.SeedSequence(3)))
     levels = _grow(fragments, rule)
-    return _assemble(fragments, levels, rule.relations)
+    return _assemble(fragments, levels, rule.relations, closed)
 
 
 class _Rule:
@@ -124,7 +126,9 @@ def _grow(fragments: Fragments, rule: _Rule) -> list[_Level]:
     return levels
 
 
-def _assemble(fragments: Fragments, levels: list[_Level], relations: int) -> PreparedBsp:
+def _assemble(
+    fragments: Fragments, levels: list[_Level], relations: int, closed: bool
+) -> PreparedBsp:
     """One array of nodes, and the fragments in the order of their nodes.
 
     Polygons without area define no plane and are never seen: they are kept in a node of their
@@ -146,9 +150,10 @@ def _assemble(fragments: Fragments, levels: list[_Level], relations: int) -> Pre
     drawn = drawable(fragments.polygons(own), fragments.source[own], fragments.planes)
     items = drawn.bounds[np.concatenate([[0], np.cumsum(own_counts)])]
     planes = _node_planes(fragments, [level.splitters for level in levels])
-    tree = Tree(
-        planes, children_all, items, subtree_sizes(children_all, np.diff(items)), len(levels)
-    )
+    facing = EVERYTHING
+    if closed:
+        ways = _ways(fragments, own, planes[np.repeat(np.arange(len(own_counts)), own_counts)])
+        facing = np.repeat(ways, np.diff(drawn.bounds))
     cut_parents = fragments.parent[: fragments.used[1]]
     stats = Stats(
         inputs=int((fragments.parent[: fragments.used[1]] < 0).sum()),
@@ -158,7 +163,18 @@ def _assemble(fragments: Fragments, levels: list[_Level], relations: int) -> Pre
         depth=len(levels),
         nodes={"switch": len(own_counts) - 1},
     )
-    return PreparedBsp(drawn, tree, stats, fragments)
+    return PreparedBsp(
+        drawn, tree(planes, children_all, items, facing, len(levels)), stats, fragments
+    )
+
+
+def _ways(fragments: Fragments, own: Integers, planes: Floats) -> NDArray[np.uint8]:
+    """(m,) which way fragments face, against the planes (m, 4) of their nodes."""
+    normals = fragments.planes[fragments.source[own], 3:6]
+    along = (normals * planes[:, :3]).sum(axis=1)
+    ways = np.where(along > 0, ALONG, AGAINST).astype(np.uint8)
+    ways[~fragments.solid[fragments.source[own]]] = EITHER
+    return ways
 
 
 def _node_planes(fragments: Fragments, splitters: list[Integers]) -> Floats:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.ordering.feudal_stretches import Stretches, write_out
 from renderer.ordering.feudal_tree import Node
 from renderer.ordering.polygons import Floats, Integers
 
@@ -22,28 +22,30 @@ class Program:
     up, F_j towards and B_j away, in the reverse order. `entries` (e,) are polygons and `wanted`
     (e,) the way they must face: 1 towards the eye, 0 away, 2 either way. Node i has the entries
     spans[i, k] to spans[i, k + 1], k = DOWN, SWITCH, UP; `breaks` (e,) marks the first of a class.
-    A closed volume has no entries that look away.
+    A closed volume has no entries that look away. `planes` (m, 4) are the output polygons',
+    `stretches` the same lists written out for a view, as triangles.
     """
 
     planes: Floats
-    triangles: Integers
+    stretches: Stretches
     entries: Integers
     wanted: NDArray[np.uint8]
     breaks: NDArray[np.bool_]
     spans: Integers
     children: Integers
     switches: Integers
-    room: int
     depth: int
 
     def order(self, point: Floats) -> NDArray[np.int32]:
         """Triangles from back to front, seen from a homogeneous point (4,)."""
-        out = np.empty(self.room, np.int32)
-        length = _emit(
-            self.planes, self.triangles, self.entries, self.wanted, self.spans, self.children,
-            self.switches, self.depth, point, out,
+        return self.stretches.order(point)
+
+    def stretches_of(self, bounds: Integers) -> Stretches:
+        """The lists written out with polygon p as the items bounds[p] to bounds[p + 1]."""
+        return write_out(
+            self.planes, bounds, self.entries, self.wanted, self.spans, self.children,
+            self.switches,
         )  # fmt: skip
-        return out[:length]
 
     def classes(self, point: Floats) -> list[Integers]:
         """Polygons in classes, from back to front."""
@@ -83,16 +85,19 @@ def program(
             put(back, 0, len(front) == 0)
         spans[i, 3] = len(entries)
     spans[1:, DOWN] = spans[:-1, 3]
+    lists = (
+        np.array(entries, np.int64),
+        np.array(wanted, np.uint8),
+        spans,
+        np.array([node.children for node in nodes], np.int64).reshape(-1, 2),
+        np.array([node.switch for node in nodes], np.int64),
+    )
     return Program(
-        planes=np.ascontiguousarray(planes),
-        triangles=triangles,
-        entries=np.array(entries, np.int64),
-        wanted=np.array(wanted, np.uint8),
-        breaks=np.array(breaks, bool),
-        spans=spans,
-        children=np.array([node.children for node in nodes], np.int64).reshape(-1, 2),
-        switches=np.array([node.switch for node in nodes], np.int64),
-        room=int(triangles[-1]),
+        planes,
+        write_out(planes, triangles, *lists),
+        *lists[:2],
+        np.array(breaks, bool),
+        *lists[2:],
         depth=_depth(nodes),
     )
 
@@ -139,39 +144,3 @@ def priority_list(made: Program, toward: NDArray[np.bool_]) -> list[Integers]:
             if child >= 0:
                 stack.append((child, DOWN))
     return [np.sort(np.array(c)) for c in classes]
-
-
-@numba.njit(cache=True)
-def _emit(planes, triangles, entries, wanted, spans, children, switches, depth, point, out):
-    """`priority_list` without its classes, as triangles; returns how many."""
-    toward = np.empty(len(planes), np.uint8)
-    for p in range(len(planes)):
-        height = (
-            planes[p, 0] * point[0] + planes[p, 1] * point[1] + planes[p, 2] * point[2]
-            + planes[p, 3] * point[3]
-        )  # fmt: skip
-        toward[p] = 1 if height > 0.0 else 0
-    stack = np.empty((2 * depth + 2, 2), np.int64)
-    stack[0, 0], stack[0, 1] = 0, DOWN
-    top, length = 1, 0
-    while top:
-        top -= 1
-        node, step = stack[top]
-        for e in range(spans[node, step], spans[node, step + 1]):
-            polygon = entries[e]
-            if wanted[e] == 2 or wanted[e] == toward[polygon]:
-                for triangle in range(triangles[polygon], triangles[polygon + 1]):
-                    out[length] = triangle
-                    length += 1
-        if step == UP:
-            continue
-        stack[top, 0], stack[top, 1] = node, step + 1
-        top += 1
-        switch = switches[node]
-        if switch >= 0:
-            far = 1 if toward[switch] else 0
-            child = children[node, far if step == DOWN else 1 - far]
-            if child >= 0:
-                stack[top, 0], stack[top, 1] = child, DOWN
-                top += 1
-    return length

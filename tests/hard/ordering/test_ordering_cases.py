@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -194,14 +196,7 @@ def test_the_tree_scrambled_on_purpose_is_caught(oracle):
     flipped = prepared.tree.children.copy()
     some = rng.random(len(flipped)) < 0.5
     flipped[some] = flipped[some][:, ::-1]
-    scrambled = bsp.PreparedBsp(
-        prepared.drawable,
-        type(prepared.tree)(
-            prepared.tree.planes, flipped, prepared.tree.items, prepared.tree.sizes, 0
-        ),
-        prepared.stats,
-        prepared.cuts,
-    )
+    scrambled = replace(prepared, tree=replace(prepared.tree, children=flipped))
     assert oracle.wrong_pairs(polygons, scrambled, np.random.default_rng(1)) != []
 
 
