@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
+from collections.abc import Sequence
 from datetime import UTC, datetime
+from importlib import metadata
 from pathlib import Path
 
+from experiment import participants
 from experiment.config import load
 from experiment.errors import InputError
 from experiment.participants.profile_file import find, write
@@ -17,59 +21,80 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("study", metavar="STUDY", help="TOML file or name of a shipped study")
     parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="profile to write")
     parser.add_argument("--profile", default="average", help="where to start; default: average")
-    parser.add_argument("--participants", type=int, default=16, metavar="N")
+    parser.add_argument("--participants", type=int, default=48, metavar="N", help="of the fit")
     parser.add_argument("--evaluations", type=int, default=80, metavar="E", help="of the fit")
-    parser.add_argument("--seed", type=int, default=1, metavar="S", help="default: 1")
+    parser.add_argument("--seed", type=int, default=11, metavar="S", help="of the fit; default: 11")
+    parser.add_argument(
+        "--check", type=int, default=64, metavar="N", help="other participants, for the table"
+    )
+    parser.add_argument("--check-seed", type=int, default=1, metavar="S", help="theirs; default: 1")
     parser.add_argument("--tables", type=Path, required=True, metavar="FILE")
     parser.add_argument("--pool", type=int, default=200, metavar="K", help="scenes a task")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Fit, print published beside simulated, write the profile with its provenance."""
-    load(arguments.study)
+    study = load(arguments.study)
     start = find(arguments.profile)
-    for name, low in (("participants", 3), ("evaluations", 1), ("seed", 0), ("pool", 1)):
-        if getattr(arguments, name) < low:
-            raise InputError(f"--{name} = {getattr(arguments, name)}: expected at least {low}")
+    least = {"participants": 3, "evaluations": 1, "seed": 0, "pool": 1, "check": 3, "check_seed": 0}
+    for name, low in least.items():
+        if (value := getattr(arguments, name)) < low:
+            raise InputError(f"--{name.replace('_', '-')} = {value}: expected at least {low}")
     from dataclasses import replace
 
-    from experiment.participants import batch, calibration
+    from experiment.participants import calibration, fitting
 
-    job = batch.Batch(arguments.study, arguments.seed, arguments.pool, arguments.tables, start)
-    batch.prepare(job)
-    slots = range(1, arguments.participants + 1)
-
-    def play(profile):  # type: ignore[no-untyped-def]
-        rows = batch.play_chunk(slots, profile)
-        batch.keep_tables()  # an interrupted fit starts with what has been drawn
-        return rows
-
+    crowd = fitting.Crowd(study, arguments.seed, arguments.participants, arguments.pool)
+    crowd.open(arguments.tables)
     with Progress("calibrating", arguments.evaluations) as progress:
-        best, misfit = calibration.calibrate(
-            start,
-            play,
-            arguments.evaluations,
-            lambda number, value: progress.step(f"misfit {value:.2f}"),
+
+        def say(number: int, value: float) -> None:
+            crowd.pool.save(arguments.tables)  # an interrupted fit starts with what has been drawn
+            progress.step(f"misfit {value:.2f}")
+
+        best, misfit = fitting.calibrate(
+            start, lambda p: crowd.play(p, calibration.FITTED), arguments.evaluations, say
         )
     best = replace(best, name=arguments.out.stem)
-    for line in calibration.table(calibration.measured(play(best))):
+    others = fitting.Crowd(study, arguments.check_seed, arguments.check, arguments.pool, crowd.pool)
+    every = calibration.FITTED + calibration.HELD_OUT
+    table = calibration.table(calibration.measured(others.play(best, every)))
+    crowd.pool.save(arguments.tables)
+    print(f"{arguments.check} other participants, seed {arguments.check_seed}:")
+    for line in table:
         print(line)
-    write(arguments.out, best, _provenance(arguments, start.name, misfit))
+    write(arguments.out, best, _provenance(arguments, start.name, misfit, table))
     print(f"profile: {arguments.out}")
     return 0
 
 
-def _provenance(arguments: argparse.Namespace, start: str, misfit: float) -> dict[str, object]:
+def _provenance(
+    arguments: argparse.Namespace, start: str, misfit: float, table: Sequence[str]
+) -> dict[str, object]:
     from experiment.participants.calibration import FITTED, HELD_OUT
 
     return {
         "command": f"seethrough calibrate {arguments.study} --participants "
         f"{arguments.participants} --evaluations {arguments.evaluations} --seed {arguments.seed} "
-        f"--pool {arguments.pool}",
+        f"--pool {arguments.pool} --check {arguments.check} --check-seed {arguments.check_seed}",
+        "code": _code(),
+        "participants": arguments.participants,
+        "seed": arguments.seed,
         "start": start,
         "fitted": list(FITTED),
         "held_out": list(HELD_OUT),
         "source": "paper 004, table 3: completion times, s.d., and the r that each F implies",
         "misfit": round(misfit, 4),
+        "checked": f"{arguments.check} other participants, seed {arguments.check_seed}",
+        "table": list(table),
         "made": datetime.now(UTC).date().isoformat(),
     }
+
+
+def _code() -> str:
+    """The program's version, and what tells the participants' own code from any other."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(participants.__path__[0]).glob("*.py")):
+        digest.update(path.read_bytes())
+    version = metadata.version("seethrough")
+    return f"seethrough {version}, experiment/participants sha256 {digest.hexdigest()[:12]}"

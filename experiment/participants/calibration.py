@@ -1,21 +1,19 @@
-"""Calibration: a profile whose times come near the published ones, and how near they come.
+"""What simulated times are compared with: the published ones, half of them for fitting.
 
 Half of the measures is fitted (T1 and T4, the counting tasks), the other half (T2 and T3) is held
-out and only reported: it tells whether the profile generalises. Every trial of the search uses
-the same random streams, so that profiles differ and luck does not.
+out and only reported: it tells whether the profile generalises.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from math import exp, log
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from math import log
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.profile import Profile
 from experiment.power import implied_r
 
 LEVELS = ("standard", "dynamic")
@@ -30,16 +28,6 @@ PUBLISHED = {
     "count_in_building": (140.0, 61.75, 40.80, 24.16, 48.61),
 }
 
-# What may be fitted, each within a factor of the starting profile's value.
-FREE = {
-    "pace": 3.0,
-    "recheck": 4.0,
-    "patience": 3.0,
-    "diligence": 4.0,
-    "sd_person": 4.0,
-    "sd_task": 4.0,
-    "sd_trial": 4.0,
-}
 TOLERANCE = {"mean": 0.05, "sd": 0.15, "r": 0.1}  # the benchmark's aims: what counts as 1
 
 
@@ -82,8 +70,10 @@ def _measure(values: NDArray[np.float64]) -> TimeMeasure:
     return TimeMeasure((float(means[0]), float(means[1])), (float(sds[0]), float(sds[1])), r)
 
 
-def misfit(simulated: Mapping[str, TimeMeasure], tasks: Sequence[str] = FITTED) -> float:
-    """Mean squared distance from the published times of `tasks`, in tolerances."""
+def residuals(
+    simulated: Mapping[str, TimeMeasure], tasks: Sequence[str] = FITTED
+) -> NDArray[np.float64]:
+    """Distances from the published times of `tasks`, each in tolerances."""
     terms = []
     for task in tasks:
         ours, theirs = simulated[task], published()[task]
@@ -92,52 +82,12 @@ def misfit(simulated: Mapping[str, TimeMeasure], tasks: Sequence[str] = FITTED) 
         for a, b in zip(ours.sds, theirs.sds, strict=True):
             terms.append(log(max(a, 1e-9) / b) / TOLERANCE["sd"])
         terms.append((ours.r - theirs.r) / TOLERANCE["r"])
-    return float(np.mean(np.square(terms)))
+    return np.array(terms)
 
 
-def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
-    """The profile with its free constants scaled by exp(x), within their bounds."""
-    changes = {}
-    for (name, factor), value in zip(FREE.items(), x, strict=True):
-        scale = exp(float(np.clip(value, -log(factor), log(factor))))
-        changes[name] = getattr(profile, name) * scale
-    changes["diligence"] = min(changes["diligence"], 1.0)
-    return replace(profile, **changes)
-
-
-def calibrate(
-    start: Profile,
-    play: Callable[[Profile], Iterable[Mapping[str, Any]]],
-    evaluations: int,
-    say: Callable[[int, float], None] = lambda number, value: None,
-) -> tuple[Profile, float]:
-    """The best profile found in so many evaluations of `play`, and its misfit (Nelder–Mead)."""
-    from scipy.optimize import minimize
-
-    best: list[Any] = [np.inf, start]
-    number = 0
-
-    def cost(x: NDArray[np.float64]) -> float:
-        nonlocal number
-        profile = with_free(start, x)
-        value = misfit(measured(play(profile)))
-        # Outside of the bounds constants stay at them: a slope leads back.
-        value += float(np.sum(np.maximum(np.abs(x) - np.log(list(FREE.values())), 0)))
-        number += 1
-        if value < best[0]:
-            best[:] = [value, profile]
-        say(number, best[0])
-        return value
-
-    n = len(FREE)
-    simplex = np.vstack([np.zeros(n), 0.4 * np.eye(n)])
-    minimize(
-        cost,
-        np.zeros(n),
-        method="Nelder-Mead",
-        options={"maxfev": evaluations, "initial_simplex": simplex, "xatol": 0.01, "fatol": 0.01},
-    )
-    return best[1], float(best[0])
+def misfit(simulated: Mapping[str, TimeMeasure], tasks: Sequence[str] = FITTED) -> float:
+    """Mean squared distance from the published times of `tasks`, in tolerances."""
+    return float(np.mean(np.square(residuals(simulated, tasks))))
 
 
 def table(simulated: Mapping[str, TimeMeasure]) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import exp
 
+import numpy as np
 from numpy.random import Generator
 
 from experiment.participants.effects import EffectUse, plan_effects
@@ -58,8 +59,13 @@ class Mood:
 
 
 def mood_for(person: Person, task: str, now: float) -> Mood:
-    """The person at the start of a trial at `now`; counts the trial as experience."""
+    """The person at the start of a trial at `now`; counts the trial as experience.
+
+    Each trial has a stream of its own, named by the task and how often it was done: two profiles,
+    or a person with and without an effect, meet each trial with the same luck.
+    """
     done = person.experience.get(task, 0)
+    rng = _stream(person.rng, TASKS.index(task) if task in TASKS else len(TASKS), done)
     person.experience[task] = done + 1
     if person.began is None:
         person.began = now
@@ -71,5 +77,13 @@ def mood_for(person: Person, task: str, now: float) -> Mood:
     spread = p.sd_trial if effects["trial_noise"].used else 0.0
     if effects["fatigue"].used:
         spread *= 1 + p.fatigue * (now - person.began) / 3600
-    pace *= exp(spread * person.rng.standard_normal())
-    return Mood(person.rng, p, effects, pace, person.care)
+    pace *= exp(spread * rng.standard_normal())
+    return Mood(rng, p, effects, pace, person.care)
+
+
+def _stream(rng: Generator, *key: int) -> Generator:
+    """The stream of that name below the person's own; drawing from one moves no other."""
+    own = rng.bit_generator.seed_seq
+    return np.random.default_rng(
+        np.random.SeedSequence(own.entropy, spawn_key=(*own.spawn_key, *key))
+    )

@@ -10,16 +10,14 @@ from numpy.testing import assert_allclose
 from experiment.errors import InputError
 from experiment.participants import batch
 from experiment.participants.calibration import (
-    FREE,
     LEVELS,
     TimeMeasure,
-    calibrate,
     measured,
     misfit,
     published,
     table,
-    with_free,
 )
+from experiment.participants.fitting import FREE, calibrate, with_free
 from experiment.participants.profile import AVERAGE
 from experiment.participants.profile_file import SHIPPED, find, read, write
 

@@ -1,0 +1,162 @@
+"""Fitting: a profile whose times come near the published ones.
+
+Every evaluation uses the same random streams, trial by trial, so that profiles differ and luck
+does not. Means come first: times are nearly proportional to the pace.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
+from math import exp, log
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from experiment.config import Study
+from experiment.design import SIMULATED, generator, session_for
+from experiment.participants.calibration import (
+    FITTED,
+    TimeMeasure,
+    measured,
+    misfit,
+    published,
+    residuals,
+)
+from experiment.participants.data_mode import play_trial
+from experiment.participants.participant import SimulatedParticipant
+from experiment.participants.pool import LazyDraw, Pool
+from experiment.participants.profile import Profile
+
+Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
+
+# What may be fitted, each within a factor of the starting profile's value.
+FREE = {
+    "pace": 3.0,  # decisions: all mental times
+    "recheck": 4.0,  # thoroughness: telling a thing as counted already
+    "patience": 3.0,  # thoroughness: views without news before a count is believed
+    "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
+    "trust": 1.6,  # caution: how far a view through walls is believed
+    "sd_person": 4.0,
+    "sd_task": 4.0,
+    "sd_trial": 4.0,
+    "sd_care": 4.0,
+}
+STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
+PACES = 1  # evaluations that correct the pace alone
+
+
+class Crowd:
+    """The same people playing a study in data mode again and again, with one profile or another.
+
+    Scenes and tables are those of `pool`, or of a new one that draws what it lacks.
+    """
+
+    def __init__(
+        self, study: Study, seed: int, count: int, size: int, pool: Pool | None = None
+    ) -> None:
+        aspect = study.display.width / study.display.height
+        self.study, self.seed, self.slots = study, seed, range(1, count + 1)
+        self.pool = Pool(study, size, LazyDraw(study, aspect)) if pool is None else pool
+
+    def open(self, tables: Path) -> None:
+        """Read tables that are there already."""
+        if tables.exists():
+            self.pool.load(tables)
+
+    def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, Any]]:
+        """Who, which task and level, and how long: every trial of `tasks`, after its training."""
+        rows = []
+        for slot in self.slots:
+            person = SimulatedParticipant(generator(self.seed, (SIMULATED, slot)), profile)
+            for task_set in session_for(slot, self.study.design.factors()):
+                if task_set.trials[0].task not in tasks:
+                    continue
+                for trial in task_set.training:
+                    play_trial(person, self.pool, trial)
+                for trial in task_set.trials:
+                    time = play_trial(person, self.pool, trial)[0].time
+                    rows.append(
+                        {"participant": slot, "task": trial.task,
+                         "transparency": trial.transparency, "time": time}
+                    )  # fmt: skip
+        return rows
+
+
+def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
+    """The profile with its free constants scaled by exp(x), within their bounds."""
+    changes = {}
+    for (name, factor), value in zip(FREE.items(), x, strict=True):
+        scale = exp(float(np.clip(value, -log(factor), log(factor))))
+        changes[name] = getattr(profile, name) * scale
+    for share in ("diligence", "trust"):
+        changes[share] = min(changes[share], 1.0)
+    return replace(profile, **changes)
+
+
+def calibrate(
+    start: Profile,
+    play: Play,
+    evaluations: int,
+    say: Callable[[int, float], None] = lambda number, value: None,
+) -> tuple[Profile, float]:
+    """The best profile found in about so many evaluations of `play`, and its misfit.
+
+    First the pace is corrected by how far the fitted means are off, then scipy's least squares
+    (trust region reflective) moves all of `FREE`, with derivatives over `STEP`.
+    """
+    best: list[Any] = [np.inf, start]
+    number = 0
+
+    def found(x: NDArray[np.float64]) -> dict[str, TimeMeasure]:
+        nonlocal number
+        profile = with_free(start, x)
+        simulated = measured(play(profile))
+        value = misfit(simulated)
+        number += 1
+        if value < best[0]:
+            best[:] = [value, profile]
+        say(number, best[0])
+        return simulated
+
+    x = np.zeros(len(FREE))
+    for _ in range(min(PACES, evaluations - 1)):
+        x[0] -= _too_slow(found(x))
+    _least_squares(lambda x: residuals(found(x)), x, evaluations - number)
+    return best[1], float(best[0])
+
+
+def _too_slow(simulated: Mapping[str, TimeMeasure]) -> float:
+    """By how much the fitted means are too long: the mean logarithm of their ratios."""
+    ratios = [
+        ours / theirs
+        for task in FITTED
+        for ours, theirs in zip(simulated[task].means, published()[task].means, strict=True)
+    ]
+    return float(np.mean(np.log(ratios)))
+
+
+def _least_squares(
+    found: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    x: NDArray[np.float64],
+    evaluations: int,
+) -> None:
+    from scipy.optimize import least_squares
+
+    if evaluations < 1:
+        return
+    bounds = np.log(list(FREE.values()))
+    # Each derivative takes as many evaluations as there are constants; scipy counts steps alone.
+    steps = max(1, evaluations // (1 + len(FREE)))
+    # Its steps of derivation are shares of x: those of 1 + x are about `STEP` everywhere.
+    least_squares(
+        lambda z: found(z - 1),
+        np.clip(x, -0.99 * bounds, 0.99 * bounds) + 1,
+        bounds=(1 - bounds, 1 + bounds),
+        diff_step=STEP,
+        max_nfev=steps,
+        xtol=0.01,
+        ftol=0.01,
+    )
