@@ -130,9 +130,9 @@ _LIMITS = {
 }
 
 AVERAGE = Profile()
-# Speed is traded for accuracy by the criterion at which one answers (Wickelgren 1977): care and pace
-# go together. The factors are ours, within what `sd_person` and `sd_care` say of people; so is that
-# novices have twice the average's way to go in practice and unsteadier hands.
+# Speed is traded for accuracy by the criterion at which one answers (Wickelgren 1977): care and
+# pace go together. The factors are ours, within what `sd_person` and `sd_care` say of people; so is
+# that novices have twice the average way to go in practice and unsteadier hands.
 PROFILES: Mapping[str, Profile] = {
     "average": AVERAGE,
     "careful": replace(AVERAGE, name="careful", care=1.6, pace=1.15, diligence=0.02),
