@@ -45,9 +45,10 @@ def name_letter(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
         glance = yield hands.take()
         if side:
             learn_gain(hands, yaw, heading(glance.view)[0], side)
-        cones = _cones(mood, glance)
-        _remember(mood, glance, cones, places)
-        hands.wait(len(cones) * (p.attention_shift + saccade(0.1, mood)))
+        red = red_things(mood, glance)
+        _remember(mood, glance, _cones(mood, glance, red), places)
+        # Colour guides the eyes to what is red; a shape takes attention, thing by thing.
+        hands.wait(len(red) * (p.attention_shift + p.search_slope + saccade(0.1, mood)))
         hands.wait(p.letter_turning * mood.rng.random())
         chances = letter_chances(np.array([np.mean(v, axis=0) for v in places.values()]))
         if max(chances.values()) > 1 - (1 - p.certainty) / mood.care:
@@ -59,9 +60,8 @@ def name_letter(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
     yield hands.take()
 
 
-def _cones(mood: Mood, glance: Glance) -> NDArray[np.int64]:
+def _cones(mood: Mood, glance: Glance, red: NDArray[np.int64]) -> NDArray[np.int64]:
     """Red things taken for cones: told by their shape where it is clear, else guessed."""
-    red = red_things(mood, glance)
     clear = recognised(glance.look(), red, mood)
     guess = mood.rng.random(len(red)) < MISTAKEN_SHAPE
     cone = np.array([glance.view.scene.objects[i].kind == "cone" for i in red], dtype=bool)
