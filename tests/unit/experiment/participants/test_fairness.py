@@ -1,9 +1,12 @@
 """A simulated participant gains nothing from transparency where nothing is hidden."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from experiment.participants.participant import SimulatedParticipant
+from renderer import geometry
 from renderer.gpu.context import standalone
 from renderer.gpu.renderer import Renderer
 from renderer.scene import Object, Scene
@@ -11,11 +14,11 @@ from renderer.techniques.dynamic import DynamicTransparency
 from renderer.techniques.standard import Standard
 from renderer.transforms import placed
 from tasks.abstract_scene import RED, unit_mesh
+from tasks.building import count_building, unique_building
 from tasks.catalog import TASKS
-from tasks.parameters import AbstractParameters
+from tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
-TASK = TASKS["count"]
 
 
 @pytest.fixture(scope="module")
@@ -43,22 +46,32 @@ def walled_world():
     return Scene((*open_world().objects, *boxes))
 
 
-def play(renderer, scene, technique, seed):
-    """Events and outcome of one count."""
-    state = TASK.begin(np.random.default_rng(1), AbstractParameters(), ASPECT, scene)
+def one_room(name):
+    """Three things far apart in a building of one room: whatever is in the view is seen whole."""
+    parameters = BuildingParameters(grid=4, room=4, objects=3, count=(2, 2))
+    models = {"ball": lambda: geometry.sphere(0.8), "block": lambda: geometry.box(1, 1.5, 2)}
+    make = unique_building if name == "unique" else count_building
+    return parameters, make(np.random.default_rng(0), parameters, models)
+
+
+def play(renderer, scene, technique, seed, name="count", seen=lambda sight: sight):
+    """Events and outcome of one trial; `seen` changes what the eyes report."""
+    task = TASKS[name]
+    parameters, world = (AbstractParameters(), scene) if name == "count" else scene
+    state = task.begin(np.random.default_rng(1), parameters, ASPECT, world)
     participant = SimulatedParticipant(np.random.default_rng(seed))
-    participant.begin_trial("count", 0.0)
+    participant.begin_trial(name, 0.0)
     now, events = 0.0, []
-    while TASK.outcome(state) is None:
-        view = TASK.view(state)
+    while task.outcome(state) is None:
+        view = task.view(state)
         batch = participant.events(
-            view, lambda v=view: renderer.look(v.scene, v.camera, technique), now, "count"
+            view, lambda v=view: seen(renderer.look(v.scene, v.camera, technique)), now, name
         )
         for event in batch:
-            state = TASK.on_event(state, event)
+            state = task.on_event(state, event)
         now = batch[-1].time
         events += batch
-    return events, TASK.outcome(state)
+    return events, task.outcome(state)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -67,6 +80,26 @@ def test_where_nothing_is_hidden_the_techniques_are_equal_event_for_event(render
     first = play(renderer, open_world(), Standard(), seed)
     second = play(renderer, open_world(), DynamicTransparency(), seed)
     assert first == second
+
+
+@pytest.mark.parametrize("name", ["unique", "count_in_building"])
+@pytest.mark.parametrize("seed", range(2))
+def test_walkers_gain_nothing_either_where_nothing_is_hidden(renderer, name, seed):
+    first = play(renderer, one_room(name), Standard(), seed, name)
+    second = play(renderer, one_room(name), DynamicTransparency(), seed, name)
+    assert first == second and first[1].correct is not None
+
+
+def test_an_advantage_of_one_thing_in_one_look_would_be_noticed(renderer):
+    """The comparison can fail: whoever misses one of four red things does something else."""
+
+    def without_first(sight):
+        pixels = sight.pixels.copy()
+        pixels[0] = 0
+        return replace(sight, pixels=pixels)
+
+    whole = play(renderer, open_world(), DynamicTransparency(), 0)
+    assert play(renderer, open_world(), Standard(), 0, seen=without_first) != whole
 
 
 def test_what_is_hidden_is_counted_only_through_transparency(renderer):
