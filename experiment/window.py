@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from math import inf
 from typing import Any
 
 import moderngl
@@ -22,6 +23,7 @@ from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for
 from experiment.errors import InputError
 from experiment.event_time import EventTime, x11_stamp
+from experiment.key_names import KEY_NAMES
 from experiment.page_drawing import Form
 from experiment.pages import Answers, Page
 from experiment.stage import Stage
@@ -39,31 +41,7 @@ from tasks.events import (
     Tick,
 )
 
-_KEYS = {
-    key.LEFT: "left",
-    key.RIGHT: "right",
-    key.UP: "up",
-    key.DOWN: "down",
-    key.RETURN: "enter",
-    key.ENTER: "enter",
-    key.NUM_ENTER: "enter",
-    key.SPACE: "space",
-    key.BACKSPACE: "backspace",
-    key.DELETE: "delete",
-    key.ESCAPE: "escape",
-    key.TAB: "tab",
-    key.F1: "f1",
-    key.HOME: "home",
-    key.END: "end",
-    key.PAGEUP: "pageup",
-    key.PAGEDOWN: "pagedown",
-    key.LSHIFT: "shift",
-    key.RSHIFT: "shift",
-    **{getattr(key, f"_{d}"): str(d) for d in range(10)},
-    **{getattr(key, f"NUM_{d}"): str(d) for d in range(10)},
-    **{getattr(key, c.upper()): c for c in "abcdefghijklmnopqrstuvwxyz"},
-}
-
+_KEYS = {getattr(key, theirs): ours for theirs, ours in KEY_NAMES.items()}
 
 # What the driver's refusals are raised as, and the errors after which no picture can be trusted:
 # GL_CONTEXT_LOST is newer than the version that moderngl names the errors of.
@@ -89,6 +67,7 @@ class Window:
         self._events: list[Event] = []
         self._down: set[str] = set()
         self._form: Form | None = None
+        self._form_shown = inf  # when its first frame was
         self._closed = False
         self._flipped = time.perf_counter()
         self._passed = self.period
@@ -153,7 +132,8 @@ class Window:
     def ask(self, page: Page) -> Answers:
         """Show a page until it is answered; Esc asks whether to leave. Raises Leave."""
         self._window.set_exclusive_mouse(False)
-        form = self._form = Form(page)
+        form, self._form_shown = Form(page), inf
+        self._form = form
         self._events.clear()
         # Keys that were down in the view before, and whose release went elsewhere, are up now.
         self.stage.interface.io.clear_input_keys()
@@ -198,7 +178,7 @@ class Window:
         with self._graphics():
             pressed = self.stage.draw_form(form, self.context.screen, self._passed)
         self.on_frame()
-        self._flip()
+        self._form_shown = min(self._form_shown, self._flip())
         return pressed
 
     def _escape_pressed(self) -> bool:
@@ -231,6 +211,10 @@ class Window:
         self._passed, self._flipped = now - self._flipped, now
         return self.clock.now()
 
+    def _blind(self) -> bool:
+        """Whether the event came before anybody saw the page: meant for the one before it."""
+        return self._form is not None and self._when.time() < self._form_shown
+
     # pyglet's events. Its pixels count from the lower left corner of the window.
 
     def _at(self, x: float, y: float) -> tuple[float, float]:
@@ -258,7 +242,7 @@ class Window:
 
     def on_mouse_press(self, x: int, y: int, button: int, _: int) -> None:
         """A button went down."""
-        if button == mouse.LEFT:
+        if button == mouse.LEFT and not self._blind():
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, True)
             self._events.append(PointerPress(self._when.time(), *self._at(x, y)))
@@ -277,7 +261,7 @@ class Window:
     def on_key_press(self, symbol: int, _: int) -> bool:
         """A key went down. Handled: pyglet would close the window on Esc."""
         name = _KEYS.get(symbol)
-        if name:
+        if name == "escape" or (name and not self._blind()):
             self.stage.interface.key(name, True)
             self._events.append(KeyPress(self._when.time(), name))
             self._down.add(name)
@@ -293,7 +277,7 @@ class Window:
 
     def on_text(self, text: str) -> None:
         """Characters typed, for text fields."""
-        if self._form is not None:
+        if self._form is not None and not self._blind():
             # Enter and Tab arrive as keys already.
             printable = "".join(c for c in text if c.isprintable())
             self.stage.interface.io.add_input_characters_utf8(printable)

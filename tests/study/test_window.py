@@ -2,11 +2,13 @@
 
 import csv
 import os
+import re
 import signal
+import sys
 from pathlib import Path
 
 import pytest
-from desktop import Desktop, wait_until
+from desktop import Desktop, Program, wait_until
 from player import ARTEFACTS, START, answer, drag, fill_in, open_session, trials_of
 
 from experiment import cli
@@ -31,6 +33,33 @@ grid = 6
 objects = 8
 count = [1, 3]
 types = ["chair", "table", "cat"]
+"""
+
+
+# Enter is pressed and released while the page's first frame is drawn, and again in its tenth.
+HASTY = """
+from pyglet.window import key
+from experiment.clock import RealClock
+from experiment.config import load
+from experiment.pages import Page
+from experiment.texts import Texts
+from experiment.window import Window
+
+window = Window(load("demo").display, Texts("en"), RealClock(), "hasty")
+frames = 0
+
+def frame():
+    global frames
+    frames += 1
+    if frames in (1, 10):
+        window.on_key_press(key.RETURN, 0)
+    if frames in (2, 11):
+        window.on_key_release(key.RETURN, 0)
+
+window.on_frame = frame
+window.ask(Page("welcome", "welcome.title"))
+print("answered after", frames)
+window.close()
 """
 
 
@@ -88,11 +117,11 @@ def test_killed_twice_gone_on_with_verified_and_reported(desktop, study_file, tm
             begin = {3: 0, 5: 2}[kept]
             for number, trial in enumerate(trials[begin:kept], start=1):
                 answer(desktop, program, trial.task, number)
-            desktop.keys("Return")  # the next trial begins
             session = {3: 1, 5: 2}[kept]
             name = f"session-{session}_trial-{kept + 1:03d}_events.csv"
             traces = data / "data/human/P01/traces" / name
-            wait_until(traces.exists, START, "the next trial")
+            begun = lambda: desktop.keys("Return") or traces.exists()  # noqa: B023, E731
+            wait_until(begun, START, "the next trial")
             os.kill(program.process.pid, signal.SIGKILL)
             program.process.wait(10)
         assert [int(r["trial"]) for r in rows(data)][-1] == kept
@@ -110,6 +139,12 @@ def test_killed_twice_gone_on_with_verified_and_reported(desktop, study_file, tm
         assert cli.main(words) == 0, capsys.readouterr().out
     assert cli.main(["report", str(data), "--out", str(tmp_path / "report")]) == 0
     assert (tmp_path / "report" / "report.html").exists()
+
+
+def test_keys_from_before_a_page_is_seen_do_not_answer_it(desktop, tmp_path):
+    with Program(desktop, tmp_path / "log", start=(sys.executable, "-c", HASTY)) as program:
+        wait_until(lambda: not program.running(), START, "the end")
+        assert re.fullmatch(r"answered after 1[1-9]\n", program.said()), program.said()
 
 
 def test_escape_asks_saves_and_leaves(desktop, study_file, tmp_path):
