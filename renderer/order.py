@@ -322,6 +322,28 @@ def merge(boxes):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
+def hold(parts, boxes, triangles, worth):  # type: ignore[no-untyped-def]
+    """(k, 4) parts, each widened to hold the (n, 4) boxes that reach into it whole, as long as
+    that adds fewer than `worth` pixels for each of their `triangles` (n,)."""
+    rows = parts.copy()
+    for p in range(len(rows)):
+        moved = True
+        while moved:
+            moved = False
+            for i in range(len(boxes)):
+                a, b = rows[p], boxes[i]
+                if a[0] >= b[2] or a[2] <= b[0] or a[1] >= b[3] or a[3] <= b[1]:
+                    continue
+                left, top = min(a[0], b[0]), min(a[1], b[1])
+                right, bottom = max(a[2], b[2]), max(a[3], b[3])
+                added = (right - left) * (bottom - top) - (a[2] - a[0]) * (a[3] - a[1])
+                if 0 < added < worth * triangles[i]:
+                    rows[p, 0], rows[p, 1], rows[p, 2], rows[p, 3] = left, top, right, bottom
+                    moved = True
+    return rows
+
+
+@njit(cache=True)
 def apart(extents):  # type: ignore[no-untyped-def]
     """(n,) a set for each of the (n, 4) boxes so that those of one set nowhere overlap."""
     n = len(extents)

@@ -34,11 +34,13 @@ SHORTCUTS = {
     "counting": "layers are counted only where they could take more light than is allowed",
     "outside": "large objects are blended only where masks are, and drawn opaque elsewhere",
     "parts": "only parts of the picture whose order is in doubt are sorted by pixel",
+    "held": "objects that lie in a part sorted by pixel are drawn there alone",
     "still": "a frame in which nothing changed is shown again",
 }
 
 MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
 WORTH = 64  # pixels to save by drawing a triangle once more
+SORTED = 8  # pixels to sort more for a triangle less
 
 # Why an object is drawn as it is (FramePlan.reasons).
 OUTSIDE, OPAQUE, HARD, BLENDED = range(4)
@@ -58,7 +60,8 @@ class FramePlan:
 
     The first level holds masks only. `masked` are all targets that get a mask, `reach` (n, 4)
     what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
-    parts of the picture (left, top, right, bottom) to sort by pixel. `wide` are blended objects
+    parts of the picture (left, top, right, bottom) to sort by pixel; objects that are `held` show
+    nowhere else and are drawn by that alone. `wide` are blended objects
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
     else. `boxes` are the extents of all objects. `reasons` (n,) say why each object is drawn as it
     is, `behind` (n,) which target it is that makes it blend (−1: none).
@@ -76,6 +79,7 @@ class FramePlan:
     without: frozenset[str] = field(default_factory=frozenset)
     wide: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
     holes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 4), np.int64))
+    held: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @property
     def ordered(self) -> int:
@@ -140,7 +144,8 @@ def plan(
     if not masked.any() and not blended.any():
         return base
     if technique.per_pixel_only:
-        return replace(base, exact=_parts(reach[masked], technique, size, without))
+        parts = _parts(reach[masked], technique, size, without)
+        return _held(base, parts, scene.triangle_counts, size)
     return _with_levels(
         base,
         seen,
@@ -238,7 +243,7 @@ def _with_levels(
     keep[base.opaque] = True
     holes = _holes(reach[masked], size)
     if len(parts) and _area(parts) > MOSTLY * _area(merged_parts(reach[masked], size)):
-        return replace(base, exact=merged_parts(reach[masked], size))
+        return _held(base, merged_parts(reach[masked], size), triangles, size)
     return replace(
         base,
         opaque=np.nonzero(keep & ~blended)[0],
@@ -246,6 +251,31 @@ def _with_levels(
         exact=parts,
         wide=_wide(base, np.nonzero(blended)[0], holes, triangles, size),
         holes=holes,
+    )
+
+
+def _held(
+    base: FramePlan, parts: NDArray[np.int64], triangles: Indices, size: tuple[int, int]
+) -> FramePlan:
+    """The plan that sorts these parts by pixel, and draws no object there that lies in one.
+
+    Parts are widened about objects of many triangles: to draw those twice would cost more.
+    """
+    if "held" in base.without or not len(parts):
+        return replace(base, exact=parts)
+    boxes = base.boxes.extents[base.opaque]
+    low = np.clip(np.floor(boxes[:, :2]) - 1, 0, size)
+    high = np.clip(np.ceil(boxes[:, 2:]) + 1, 0, size)
+    boxes = np.concatenate([low, high], axis=1)
+    wider = order.hold(parts.astype(float), boxes, triangles[base.opaque], SORTED)
+    parts = order.merge(wider)
+    inside = (parts[:, None, :2] <= low).all(axis=2) & (parts[:, None, 2:] >= high).all(axis=2)
+    held = inside.any(axis=0)
+    return replace(
+        base,
+        exact=parts.astype(np.int64),
+        opaque=base.opaque[~held],
+        held=base.opaque[held],
     )
 
 

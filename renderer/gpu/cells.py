@@ -19,6 +19,7 @@ class Cells:
         dtype: str,
         depth: bool,
         numbers: bool = False,
+        components: int = 4,
     ) -> None:
         self._limit = context.info["GL_MAX_TEXTURE_SIZE"]
         self._arrange(size, max(count, 1))
@@ -26,7 +27,7 @@ class Cells:
         width = max(self.whole[0], min(self._limit, WIDTH))
         self._room = (width, min(self._limit, self.whole[1] + self.whole[1] // 4))
         whole = self._room
-        self.color = context.texture(whole, 4, dtype=dtype)
+        self.color = context.texture(whole, components, dtype=dtype)
         self.depth = context.depth_texture(whole) if depth else None
         self.numbers = context.texture(whole, 1, dtype="f4") if numbers else None
         for texture in (self.color, self.depth, self.numbers):
@@ -46,9 +47,13 @@ class Cells:
         self.columns = max(1, min(min(self._limit, WIDTH) // size[0], count))
         self.whole = (self.columns * size[0], -(-count // self.columns) * size[1])
 
-    def lay_out(self, size: tuple[int, int], count: int, dtype: str, numbers: bool) -> bool:
+    def lay_out(
+        self, size: tuple[int, int], count: int, dtype: str, numbers: bool, components: int = 4
+    ) -> bool:
         """Arrange cells of another size or number, if they fit."""
-        if self.color.dtype != dtype or (self.numbers is not None) != numbers:
+        if (self.color.dtype, self.color.components) != (dtype, components):
+            return False
+        if (self.numbers is not None) != numbers:
             return False
         self._arrange(size, max(count, 1))
         return self.whole[0] <= self._room[0] and self.whole[1] <= self._room[1]
@@ -59,9 +64,13 @@ class Cells:
         self._emptied.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=(0, 0, *self.whole))
         self.framebuffer.use()
 
+    def corner(self, k: int) -> tuple[int, int]:
+        """The texel x, y (up) where cell k begins."""
+        return k % self.columns * self.size[0], k // self.columns * self.size[1]
+
     def select(self, k: int, corner: tuple[int, int], frame: tuple[int, int]) -> None:
         """Draw into cell k what the frame shows from `corner` (x, y up) on."""
-        x, y = k % self.columns * self.size[0], k // self.columns * self.size[1]
+        x, y = self.corner(k)
         self.framebuffer.viewport = (x - corner[0], y - corner[1], *frame)
         self.framebuffer.scissor = (x, y, *self.size)
 

@@ -55,10 +55,11 @@ class DistancePainter:
         technique: DynamicTransparency,
         width: float,
         size: tuple[int, int],
+        blocks: NDArray[np.bool_] | None = None,
     ) -> int:
-        """Draw what the masks look up; `runs` draw each of the `covered` targets. Returns the draw
-        calls made."""
-        self._made, self._width, self._size = made, width, size
+        """Draw what the masks look up; `runs` draw each of the `covered` targets. Sets the `blocks`
+        of pixels that the masks of closed meshes touch. Returns the draw calls made."""
+        self._made, self._width, self._size, self._blocks = made, width, size, blocks
         if not len(made.looped) and not len(made.covered):
             return 0
         whole = (tiles.WIDTH, made.height)
@@ -140,15 +141,13 @@ class DistancePainter:
             x, y = self._made.shift[t].tolist()
             tile = (left - x, height - (top - y), right - left, top - bottom)
             mesh = table.meshes[table.slot[t]]
-            return contours.distances(
-                mesh.topology,
-                mesh.edges,
-                _pose(table, t, camera),
-                lens,
-                tile,
-                self._width,
-                straight,
+            pose = _pose(table, t, camera)
+            found = contours.distances(
+                *(mesh.topology, mesh.edges, pose, lens, tile, self._width, straight)
             )
+            if self._blocks is not None:
+                contours.mark(found, tile[0], int(tile[1]), self._width, self._blocks)
+            return found
 
         used = int(self._made.tile[:, 2].max(initial=1))
         found = np.full((whole[1], used), contours.FAR, np.float32)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from renderer import order
 from renderer.camera import Camera
 from renderer.gpu.cells import MOST, Cells
+from renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS, Filled, PixelSorter
 from renderer.gpu.mask_painter import MaskPainter
 from renderer.gpu.programs import Shader, program
 from renderer.gpu.scene_table import SceneTable
@@ -24,7 +25,8 @@ from renderer.plan import FramePlan, impenetrable
 from renderer.techniques.dynamic import DynamicTransparency
 
 TEXELS = 24_000_000  # of all slices of one part: what is larger is drawn in bands
-_COLORS, _DEPTHS, _MASKS, _PARTS, _NUMBERS, _SURFACES = 5, 6, 7, 8, 9, 10
+# Rasterisation may reach a pixel beyond the box of the exact coordinates.
+_SLACK = np.array([-1.0, -1.0, 1.0, 1.0])
 _PER_ROW, _SURFACES_PER_ROW = 1024, 4096
 
 
@@ -50,8 +52,8 @@ class ExactPainter:
             flag: program(context, "object.vert", "slice.frag", ["WITH_SURFACES"] * flag)
             for flag in (False, True)
         }
-        self._masks = MaskPainter(context, ["CELLS"])
-        self._programs: dict[tuple[str, bool], tuple[Shader, moderngl.VertexArray]] = {}
+        self._painters: dict[bool, MaskPainter] = {}
+        self._sorter = PixelSorter(context)
         self._slices: Cells | None = None
         self._entries: Cells | None = None
         self._textures: dict[str, moderngl.Texture] = {}
@@ -66,11 +68,11 @@ class ExactPainter:
         for parts in self._batches(job, whole):
             draws += self._fill(job, parts)
             target.use()
+            filled, every = self._filled(job), len(job.frame.held) > 0
             for k, part in enumerate(parts):
                 target.scissor = _gl(part, job.size)
-                self._resolve(job, part, k, "OUTPUT_PICTURE")
+                draws += self._sorter.sort(filled, part, k, self._masks.blocks, every)
             target.scissor = None
-            draws += len(parts)
             passes += 2
         return passes, draws
 
@@ -87,7 +89,7 @@ class ExactPainter:
         found = []
         for first in range(0, self._slice_base[1], 8):
             framebuffer.use()
-            self._resolve(job, whole[0], 0, "OUTPUT_SHARES", first)
+            self._sorter.whole(self._filled(job), whole[0], 0, "OUTPUT_SHARES", first)
             for k in range(4):
                 data = framebuffer.read(components=4, attachment=k, dtype="f4", alignment=1)
                 rows = np.frombuffer(data, "f4").reshape(job.size[1], job.size[0], 4)[::-1]
@@ -100,6 +102,11 @@ class ExactPainter:
 
     def _prepare(self, job: ExactJob) -> tuple[int, int]:
         """Mask geometry and the pictures of distances."""
+        caps = job.technique.min_transmittance > 0
+        if caps not in self._painters:
+            defines = ["CELLS"] + ["WITH_CAPS"] * caps
+            self._painters[caps] = MaskPainter(self._context, defines)
+        self._masks = self._painters[caps]
         covers = self._masks.prepare(
             job.table, job.frame, job.camera, job.technique, job.width, job.size
         )
@@ -139,12 +146,20 @@ class ExactPainter:
         entries: list[NDArray[np.int64]] = []
         corners: tuple[list[tuple[int, int]], list[tuple[int, int]]] = ([], [])
         self._slice_base, self._mask_base = [0], [0]
+        # For each cell of masks: the cells of its targets, the part's first one and how many.
+        owners: list[NDArray[np.int64]] = []
+        bases: list[tuple[int, int]] = []
         for part in parts:
             corner = (int(part[0]), int(job.size[1] - part[3]))
             objects, which = _sets(job, part)
             targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
             reach = np.ascontiguousarray(job.frame.reach[targets])
             mask = order.apart(reach) if len(targets) else np.zeros(0, np.int64)
+            slice_of = np.full(len(job.frame.reach), -1)
+            slice_of[objects] = which + self._slice_base[-1]
+            count = int(mask.max(initial=-1)) + 1
+            owners += [slice_of[targets[mask == k]] for k in range(count)]
+            bases += [(self._slice_base[-1], int(which.max(initial=-1)) + 1)] * count
             for found, cells, numbers, where, base in (
                 (objects, slices, which, corners[0], self._slice_base),
                 (targets, entries, mask, corners[1], self._mask_base),
@@ -159,7 +174,7 @@ class ExactPainter:
                 where += [corner] * count
                 base.append(base[-1] + count)
         draws = self._fill_slices(job, size, slices, corners[0])
-        return draws + self._fill_masks(job, size, entries, corners[1])
+        return draws + self._fill_masks(job, size, entries, corners[1], owners, bases)
 
     def _fill_slices(self, job, size, parts, corners):  # type: ignore[no-untyped-def]
         surfaces = job.technique.granularity == "surface"
@@ -179,28 +194,39 @@ class ExactPainter:
         self._slices.framebuffer.scissor = None
         return sum(len(part) for part in runs)
 
-    def _fill_masks(self, job, size, parts, corners):  # type: ignore[no-untyped-def]
-        self._entries = self._cells(self._entries, size, len(parts), "f4", False, False)
+    def _fill_masks(self, job, size, parts, corners, owners, bases):  # type: ignore[no-untyped-def]
+        """Draw the entries of all masks, which look up where their targets show."""
+        components = 2 if job.technique.granularity == "pixel" else 4
+        self._entries = self._cells(self._entries, size, len(parts), "f4", False, False, components)
         self._context.enable_only(moderngl.NOTHING)
-        shader = self._masks.mask
-        depths = _window_depth(job)
+        shader, slices = self._masks.mask, self._slices
+        depths, extents = _window_depth(job), job.frame.boxes.extents + _SLACK
         self._masks.begin()
+        slices.depth.use(DEPTHS)
+        slices.color.use(COLORS)
+        self._textures["parts"].use(PARTS)
+        shader.set(depths=DEPTHS, colors=COLORS, parts=PARTS, tau=job.technique.min_transmittance)
+        shader.set(cell=size, row_end=slices.columns * size[0])
+        shader.set(per_pixel=components == 2, additive=job.technique.model == "additive")
         for k, targets in enumerate(parts):
             self._entries.select(k, corners[k], job.size)
             x, y = self._entries.framebuffer.scissor[:2]
             shader.set(shift=(corners[k][0] - x, corners[k][1] - y))
-            for t in targets.tolist():
-                shader.set(beside=float(depths[t]), target=t)
+            shader.set(first_way=_way(slices, bases[k][0], corners[k]), slices=bases[k][1])
+            for t, owner in zip(targets.tolist(), owners[k].tolist(), strict=True):
+                place = extents[t] if owner >= 0 else (0.0, 0.0, 0.0, 0.0)
+                shader.set(beside=float(depths[t]), target=t, extents=tuple(place))
+                shader.set(way=_way(slices, max(owner, 0), corners[k]))
                 self._masks.draw_one(t)
         self._entries.framebuffer.scissor = None
         return sum(len(targets) for targets in parts)
 
-    def _cells(self, old, size, count, dtype, depth, numbers):  # type: ignore[no-untyped-def]
+    def _cells(self, old, size, count, dtype, depth, numbers, components=4):  # type: ignore[no-untyped-def]
         """Empty, bound cells: the old ones if they serve."""
-        if old is None or not old.lay_out(size, count, dtype, numbers):
+        if old is None or not old.lay_out(size, count, dtype, numbers, components):
             if old is not None:
                 old.release()
-            old = Cells(self._context, size, count, dtype, depth, numbers)
+            old = Cells(self._context, size, count, dtype, depth, numbers, components)
         old.clear()
         return old
 
@@ -261,7 +287,7 @@ class ExactPainter:
         texture = self._context.texture(cells.whole, 1, dtype="f4")
         framebuffer = self._context.framebuffer([texture])
         framebuffer.use()
-        self._resolve(job, part, 0, "OUTPUT_LIGHT")
+        self._sorter.whole(self._filled(job), part, 0, "OUTPUT_LIGHT")
         light = np.frombuffer(framebuffer.read(components=1, dtype="f4", alignment=1), "f4")
         framebuffer.release()
         texture.release()
@@ -272,64 +298,26 @@ class ExactPainter:
         data = cells.framebuffer.read(part_of, 4, dtype="f4", alignment=1)
         return light, np.frombuffer(data, "f4")[3::4]
 
-    def _resolve(
-        self, job: ExactJob, part: NDArray[np.int64], number: int, output: str, first: int = 0
-    ) -> None:
-        """Sort every pixel of a part, the batch's `number`th, into the bound framebuffer."""
-        surfaces = job.technique.granularity == "surface"
-        key = (output, surfaces)
-        if key not in self._programs:
-            defines = [output] + ["WITH_SURFACES"] * surfaces
-            shader = program(self._context, "present.vert", "exact.frag", defines)
-            self._programs[key] = (shader, self._context.vertex_array(shader.program, []))
-        shader, array = self._programs[key]
-        if number == 0:
-            self._set_resolve(job, shader, output == "OUTPUT_LIGHT")
-        a, b = self._slice_base[number : number + 2]
-        c, d = self._mask_base[number : number + 2]
-        origin = (int(part[0]), int(job.size[1] - part[3]))
-        shader.set(slice_base=a, slices=b - a, mask_base=c, mask_count=d - c, origin=origin)
-        shader.set(**{"from": first})
-        self._context.enable_only(moderngl.NOTHING)
-        array.render(moderngl.TRIANGLES, 3)
-
-    def _set_resolve(self, job, shader, light):  # type: ignore[no-untyped-def]
-        slices, entries, technique = self._slices, self._entries, job.technique
-        textures = (
-            ("colors", _COLORS, slices.color),
-            ("depths", _DEPTHS, slices.depth),
-            ("masks", _MASKS, entries.color),
-            ("parts", _PARTS, self._textures["parts"]),
-            ("numbers", _NUMBERS, slices.numbers),
-            ("surfaces", _SURFACES, self._textures.get("surfaces")),
+    def _filled(self, job: ExactJob) -> Filled:
+        assert self._slices is not None and self._entries is not None
+        return Filled(
+            *(self._slices, self._entries, self._slice_base, self._mask_base, self._textures),
+            *(job.technique, job.table.scene.background, job.size),
         )
-        for name, unit, texture in textures:
-            if texture is not None:
-                texture.use(unit)
-            shader.set(**{name: unit})
-        values = {
-            "cell": slices.size,
-            "columns": slices.columns,
-            "mask_columns": entries.columns,
-            "background": job.table.scene.background,
-            "per_pixel": technique.granularity == "pixel",
-            "least": technique.combine == "min",
-            "additive": technique.model == "additive",
-            "limit": 1_000_000 if technique.layers is None else technique.layers,
-            "tau": technique.min_transmittance,
-        }
-        if light:
-            values["tau"] = max(1.0 - technique.alpha_target, 1e-6)
-        shader.set(**values)
 
 
 def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The objects that a part of the picture shows, and the slice of each."""
     boxes = job.frame.boxes
     objects = np.nonzero(boxes.inside & _overlapping(boxes.extents, part))[0]
-    # Rasterisation may reach a pixel beyond the box of the exact coordinates.
-    grown = np.ascontiguousarray(boxes.extents[objects] + np.array([-1.0, -1.0, 1.0, 1.0]))
+    grown = np.ascontiguousarray(boxes.extents[objects] + _SLACK)
     return objects, order.apart(grown) if len(objects) else np.zeros(0, np.int64)
+
+
+def _way(cells: Cells, k: int, corner: tuple[int, int]) -> tuple[int, int]:
+    """From the frame's pixels (y up) to those of cell k, which shows the frame from `corner` on."""
+    x, y = cells.corner(k)
+    return x - corner[0], y - corner[1]
 
 
 def _overlapping(extents: NDArray[np.float64], part: NDArray[np.int64]) -> NDArray[np.bool_]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
+from renderer.contours import BLOCK
 from renderer.gpu.distance_painter import DistancePainter
 from renderer.gpu.mask_maker import MaskGeometry, mask_geometry
 from renderer.gpu.programs import Shader, program
@@ -24,7 +25,7 @@ class MaskPainter:
     """Masks of one frame at a time; `defines` choose what shaders/mask.frag gives."""
 
     def __init__(self, context: moderngl.Context, defines: Sequence[str] = ()) -> None:
-        self._context = context
+        self._context, self._cells = context, "CELLS" in defines
         self.mask = program(context, "mask.vert", "mask.frag", defines)
         self._distances = DistancePainter(context)
         self._vertices = context.buffer(reserve=1 << 16, dynamic=True)
@@ -51,6 +52,7 @@ class MaskPainter:
         made = mask_geometry(table, frame, camera, technique, width, size)
         self.geometry: MaskGeometry = made
         self._technique, self._width, self._size = technique, width, size
+        self._boxes = np.clip(frame.reach, 0, [*size, *size]) / BLOCK
         rows = zip(made.targets.tolist(), made.first.tolist(), made.count.tolist(), strict=True)
         self._runs = {t: (first, count) for t, first, count in rows}
         if made.vertices.nbytes > self._vertices.size:
@@ -64,8 +66,15 @@ class MaskPainter:
 
     def draw_distances(self, table: SceneTable, runs: list[list[Run]], camera: Camera) -> int:
         """Draw what the masks without a hull look up. Returns the draw calls made."""
+        made = self.geometry
+        self.blocks = np.zeros([-(-s // BLOCK) for s in self._size[::-1]], dtype=bool)
+        for t in np.setdiff1d(made.targets, made.looped).tolist():
+            left, top = np.floor(self._boxes[t, :2]).astype(int).tolist()
+            right, bottom = np.ceil(self._boxes[t, 2:]).astype(int).tolist()
+            self.blocks[top:bottom, left:right] = True
+        marked = self.blocks if self._cells else None
         return self._distances.draw(
-            table, self.geometry, runs, camera, self._technique, self._width, self._size
+            table, made, runs, camera, self._technique, self._width, self._size, marked
         )
 
     def begin(

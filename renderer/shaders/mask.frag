@@ -1,6 +1,6 @@
 // Provides a target's alpha mask, to be multiplied into the frame's alpha (004 §V-D).
-// With CELLS instead a mask's entry for the exact picture: opacity, depth beside the target, the
-// target's number, and 1 where the mask is at its core.
+// With CELLS instead a mask's entry for the exact picture: opacity, depth, the cap on the opacity
+// of what lies in front, and 1 where the mask is at its core. A depth of 0: no mask.
 uniform sampler2D distances;  // Euclidean, in pixels, −1 on the target, in tiles
 uniform sampler2D rings;      // the paper's masks, grids above each other
 uniform sampler2D counts;     // penetrable fragments in front of the farthest target
@@ -13,8 +13,21 @@ uniform float tau;       // least transmittance, 0: no guarantee
 uniform vec4 searchlight;  // x, y in pixels (y up), radius, softness; radius < 0: light everywhere
 uniform ivec2 shift;     // from this picture's pixels to the frame's
 #ifdef CELLS
-uniform float beside;
+uniform sampler2D depths;  // of the objects' fragments, in cells (exact.frag)
+uniform float beside;      // depth where the target does not show
+uniform vec4 extents;      // where the target itself can be: x, y (down), x, y
+uniform ivec2 way;         // from the frame's pixels to the target's cell
+#ifdef WITH_CAPS
+uniform sampler2D colors;
+uniform sampler2D parts;
 uniform int target;
+uniform ivec2 cell;
+uniform ivec2 first_way;   // from the frame's pixels to the part's first cell
+uniform int row_end;
+uniform int slices;
+uniform bool per_pixel;
+uniform bool additive;
+#endif
 #endif
 
 in vec2 offset;
@@ -44,6 +57,26 @@ float light(ivec2 pixel) {
     return clamp(1.0 - beyond / searchlight.w, 0.0, 1.0);
 }
 
+#ifdef WITH_CAPS
+// The highest opacity of the penetrable fragments in front of the target.
+float cap(ivec2 pixel, float place) {
+    int layers = 0;
+    ivec2 at = pixel + first_way;
+    for (int k = 0; k < slices; ++k) {
+        float z = texelFetch(depths, at, 0).r;
+        int i = int(texelFetch(colors, at, 0).a);
+        bool before = z < place || (z == place && i > target);
+        bool hard = texelFetch(parts, ivec2(i & 1023, i >> 10), 0).x != 0.0;
+        if (z < 1.0 && before && !hard) ++layers;
+        at.x += cell.x;
+        if (at.x >= row_end) at = ivec2(at.x - row_end, at.y + cell.y);
+    }
+    float n = float(max(layers, 1));
+    float share = additive ? (1.0 - tau) / n : 1.0 - pow(tau, 1.0 / n);
+    return layers == 0 ? 1.0 : share;
+}
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy) + shift;
     float d = length(offset);
@@ -60,7 +93,15 @@ void main() {
     }
     alpha = 1.0 - light(pixel) * (1.0 - alpha);
 #ifdef CELLS
-    picture = vec4(alpha, beside, float(target + 1), d > 0.0 ? 0.0 : 1.0);
+    vec2 place = vec2(pixel.x, size.y - 1.0 - pixel.y) + 0.5;
+    bool near = all(greaterThan(place, extents.xy)) && all(lessThan(place, extents.zw));
+    float own = near ? texelFetch(depths, pixel + way, 0).r : 1.0;
+    float most = 1.0;
+#ifdef WITH_CAPS
+    most = own < 1.0 ? cap(pixel, own) : 1.0;
+    if (per_pixel) alpha = min(alpha, most);
+#endif
+    picture = vec4(alpha, own < 1.0 ? own : beside, most, d > 0.0 ? 0.0 : 1.0);
 #else
     if (tau > 0.0 && d <= 0.0) {
         float count = texelFetch(counts, pixel, 0).r;
