@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from analysis.cells import Array, Cells
-from analysis.page.blocks import Cited, Column, Table
+from analysis.page.blocks import Cited, Column, Table, say
 from analysis.stats.anova import repeated_measures
 from analysis.stats.distributions import holm
 from analysis.stats.paired import paired, ratio_of_means, tost, within_halfwidths
@@ -95,7 +95,6 @@ def compare(measures: Sequence[Measure], margin: float) -> Table:
     rows = []
     for m in measures:
         ratio, ends = ratio_of_means(m.standard, m.dynamic)
-        bound = margin * abs(float(m.standard.mean()))
         row: dict[str, Any] = {
             "measure": m.key,
             "label": m.label,
@@ -114,14 +113,16 @@ def compare(measures: Sequence[Measure], margin: float) -> Table:
             "ratio": ratio,
             "ratio_low": ends[0],
             "ratio_high": ends[1],
-            **_tost_columns(m, bound),
+            **tost_columns(m, margin),
         }
         rows.append(row)
-    _add_holm(rows, measures)
+    add_holm(rows, measures)
     return Table("tests", "Standard against dynamic transparency", COLUMNS, tuple(rows), SHOWN)
 
 
-def _tost_columns(m: Measure, bound: float) -> dict[str, Any]:
+def tost_columns(m: Measure, margin: float) -> dict[str, Any]:
+    """TOST against ±`margin` of the standard mean, with the 90 % interval that it inverts."""
+    bound = margin * abs(float(m.standard.mean()))
     if bound == 0:
         gone = Undefined("the standard mean, and so the margin, is zero")
         return {"tost_margin": gone, "tost_p": gone, "low90": gone, "high90": gone}
@@ -155,7 +156,7 @@ def compare_logs(measures: Sequence[Measure], margin: float) -> Table:
                 **_log_tost(first, second, margin),
             }
         )
-    _add_holm(rows, [m for m in measures if m.logs is not None])
+    add_holm(rows, [m for m in measures if m.logs is not None])
     return Table(
         "tests_log_time",
         "Completion times on the log scale",
@@ -176,14 +177,16 @@ def _exp(value: Number) -> Number:
     return float(np.exp(-value)) if is_defined(value) else value
 
 
-def _add_holm(rows: list[dict[str, Any]], measures: Sequence[Measure]) -> None:
-    """Holm's p within each family; empty for a measure of no family."""
+def add_holm(
+    rows: Sequence[dict[str, Any]], measures: Sequence[Measure], column: str = "p"
+) -> None:
+    """Holm's p of `column` within each family; empty for a measure of no family."""
     by_key = {m.key: m.family for m in measures}
     for row in rows:
-        row["p_holm"] = row["p"] if by_key[row["measure"]] else None
+        row["p_holm"] = row[column] if by_key[row["measure"]] else None
     for family in {f for f in by_key.values() if f}:
-        inside = [r for r in rows if by_key[r["measure"]] == family and is_defined(r["p"])]
-        for row, p in zip(inside, holm([r["p"] for r in inside]), strict=True):
+        inside = [r for r in rows if by_key[r["measure"]] == family and is_defined(r[column])]
+        for row, p in zip(inside, holm([r[column] for r in inside]), strict=True):
             row["p_holm"] = p
 
 
@@ -265,6 +268,46 @@ MORE = (
 )
 LOG_MORE = "label n difference sd_difference t ges pes shapiro_w shapiro_p tost_margin tost_p"
 MORE_TITLE = "Differences, ratios, normality of the differences, equivalence"
+
+
+def decisive(row: Mapping[str, Any]) -> tuple[str, Number]:
+    """The column that decides whether a row shows a difference, and its p: Holm's in a family.
+
+    Friedman's tests are decided by their exact p.
+    """
+    for column in ("p_holm", "p_exact"):
+        if row.get(column) is not None:
+            return column, row[column]
+    return "p", row["p"]
+
+
+def corrected(table: Table, key: str) -> list[str | Cited]:
+    """`, Holm-corrected p = .06` where the row belongs to a family; nothing elsewhere."""
+    if table.row(key).get("p_holm") is None or not is_defined(table.row(key)["p_holm"]):
+        return []
+    p = table.cite(key, "p_holm")
+    return [", Holm-corrected p " if p.text.startswith("<") else ", Holm-corrected p = ", p]
+
+
+def no_difference(table: Table, key: str, margin: float, alpha: float) -> tuple[str | Cited, ...]:
+    """What follows where a test shows no difference: does the equivalence test show equality?
+
+    `margin` is the share of the standard mean that the table's `tost_margin` was made from.
+    """
+    p = table.cite(key, "tost_p")
+    if not is_defined(p.value):
+        return say(" No difference was shown; whether the two are equivalent is {}.", p).runs
+    verdict = (
+        "so the two are equivalent within that margin"
+        if p.value < alpha
+        else "so this is no evidence of equality either"
+    )
+    return say(
+        f" No difference was shown; equivalence within ± {{}} ({100 * margin:g} % of the standard "
+        f"mean): p {'' if p.text.startswith('<') else '= '}{{}} (TOST), {verdict}.",
+        table.cite(key, "tost_margin"),
+        p,
+    ).runs
 
 
 def apa_f(table: Table, key: str) -> list[str | Cited]:

@@ -97,14 +97,3 @@ def timeouts(trials: pd.DataFrame) -> Measure | None:
     """Share of trials that ended at their limit."""
     cells = means(trials, "timed_out", {"transparency": design(trials)["transparency"]})
     return measure("timed_out", "share of trials timed out", "", 4, cells)
-
-
-def difficulty(trials: pd.DataFrame) -> list[Measure]:
-    """Number of targets by task: what the two levels were asked to find."""
-    known = trials.dropna(subset=["targets"])
-    if not len(known):
-        return []
-    levels = design(known)
-    cells = means(known, "targets", {k: levels[k] for k in ("task", "transparency")})
-    found = [measure(f"targets_{t}", t, "targets", 2, cells, task=t) for t in cells.factors["task"]]
-    return [m for m in found if m is not None]

@@ -59,6 +59,19 @@ QUESTIONNAIRE = {
 }
 """Columns of `…_questionnaire_data.csv` and their types."""
 
+CERTIFICATE = {
+    "scene": "text",
+    "task": "text",
+    "transparency": "text",
+    "targets": "number",
+    "visible": "number",
+    "hidden": "number",
+    "occluders": "number",
+    "clutter": "number",
+    "path": "number",
+}
+"""Columns of the difficulty certificate that `seethrough check --certificate` writes."""
+
 REQUIRED = (
     "row_id",
     "participant",

@@ -17,6 +17,9 @@ from analysis.load import schema
 from analysis.load.chain import ChainState, verify_all
 from analysis.load.table import Source, read_table
 
+CERTIFICATE = "certificate.csv"
+"""The difficulty certificate, where the study has one, beside dataset_description.json."""
+
 
 @dataclass(frozen=True, slots=True)
 class FileRead:
@@ -41,6 +44,7 @@ class Study:
     files: tuple[FileRead, ...]
     chains: tuple[ChainState, ...] = ()
     other_sources: tuple[str, ...] = ()
+    certificate: pd.DataFrame | None = None
 
 
 def load_study(folder: Path, source: str | None = None) -> Study:
@@ -66,6 +70,12 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         _check_source(questions, chosen)
     _same_people(trials, questions)
     files = [*_records(sources, trials), *_records(answers, questions)]
+    certificate = None
+    if (folder / CERTIFICATE).is_file():
+        hardness = _source_file(folder / CERTIFICATE, folder)
+        certificate = read_table([hardness], schema.CERTIFICATE)
+        _check_levels(certificate, ("task", "transparency"))
+        files += _records([hardness], certificate)
     sidecars = _sidecars(paths, folder)
     chains = verify_all(sources, sidecars, folder)
     return Study(
@@ -79,6 +89,7 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         tuple(files),
         tuple(chains),
         others,
+        certificate,
     )
 
 
@@ -155,13 +166,7 @@ def at(table: pd.DataFrame, index: Any) -> str:
 
 def check_trials(trials: pd.DataFrame, source: str) -> None:
     """Levels, required values, bounds and unique rows; raises DataError naming each."""
-    lines = []
-    for name, levels in schema.LEVELS.items():
-        wrong = trials.index[~trials[name].isin(levels)]
-        lines += [
-            f"{at(trials, i)}: {name} = {trials.at[i, name]!r}: expected {', '.join(levels)}"
-            for i in wrong
-        ]
+    lines = _level_problems(trials, tuple(schema.LEVELS))
     for name in schema.REQUIRED:
         gaps = trials.index[trials[name].isna() | (trials[name].astype("str") == "")]
         lines += [f"{at(trials, i)}: {name} = '': expected a value" for i in gaps]
@@ -175,6 +180,19 @@ def check_trials(trials: pd.DataFrame, source: str) -> None:
         raise DataError(lines)
     _check_ids(trials)
     _check_source(trials, source)
+
+
+def _level_problems(table: pd.DataFrame, names: Iterable[str]) -> list[str]:
+    return [
+        f"{at(table, i)}: {name} = {table.at[i, name]!r}: expected {', '.join(schema.LEVELS[name])}"
+        for name in names
+        for i in table.index[~table[name].isin(schema.LEVELS[name])]
+    ]
+
+
+def _check_levels(table: pd.DataFrame, names: Iterable[str]) -> None:
+    if lines := _level_problems(table, names):
+        raise DataError(lines)
 
 
 def _check_source(table: pd.DataFrame, source: str) -> None:

@@ -13,7 +13,10 @@ from analysis.page.blocks import Block, Cited, Figure, Fold, Prose, Report, Tabl
 from analysis.page.tables_csv import cell
 
 MOST_ROWS = 60
-_CITED = Markup('<data value="{}" data-from="{}" data-row="{}" data-column="{}">{}</data>')
+_CITED = Markup(
+    '<data value="{}" data-from="{}" data-row="{}" data-column="{}" '
+    'title="tables/{}: {}, {}">{}</data>'
+)
 _SYMBOL = re.compile(r"(?<![\w<])([FtpnMr]|χ)(?=\(|²\(|\u00a0=|\s(?:&lt;|\(|$)|\u00a0$|$)")
 
 
@@ -58,7 +61,8 @@ def _run(run: str | Cited) -> Markup:
     if isinstance(run, str):
         return signs(run)
     text = run.text.replace(" ", "\u00a0") if len(run.text) < 16 else run.text
-    return _CITED.format(cell(run.value), run.file, run.row, run.column, text)
+    where = (cell(run.value), run.file, run.row, run.column, run.file, run.row, run.column)
+    return _CITED.format(*where, text)
 
 
 def as_html(report: Report, pictures: Mapping[str, str], version: str, library: str = "") -> str:

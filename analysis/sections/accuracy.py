@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
-from analysis.comparison import MORE, MORE_TITLE, Measure, apa_f, compare, measure
+from analysis.comparison import (
+    MORE,
+    MORE_TITLE,
+    Measure,
+    add_holm,
+    apa_f,
+    compare,
+    corrected,
+    decisive,
+    measure,
+    no_difference,
+)
 from analysis.figures.comparison import bars_and_differences
 from analysis.measures import distance, over_tasks, relative_error, share_correct
 from analysis.page.blocks import Block, Prose, Section, Table, more, say
@@ -30,87 +42,91 @@ def error_measures(context: Context, signed: bool = True) -> list[Measure]:
     return keep(found)
 
 
-def accuracy_section(context: Context) -> tuple[Section, Table | None]:
-    """The section, and the table of its tests."""
+def measured(key: str, label: str) -> str:
+    """What a row of the accuracy tables measures, in words."""
+    for start, words in (
+        ("error", "relative error"),
+        ("absolute_error", "absolute relative error"),
+    ):
+        if key.startswith(start):
+            return f"{words}, {label}"
+    return "right answers in T2" if key == "correct_pattern" else label
+
+
+def accuracy_section(context: Context) -> tuple[Section, list[Table]]:
+    """The section, and the tables that the second prediction is answered from."""
     measures = error_measures(context)
     place = distance(context.trials)
     context.missing["distance"] = place.missing
-    mark = measure("distance_unique", "T3 distance", "units", 2, place)
-    every = keep([*measures, mark])
+    every = keep([*measures, measure("distance_unique", "T3 distance", "units", 2, place)])
     blocks: list[Block] = []
-    tests = None
+    tables: list[Table] = []
     if every:
-        tests = replace(
-            compare(every, context.plan.margin),
-            key="tests_accuracy",
-            title="Accuracy, standard against dynamic",
+        note = (
+            "Relative error: abs(Σ answer − Σ true) / Σ true over a participant's trials of a "
+            "condition, as the paper has it: over- and undercounts cancel."
         )
+        tests = _tests("tests_accuracy", "Accuracy, standard against dynamic", note, every, context)
+        tables.append(tests)
         blocks += [_sentence(tests, m, context.plan) for m in every]
         blocks += [tests, more(tests, MORE_TITLE, MORE)]
-    if measures and tests:
-        blocks.append(
-            bars_and_differences(
-                "errors", "Relative count error", "relative error", measures, tests
-            )
-        )
-    blocks += [*_correct(context), *missing_note(place.missing)]
+        if measures:
+            title = "Relative count error"
+            blocks.append(bars_and_differences("errors", title, "relative error", measures, tests))
     absolute = error_measures(context, signed=False)
     if absolute:
-        blocks.append(
-            replace(
-                compare(absolute, context.plan.margin),
-                key="tests_absolute_error",
-                title="Absolute relative error, in which over- and undercounts do not cancel",
-            )
-        )
+        title = "Absolute relative error, in which over- and undercounts do not cancel"
+        note = "Σ abs(answer − true) / Σ true over a participant's trials of a condition."
+        tests = _tests("tests_absolute_error", title, note, absolute, context)
+        tables.append(tests)
+        blocks += [*(_sentence(tests, m, context.plan) for m in absolute), tests]
+    correct, right = _correct(context)
+    blocks += [*correct, *missing_note(place.missing)]
     if not blocks:
         blocks.append(say("Nobody has an accuracy measure under both transparency levels."))
-    return Section("accuracy", "Accuracy", tuple(blocks)), tests
+    return Section("accuracy", "Accuracy", tuple(blocks)), [*tables, *([right] if right else [])]
+
+
+def _tests(key: str, title: str, note: str, measures: Sequence[Measure], context: Context) -> Table:
+    return replace(compare(measures, context.plan.margin), key=key, title=title, note=note)
 
 
 def _sentence(tests: Table, m: Measure, plan: Plan) -> Prose:
     row = tests.row(m.key)
-    what = f"Relative error, {m.label}" if m.key.startswith("error") else "T3, distance to target"
+    what = measured(m.key, m.label)
     start = say(
-        f"{what}: M = {{}} (s.d. {{}}) standard, {{}} (s.d. {{}}) dynamic, {{}}.",
+        f"{what[0].upper()}{what[1:]}: M = {{}} (s.d. {{}}) standard, {{}} (s.d. {{}}) dynamic, "
+        "{}.",
         tests.cite(m.key, "mean_standard"),
         tests.cite(m.key, "sd_standard"),
         tests.cite(m.key, "mean_dynamic"),
         tests.cite(m.key, "sd_dynamic"),
-        apa_f(tests, m.key),
+        [*apa_f(tests, m.key), *corrected(tests, m.key)],
     )
-    if not is_defined(row["p"]) or row["p"] < plan.alpha or not is_defined(row["tost_p"]):
+    p = decisive(row)[1]
+    if not is_defined(p) or p < plan.alpha:
         return start
-    inside = row["tost_p"] < plan.alpha
-    verdict = (
-        "so the two are equivalent within that margin"
-        if inside
-        else "so this is no evidence of equality either"
-    )
-    p = tests.cite(m.key, "tost_p")
-    end = say(
-        f" No difference was shown; equivalence within ± {{}} (20 % of the standard mean): "
-        f"p {'' if p.text.startswith('<') else '= '}{{}}, {verdict}.",
-        tests.cite(m.key, "tost_margin"),
-        p,
-    )
-    return Prose((*start.runs, *end.runs))
+    return Prose((*start.runs, *no_difference(tests, m.key, plan.margin, plan.alpha)))
 
 
-def _correct(context: Context) -> list[Block]:
+def _correct(context: Context) -> tuple[list[Block], Table | None]:
+    """Shares of right answers; the blocks, and the table of Friedman's tests."""
     cells = share_correct(context.trials)
     context.missing["share correct"] = cells.missing
     table = cell_table("correct_cells", "Share of right answers", cells, CELLS_SHOWN)
     tasks = cells.factors["task"]
-    rows = []
+    rows, found = [], []
     for i, task in enumerate(tasks):
-        m = measure(f"correct_{task}", name_of(task), "", 3, cells, task=task)
+        m = measure(f"correct_{task}", name_of(task), "", 3, cells, "tasks", task=task)
         if m is not None:
+            found.append(m)
             rows.append(friedman_row(m, context, 10 + i))
     if not rows:
-        return [table]
-    tests = friedman_table("friedman_correct", "Right answers: Friedman tests", rows)
-    return [*(friedman_sentence(tests, str(r["measure"]), _said(r)) for r in rows), table, tests]
+        return [table], None
+    add_holm(rows, found, "p_exact")
+    tests = friedman_table("friedman_correct", "Right answers: Friedman tests", rows, True)
+    said = [friedman_sentence(tests, str(r["measure"]), _said(r), context.plan) for r in rows]
+    return [*said, table, tests], tests
 
 
 def _said(row: dict[str, object]) -> str:

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from analysis.cells import Cells
-from analysis.comparison import Measure, sd_of
+from analysis.comparison import (
+    Measure,
+    corrected,
+    decisive,
+    no_difference,
+    sd_of,
+    tost_columns,
+)
 from analysis.page.blocks import Column, Prose, Table, say
+from analysis.plan import Plan
 from analysis.sections.context import Context
 from analysis.stats.ranks import friedman, post_hoc
 from analysis.stats.undefined import is_defined
@@ -27,14 +36,22 @@ FRIEDMAN = (
     Column("df", "df", "int"),
     Column("p", "p (χ²)", "p"),
     Column("p_exact", "p (exact)", "p"),
+    Column("p_holm", "p (Holm)", "p", "of the exact p"),
     Column("method", "by"),
     Column("w", "Kendall's W", "bound2", "95 % bootstrap interval", "w_low", "w_high"),
     Column("w_low", "W from", "bound3", "95 % bootstrap interval"),
     Column("w_high", "W to", "bound3", "95 % bootstrap interval"),
+    Column("difference", "standard − dynamic", "fixed3", "mean"),
+    Column("tost_margin", "margin", "sig3", "of equivalence"),
+    Column("tost_p", "p (TOST)", "p", "of the means"),
+    Column("low90", "90 % from", "sig3"),
+    Column("high90", "90 % to", "sig3"),
 )
+_OF_TWO = ("p_holm", "mean_", "sd_", "difference", "tost_", "low90", "high90")
+"""Columns that only a comparison of two conditions has."""
 
 
-def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, object]:
+def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, Any]:
     """Friedman's test of the two levels; for k = 2 its exact p is the sign test's."""
     result = friedman(np.stack([m.standard, m.dynamic], axis=1), context.rng(purpose))
     return {
@@ -54,21 +71,28 @@ def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, object
         "w": result.w,
         "w_low": result.w_interval[0],
         "w_high": result.w_interval[1],
+        "difference": float((m.standard - m.dynamic).mean()),
+        **tost_columns(m, context.plan.margin),
     }
 
 
-SHOWN = tuple("label n mean_standard mean_dynamic chi2 df p p_exact w".split())
+SHOWN = tuple("label n mean_standard mean_dynamic chi2 df p p_exact p_holm w tost_p".split())
 
 
-def friedman_table(key: str, title: str, rows: Sequence[Mapping[str, Any]]) -> Table:
-    """The tests of several measures."""
+def friedman_table(
+    key: str, title: str, rows: Sequence[Mapping[str, Any]], shares: bool = False
+) -> Table:
+    """The tests of several measures; `shares` cannot exceed 1, and are written so."""
+    columns = tuple(
+        replace(c, style="bound3") if shares and c.style == "fixed3" else c for c in FRIEDMAN
+    )
     methods = sorted({str(r["method"]) for r in rows} - {"", "exact"})
     note = f"Exact p: by {' or '.join(methods)}." if methods else ""
-    return Table(key, title, FRIEDMAN, tuple(rows), SHOWN, note)
+    return Table(key, title, columns, tuple(rows), SHOWN, note)
 
 
-def friedman_sentence(table: Table, key: str, what: str) -> Prose:
-    """Both means, χ² and both p."""
+def friedman_sentence(table: Table, key: str, what: str, plan: Plan) -> Prose:
+    """Both means, χ² and both p; where no difference is shown, whether equality is."""
     if not is_defined(table.row(key)["chi2"]):
         return say(
             f"{what}: M = {{}} standard, {{}} dynamic; {{}}.",
@@ -78,7 +102,7 @@ def friedman_sentence(table: Table, key: str, what: str) -> Prose:
         )
     p, exact = table.cite(key, "p"), table.cite(key, "p_exact")
     signs = ["" if c.text.startswith("<") else "= " for c in (p, exact)]
-    return say(
+    said = say(
         f"{what}: M = {{}} standard, {{}} dynamic; Friedman χ²({{}}) = {{}}, p {signs[0]}{{}}, "
         f"exact p {signs[1]}{{}}, Kendall's W = {{}}.",
         table.cite(key, "mean_standard"),
@@ -89,6 +113,10 @@ def friedman_sentence(table: Table, key: str, what: str) -> Prose:
         exact,
         table.cite(key, "w", "bound2"),
     )
+    said = Prose((*said.runs[:-1], *corrected(table, key), "."))
+    if float(str(decisive(table.row(key))[1])) < plan.alpha:
+        return said
+    return Prose((*said.runs, *no_difference(table, key, plan.margin, plan.alpha)))
 
 
 PAIRS = (
@@ -108,7 +136,7 @@ def four_conditions(context: Context, cells: Cells, purpose: int) -> list[Table]
         return []
     y = np.stack([cells.at(transparency=c, scenario=s) for c, s in levels], axis=1)
     result = friedman(y, context.rng(purpose))
-    columns = tuple(c for c in FRIEDMAN if not c.name.startswith(("mean_", "sd_")))
+    columns = tuple(c for c in FRIEDMAN if not c.name.startswith(_OF_TWO))
     row = {
         "measure": "rating_conditions",
         "label": "transparency × scenario",

@@ -108,6 +108,12 @@ def _flat(value: Any) -> str:
 
 def _files(context: Context) -> Table:
     states = {c.file: c.state for c in context.study.chains}
+    # a session's other tables are held by the end file, which the chain's last value holds
+    states |= {
+        name.replace("_trials_", "_questionnaire_"): "verified"
+        for name, state in states.items()
+        if state == "verified"
+    }
     rows = tuple(
         {"file": f.name, "rows": f.rows, "sha256": f.sha256, "chain": states.get(f.name, "none")}
         for f in context.study.files

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from analysis.cells import Cells
-from analysis.comparison import Measure, measure
+from analysis.comparison import Measure, add_holm, measure
 from analysis.figures.comparison import ratings_figure
 from analysis.measures import answers, rating
 from analysis.page.blocks import Block, Column, Section, Table, say
@@ -58,10 +58,15 @@ def _ratings(context: Context, cells: Cells) -> list[Block]:
     rows = [friedman_row(m, context, 30 + i) for i, m in enumerate([*overall, *each])]
     if not rows:
         return []
+    add_holm(rows, [*overall, *each], "p_exact")
     tests = friedman_table("friedman_ratings", "Ratings (0–4): Friedman tests", rows)
-    sentence = friedman_sentence(tests, "rating_overall", "Overall rating (0–4)")
+    said = [friedman_sentence(tests, m.key, _said(m), context.plan) for m in [*overall, *each]]
     figure = ratings_figure("ratings", each, cells.factors["scenario"], tests)
-    return [sentence, figure, tests, *four_conditions(context, cells, 50)]
+    return [*said, figure, tests, *four_conditions(context, cells, 50)]
+
+
+def _said(m: Measure) -> str:
+    return "Overall rating (0–4)" if m.key == "rating_overall" else f"Rating of {m.label}"
 
 
 def _single(context: Context) -> list[Block]:
@@ -104,8 +109,8 @@ def _preference(table: Table) -> list[Block]:
     p = table.cite("preference", "p")
     return [
         say(
-            "A share of {} of {} participants prefer dynamic transparency, 95 % CI [{}, {}], sign "
-            f"test p {'' if p.text.startswith('<') else '= '}{{}}.",
+            "A share of {} of the {} participants prefers dynamic transparency, 95 % CI [{}, {}], "
+            f"sign test p {'' if p.text.startswith('<') else '= '}{{}}.",
             table.cite("preference", "mean", "bound2"),
             table.cite("preference", "n"),
             table.cite("preference", "low"),

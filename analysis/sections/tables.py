@@ -11,8 +11,9 @@ from analysis.cells import Cells, Missing
 from analysis.comparison import Measure
 from analysis.load.schema import TASK_CODES
 from analysis.page.blocks import Cited, Column, Prose, Table, say
+from analysis.page.numbers import bounded
 from analysis.stats.anova import Effect, repeated_measures
-from analysis.stats.distributions import bayes_factor_t
+from analysis.stats.distributions import bayes_factor_f, negligible_p
 from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
 
 EFFECTS = (
@@ -30,9 +31,18 @@ EFFECTS = (
     Column("pes", "η²p", "bound2", "90 % interval", "pes_low", "pes_high"),
     Column("pes_low", "from", "bound3", "90 % interval"),
     Column("pes_high", "to", "bound3", "90 % interval"),
-    Column("bf10", "BF₁₀", "sig3", "JZS"),
+    Column("bf10", "BF₁₀", "sig3", "JZS, Cauchy scale √½"),
+    Column("negligible_p", "p (negligible)", "p", "of η²p ≥ .06"),
     Column("ss_effect", "SS", "sig4"),
     Column("ss_error", "SS error", "sig4"),
+)
+NEGLIGIBLE = 0.06
+"""Partial η² below which an effect of several conditions is called negligible (Cohen: medium)."""
+
+BAYES_NOTE = (
+    "BF₁₀: JZS on the standardised contrasts (Rouder et al. 2012), the paired t's for one degree "
+    "of freedom; for more it assumes sphericity, as the uncorrected F does: where ε is far below "
+    "1, read the corrected p."
 )
 EFFECTS_SHOWN = tuple("effect df1 df2 F p eps p_gg ges pes bf10".split())
 
@@ -68,6 +78,7 @@ def effect_row(effect: Effect) -> dict[str, Any]:
         "pes_low": effect.pes_interval[0],
         "pes_high": effect.pes_interval[1],
         "bf10": _bayes_factor(effect),
+        "negligible_p": negligible(effect.f, effect.df1, effect.df2),
         "ss_effect": effect.ss_effect,
         "ss_error": effect.ss_error,
     }
@@ -78,7 +89,12 @@ def anova_table(key: str, title: str, cells: Cells, log: bool = False, note: str
     values = np.log(cells.values) if log else cells.values
     effects = repeated_measures(values, tuple(cells.factors))
     return Table(
-        key, title, EFFECTS, tuple(effect_row(e) for e in effects.values()), EFFECTS_SHOWN, note
+        key,
+        title,
+        EFFECTS,
+        tuple(effect_row(e) for e in effects.values()),
+        EFFECTS_SHOWN,
+        f"{note} {BAYES_NOTE}".strip(),
     )
 
 
@@ -110,16 +126,26 @@ def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: flo
     if row["df1"] > 1:
         runs += [" (Greenhouse–Geisser, ε = ", table.cite(effect, "eps", "bound2"), ")"]
     runs += [", η²G = ", table.cite(effect, "ges")]
+    if row["p_gg"] >= alpha:
+        runs += ["; ", *not_found(table, effect, alpha)]
     return say("{}, {}.", words, runs)
 
 
+def negligible(f: Number, df1: int, df2: int) -> Number:
+    """p of partial η² being `NEGLIGIBLE` or more."""
+    return negligible_p(f, df1, df2, NEGLIGIBLE) if is_defined(f) else f
+
+
+def not_found(table: Table, key: str, alpha: float) -> list[str | Cited]:
+    """Where an omnibus F shows nothing: `η²p below .06: p = .21, not shown either`."""
+    p = table.cite(key, "negligible_p")
+    shown = "shown" if is_defined(p.value) and p.value < alpha else "not shown either"
+    equals = "" if p.text.startswith(("<", "undefined")) else "= "
+    return [f"that η²p is below {bounded(NEGLIGIBLE, 2)} is {shown} (p {equals}", p, ")"]
+
+
 def _bayes_factor(effect: Effect) -> Number:
-    """The JZS factor of a one-df effect, whose t is √F."""
-    if not is_defined(effect.f):
-        return effect.f
-    if effect.df1 > 1:
-        return Undefined("given for effects of one degree of freedom")
-    return bayes_factor_t(float(np.sqrt(effect.f)), effect.n)
+    return bayes_factor_f(effect.f, effect.df1, effect.n) if is_defined(effect.f) else effect.f
 
 
 CELL_COLUMNS = (

@@ -15,12 +15,15 @@ from analysis.comparison import (
     apa_f,
     compare,
     compare_logs,
+    corrected,
+    decisive,
     measure,
 )
 from analysis.figures.comparison import bars_and_differences
 from analysis.measures import by_scenario, over_tasks, scenario_of, time_by_task
-from analysis.page.blocks import Block, Cited, Fold, Prose, Section, Table, more, say
+from analysis.page.blocks import Block, Fold, Prose, Section, Table, more, say
 from analysis.sections.context import Context
+from analysis.sections.summary import no_ratio
 from analysis.sections.tables import (
     anova_table,
     cell_table,
@@ -100,38 +103,26 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
     if not is_defined(row["p"]):
         return say(f"{name}: {{}}.", logs.cite(m.key, "p"))
     faster = "faster" if row["ratio"] < 1 else "slower"
-    verdict = f"participants were {faster}" if row["p"] < alpha else "no difference was shown"
+    shown = decisive(row)[1] < alpha
+    verdict = f"participants were {faster} with dynamic transparency"
+    verdict = verdict if shown else "no difference between the conditions was shown"
     sentence = say(
-        f"{name}, {verdict} with dynamic transparency: geometric means of {{}} s (standard) and "
-        "{} s (dynamic), ratio {}, 95 % CI [{}, {}], {}. Raw times: M = {} s (s.d. {}) and {} s "
-        "(s.d. {}), {}.",
+        f"{name}, {verdict}: geometric means of {{}} s (standard) and {{}} s "
+        "(dynamic), ratio {}, 95 % CI [{}, {}], {}. Raw times: M = {} s (s.d. {}) and {} s (s.d. "
+        "{}), {}.",
         logs.cite(m.key, "geometric_standard"),
         logs.cite(m.key, "geometric_dynamic"),
         logs.cite(m.key, "ratio"),
         logs.cite(m.key, "ratio_low"),
         logs.cite(m.key, "ratio_high"),
-        apa_f(logs, m.key),
+        [*apa_f(logs, m.key), *corrected(logs, m.key)],
         tests.cite(m.key, "mean_standard"),
         tests.cite(m.key, "sd_standard"),
         tests.cite(m.key, "mean_dynamic"),
         tests.cite(m.key, "sd_dynamic"),
         apa_f(tests, m.key),
     )
-    return sentence if row["p"] < alpha else Prose((*sentence.runs, *_equal(logs, m.key, alpha)))
-
-
-def _equal(logs: Table, key: str, alpha: float) -> tuple[str | Cited, ...]:
-    """Where no difference is shown: is equivalence?"""
-    p = logs.cite(key, "tost_p")
-    shown = is_defined(p.value) and p.value < alpha
-    verdict = "equivalence is shown" if shown else "equivalence is not shown either"
-    equals = "" if p.text.startswith(("<", "undefined")) else "= "
-    return say(
-        f" For a ratio within 1 : {{}} and {{}} : 1, TOST has p {equals}{{}}: {verdict}.",
-        logs.cite(key, "tost_margin"),
-        logs.cite(key, "tost_margin"),
-        p,
-    ).runs
+    return sentence if shown else Prose((*sentence.runs, *no_ratio(logs, m.key, alpha)))
 
 
 def _factorial(context: Context, cells: Cells) -> list[Block]:

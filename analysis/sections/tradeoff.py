@@ -14,7 +14,7 @@ from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, sa
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
 from analysis.stats.ranks import sign_test
-from analysis.stats.undefined import Undefined
+from analysis.stats.undefined import Undefined, is_defined
 from analysis.tradeoff import Change, accuracy_by_speed, changes, correlation, scores
 
 CHANGES = (
@@ -130,9 +130,24 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
         else "in no task did most of the faster make more errors, nor those who gained more time "
         "lose more accuracy, so there is no sign that speed was bought with errors"
     )
-    return say(
+    said = say(
         f"Faster and with more errors under dynamic transparency were {{}}; {verdict}.", runs
     )
+    return said if verdicts else Prose((*said.runs, *_allowed(table, found)))
+
+
+def _allowed(table: Table, found: Sequence[Change]) -> list[str | Cited]:
+    """No sign is no proof: how strong a trade-off the intervals leave possible."""
+    known = {c.task: low for c in found if is_defined(low := table.row(c.task)["r_low"])}
+    if not known:
+        return []
+    task = min(known, key=lambda name: known[name])
+    return [
+        f" That is no proof that nobody did: in {name_of(task)} the interval still allows a "
+        "correlation of ",
+        table.cite(task, "r_low"),
+        ".",
+    ]
 
 
 def _conditional(context: Context) -> Table:

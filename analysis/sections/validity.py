@@ -7,15 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from analysis.comparison import compare
+from analysis.comparison import Measure, apa_f, compare, no_difference
 from analysis.figures.validity import learning_figure
-from analysis.page.blocks import Block, Column, Section, Table, say
+from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
+from analysis.plan import Plan
 from analysis.sections.context import Context
-from analysis.sections.tables import keep, name_of
+from analysis.sections.difficulty import difficulty_blocks
+from analysis.sections.tables import keep, negligible, not_found
 from analysis.stats.paired import one_sample
-from analysis.stats.undefined import Undefined, is_defined
+from analysis.stats.undefined import is_defined
 from analysis.validity import (
-    difficulty,
     focus_losses,
     learning_curve,
     learning_slopes,
@@ -30,19 +31,35 @@ ORDER = (
     Column("df2", "df₂", "int"),
     Column("F", "F", "fixed2"),
     Column("p", "p", "p"),
+    Column("negligible_p", "p (negligible)", "p", "of η²p ≥ .06"),
 )
 FAULTS_SHOWN = tuple("label n mean_standard mean_dynamic difference F p tost_p".split())
 
 
 def validity_section(context: Context) -> Section:
     """Everything that could make the comparison unfair."""
-    blocks: list[Block] = [*_order(context), *_learning(context), *_faults(context)]
+    blocks: list[Block] = [
+        *_order(context),
+        *_learning(context),
+        *_faults(context),
+        *difficulty_blocks(context),
+    ]
     return Section("validity", "Was the comparison fair?", tuple(blocks))
 
 
 def _order(context: Context) -> list[Block]:
     tests = order_tests(context.trials)
-    rows = tuple({"effect": t.name, "df1": t.df1, "df2": t.df2, "F": t.f, "p": t.p} for t in tests)
+    rows = tuple(
+        {
+            "effect": t.name,
+            "df1": t.df1,
+            "df2": t.df2,
+            "F": t.f,
+            "p": t.p,
+            "negligible_p": negligible(t.f, t.df1, t.df2),
+        }
+        for t in tests
+    )
     table = Table(
         "order",
         "Order effects on log time",
@@ -53,13 +70,39 @@ def _order(context: Context) -> list[Block]:
         "and never used to choose an analysis: a test that chooses one biases it.",
     )
     found = [t.name for t in tests if is_defined(t.p) and t.p < context.plan.alpha]
-    said = (
-        f"Times depend on {', '.join(found)}; the design balances what it balances, and the "
-        "analysis stays as planned."
-        if found
-        else "No effect of period, carry-over or sequence on log times was found."
-    )
-    return [say(said), table]
+    none = [t.name for t in tests if is_defined(t.p) and t.p >= context.plan.alpha]
+    blocks: list[Block] = []
+    if found:
+        runs: list[str | Cited] = []
+        for name in found:
+            runs += [" and " if runs else "", f"{name}, ", *_order_f(table, name)]
+        blocks.append(
+            say(
+                "Times depend on {}; the analysis stays as planned, and relies on the design to "
+                "put every condition equally often in every position.",
+                runs,
+            )
+        )
+    if none:
+        runs = []
+        for name in none:
+            runs += ["; " if runs else "", f"{name}: ", *not_found(table, name, context.plan.alpha)]
+        blocks.append(say(f"No effect of {_or(none)} on log times was found; {{}}.", runs))
+    gone = [t.name for t in tests if not is_defined(t.p)]
+    if gone:
+        blocks.append(say(f"Not testable here: {', '.join(gone)} (the table says why)."))
+    return [*blocks, table]
+
+
+def _order_f(table: Table, name: str) -> list[str | Cited]:
+    p = table.cite(name, "p")
+    df1, df2, f = (table.cite(name, column) for column in ("df1", "df2", "F"))
+    equals = ", p " if p.text.startswith("<") else ", p = "
+    return ["F(", df1, ",\u00a0", df2, ") = ", f, equals, p]
+
+
+def _or(names: list[str]) -> str:
+    return " or ".join([", ".join(names[:-1]), names[-1]]) if len(names) > 1 else names[0]
 
 
 def _learning(context: Context) -> list[Block]:
@@ -74,6 +117,7 @@ def _learning(context: Context) -> list[Block]:
         "ratio": float(np.exp(result.difference)),
         "low": float(np.exp(low)) if is_defined(low) else low,
         "high": float(np.exp(high)) if is_defined(high) else high,
+        "df": result.n - 1,
         "t": result.t,
         "p": result.p,
     }
@@ -83,6 +127,7 @@ def _learning(context: Context) -> list[Block]:
         Column("ratio", "ratio", "fixed3", "95 % interval", "low", "high"),
         Column("low", "from", "fixed3", "95 % interval"),
         Column("high", "to", "fixed3", "95 % interval"),
+        Column("df", "df", "int"),
         Column("t", "t", "fixed2"),
         Column("p", "p", "p"),
     )
@@ -92,10 +137,12 @@ def _learning(context: Context) -> list[Block]:
     words = "p " if p.text.startswith(("<", "undefined")) else "p = "
     sentence = say(
         "From one trial of a task set to the next, times change by a factor of {}, 95 % CI "
-        f"[{{}}, {{}}], {words}{{}}.",
+        f"[{{}}, {{}}], t({{}}) = {{}}, {words}{{}}.",
         table.cite("per trial", "ratio"),
         table.cite("per trial", "low"),
         table.cite("per trial", "high"),
+        table.cite("per trial", "df"),
+        table.cite("per trial", "t"),
         p,
     )
     curve = learning_curve(context.trials)
@@ -129,39 +176,36 @@ def _curve_table(curve: pd.DataFrame) -> Table:
 
 
 def _faults(context: Context) -> list[Block]:
-    trials = context.trials
+    trials, plan = context.trials, context.plan
     faults = keep([share_missed(trials), focus_losses(trials), timeouts(trials)])
-    blocks: list[Block] = []
-    if faults:
-        table = replace(
-            compare(faults, context.plan.margin),
-            key="faults",
-            title="Missed frames, lost focus and time-outs by condition",
-            shown=FAULTS_SHOWN,
+    if not faults:
+        return []
+    table = replace(
+        compare(faults, plan.margin),
+        key="faults",
+        title="Missed frames, lost focus and time-outs by condition",
+        shown=FAULTS_SHOWN,
+    )
+    return [*(_fault(table, m, plan) for m in faults), table]
+
+
+def _fault(table: Table, m: Measure, plan: Plan) -> Prose:
+    """One kind of fault: different, equivalent, or neither is shown."""
+    name = f"{m.label[0].upper()}{m.label[1:]}"
+    if np.array_equal(m.standard, m.dynamic):
+        return say(
+            f"{name}: the same for everybody under both conditions (M = {{}}).",
+            table.cite(m.key, "mean_standard"),
         )
-        blocks.append(table)
-        worse = [
-            m.label
-            for m in faults
-            if not isinstance(p := table.row(m.key)["p"], Undefined) and p < context.plan.alpha
-        ]
-        blocks.append(
-            say(
-                f"The conditions differ in {' and '.join(worse)}: this could explain part of a "
-                "difference in time."
-                if worse
-                else "The conditions do not differ demonstrably in missed frames, lost focus or "
-                "time-outs."
-            )
-        )
-    harder = difficulty(trials)
-    if harder:
-        named = [replace(m, label=name_of(m.label)) for m in harder]
-        table = replace(
-            compare(named, context.plan.margin),
-            key="difficulty",
-            title="Difficulty: targets in the scenes, by task and condition",
-            shown=FAULTS_SHOWN,
-        )
-        blocks.append(table)
-    return blocks
+    start = say(
+        f"{name}: M = {{}} standard, {{}} dynamic, {{}}.",
+        table.cite(m.key, "mean_standard"),
+        table.cite(m.key, "mean_dynamic"),
+        apa_f(table, m.key),
+    )
+    p = table.row(m.key)["p"]
+    if not is_defined(p):
+        return start
+    if p < plan.alpha:
+        return Prose((*start.runs, " This could explain part of a difference in time."))
+    return Prose((*start.runs, *no_difference(table, m.key, plan.margin, plan.alpha)))

@@ -63,6 +63,14 @@ def noncentral_t_cdf(t: float, df: float, nc: float) -> float:
     return float(np.sum(weights * special.ndtr(t * np.exp(x) - nc)) / np.sum(weights))
 
 
+def noncentral_f_cdf(f: float, df1: float, df2: float, nc: float) -> float:
+    """P(F ≤ f) for noncentral F; with one df by the noncentral t, which is exact further out."""
+    if df1 == 1:
+        root, delta = float(np.sqrt(f)), float(np.sqrt(nc))
+        return noncentral_t_cdf(root, df2, delta) - noncentral_t_cdf(-root, df2, delta)
+    return float(special.ncfdtr(df1, df2, nc, f))
+
+
 def _solve(cdf: Callable[[float], float], target: float, start: float, step: float) -> float:
     """The noncentrality at which a falling `cdf` meets `target`."""
     low = high = start
@@ -114,11 +122,7 @@ def noncentral_f_interval(f: float, df1: float, df2: float, level: float = 0.90)
     """Noncentralities λ ≥ 0 for which `f` lies at the two tails; 0 where none reaches the tail."""
 
     def cdf(nc: float) -> float:
-        if df1 == 1:
-            root = np.sqrt(f)
-            delta = np.sqrt(nc)
-            return noncentral_t_cdf(root, df2, delta) - noncentral_t_cdf(-root, df2, delta)
-        return float(special.ncfdtr(df1, df2, nc, f))
+        return noncentral_f_cdf(f, df1, df2, nc)
 
     ends = []
     for target in ((1 + level) / 2, (1 - level) / 2):
@@ -135,28 +139,45 @@ def noncentral_f_interval(f: float, df1: float, df2: float, level: float = 0.90)
 
 
 def bayes_factor_t(t: float, n: int, scale: float = CAUCHY_SCALE) -> float | Undefined:
-    """JZS Bayes factor BF10 of a one-sample t (Rouder et al. 2009, equation 1, with a scale).
+    """JZS Bayes factor BF10 of a one-sample t (Rouder et al. 2009, equation 1, with a scale)."""
+    return bayes_factor_f(t * t, 1, n, scale)
 
-    The effect has a Cauchy prior: a normal with variance g·scale², g inverse χ²₁. The integral
-    over g is taken on ln g by trapezoid, everything as logarithms, so that t = 100 does not
-    overflow before the end.
+
+def bayes_factor_f(f: float, df1: int, n: int, scale: float = CAUCHY_SCALE) -> float | Undefined:
+    """JZS Bayes factor BF10 of a within-participant effect with F(df1, df1·(n − 1)).
+
+    Rouder et al. 2012 (section "Fixed effects") for one effect, the participants' levels projected
+    out as the F test does: the df1 standardised orthonormal contrasts have normal priors of one
+    variance g·scale², g inverse χ²₁, together a multivariate Cauchy; p(σ²) ∝ 1/σ². Like the
+    uncorrected F it takes the contrasts to be spherical. With df1 = 1 it is the JZS factor of the
+    paired t. The integral over g is taken on ln g by trapezoid, everything as logarithms, so that
+    t = 100 does not overflow before the end.
     """
-    df = n - 1
+    ratio = f / (n - 1)  # sum of squares of the effect over that of the error
     x = np.linspace(-12.0, 90.0, 6001)
     spread = 1 + n * scale**2 * np.exp(x)
     log_integrand = (
-        -0.5 * np.log(spread)
-        - (df + 1) / 2 * np.log1p(t**2 / (spread * df))
+        -df1 / 2 * np.log(spread)
+        - df1 * n / 2 * np.log1p(ratio / spread)
         - 0.5 * np.log(2 * np.pi)
         - 0.5 * x
         - 0.5 * np.exp(-x)
     )
     peak = float(np.max(log_integrand))
     log_area = peak + np.log(np.sum(np.exp(log_integrand - peak)) * (x[1] - x[0]))
-    log_bf = log_area + (df + 1) / 2 * np.log1p(t**2 / df)
+    log_bf = log_area + df1 * n / 2 * np.log1p(ratio)
     if log_bf > 700:
         return Undefined("larger than 10^304")
     return float(np.exp(log_bf))
+
+
+def negligible_p(f: float, df1: int, df2: int, pes: float) -> float:
+    """p of the hypothesis that partial η² is `pes` or more: small means the effect is negligible.
+
+    The non-inferiority test of an omnibus F (Campbell & Lakens 2021, equation 6), with λ from
+    η²p = λ / (λ + df₂), the convention of the intervals here.
+    """
+    return noncentral_f_cdf(f, df1, df2, df2 * pes / (1 - pes))
 
 
 def holm(p: list[float]) -> list[float]:

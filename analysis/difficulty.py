@@ -1,0 +1,82 @@
+"""Were the scenes equally hard under both levels? The certificate's measures, by task."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from analysis.cells import Array, means
+from analysis.comparison import Measure, measure
+from analysis.load.schema import CERTIFICATE
+from analysis.measures import design
+from analysis.stats.undefined import Number, Undefined
+
+QUANTITIES: Mapping[str, str] = {
+    "targets": "targets in the scene",
+    "visible": "visible fraction of a target",
+    "hidden": "targets hidden in every view",
+    "occluders": "distractors that hide part of a target",
+    "clutter": "objects in view",
+    "path": "path past every target (units)",
+}
+NO_SPREAD = "the scenes do not differ"
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """A quantity of a task's scenes under both levels; `smd`: in s.d. of scenes (pooled)."""
+
+    task: str
+    quantity: str
+    measure: Measure
+    smd: Number
+
+
+def with_certificate(trials: pd.DataFrame, certificate: pd.DataFrame | None) -> pd.DataFrame:
+    """The trials with what the certificate says of their scenes; NaN where it knows a scene not.
+
+    A scene has one row however many trials share it.
+    """
+    if certificate is None:
+        return trials
+    names = [name for name in CERTIFICATE if name not in trials]  # the targets were recorded
+    known = certificate.drop_duplicates(["scene", "task"])[["scene", "task", *names]]
+    keys = {key: trials[key].astype("str") for key in ("scene", "task")}
+    left = trials.assign(**keys)
+    right = known.assign(**{key: known[key].astype("str") for key in keys})
+    return left.merge(right, on=list(keys), how="left", validate="many_to_one")
+
+
+def balance(trials: pd.DataFrame) -> list[Balance]:
+    """Every known quantity, task by task, where both levels have values."""
+    found = []
+    for quantity in (name for name in QUANTITIES if name in trials):
+        known = trials.dropna(subset=[quantity])
+        if not len(known):
+            continue
+        levels = design(known)
+        cells = means(known, quantity, {k: levels[k] for k in ("task", "transparency")})
+        for task in cells.factors["task"]:
+            m = measure(f"{quantity}_{task}", quantity, "", 3, cells, task=task)
+            walked = quantity != "path" or cells.values.any()  # nobody walks in the abstract world
+            if m is not None and walked:
+                own = known[known["task"] == task]
+                found.append(Balance(task, quantity, m, _smd(own, quantity)))
+    return found
+
+
+def _smd(trials: pd.DataFrame, quantity: str) -> Number:
+    """(dynamic − standard) / pooled s.d. of the trials' scenes."""
+    parts: list[Array] = [
+        trials.loc[trials["transparency"] == level, quantity].to_numpy(dtype=np.float64)
+        for level in ("standard", "dynamic")
+    ]
+    if min(map(len, parts)) < 2:
+        return Undefined("fewer than two trials")
+    spread = float(np.sqrt(np.mean([np.var(x, ddof=1) for x in parts])))
+    if spread == 0:
+        return Undefined(NO_SPREAD)
+    return float((parts[1].mean() - parts[0].mean()) / spread)

@@ -1,0 +1,89 @@
+"""Difficulty balance: the scenes of both conditions by the certificate's measures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from analysis.comparison import Measure, compare
+from analysis.difficulty import QUANTITIES, Balance, balance, with_certificate
+from analysis.page.blocks import Block, Cited, Column, Prose, Table, say
+from analysis.sections.context import Context
+from analysis.sections.tables import name_of
+from analysis.stats.undefined import is_defined
+
+LARGE = 0.25
+"""Standardised difference from which covariates count as unbalanced (Stuart 2010)."""
+
+COLUMNS = (
+    Column("measure", "measure"),
+    Column("task", "task"),
+    Column("quantity", "quantity"),
+    Column("n", "n", "int"),
+    Column("mean_standard", "M standard", "sig3"),
+    Column("mean_dynamic", "M dynamic", "sig3"),
+    Column("difference", "standard − dynamic", "sig3", "95 % interval", "low", "high"),
+    Column("low", "from", "sig3", "95 % interval"),
+    Column("high", "to", "sig3", "95 % interval"),
+    Column("smd", "in s.d. of scenes", "fixed2", "dynamic − standard"),
+    Column("p", "p", "p"),
+    Column("tost_margin", "margin", "sig3", "of equivalence"),
+    Column("tost_p", "p (TOST)", "p"),
+)
+SHOWN = tuple("task quantity mean_standard mean_dynamic difference smd p tost_p".split())
+
+
+def difficulty_blocks(context: Context) -> list[Block]:
+    """A sentence on the largest difference, and the table of all."""
+    certificate = context.study.certificate
+    found = balance(with_certificate(context.trials, certificate))
+    source = (
+        "Measured from fixed views without the technique (the study's difficulty certificate)."
+        if certificate is not None
+        else "The data hold no difficulty certificate, so only the number of targets is compared; "
+        "`seethrough check STUDY --certificate DATA/certificate.csv` adds visible fraction, "
+        "occluders, clutter and path."
+    )
+    if not found:
+        return [say(f"Difficulty: nothing is known of the scenes. {source}", kind="note")]
+    table = _table(context, found, source)
+    return [_sentence(table, found), table]
+
+
+def _table(context: Context, found: Sequence[Balance], note: str) -> Table:
+    measures: list[Measure] = [b.measure for b in found]
+    tests = compare(measures, context.plan.margin)
+    rows = []
+    for b in found:
+        own = tests.row(b.measure.key)
+        rows.append(
+            {
+                **{c.name: own[c.name] for c in COLUMNS if c.name in own},
+                "task": name_of(b.task),
+                "quantity": QUANTITIES[b.quantity],
+                "low": own["difference_low"],
+                "high": own["difference_high"],
+                "smd": b.smd,
+            }
+        )
+    title = "Difficulty of the scenes, by task and condition"
+    return Table("difficulty", title, COLUMNS, tuple(rows), SHOWN, note)
+
+
+def _sentence(table: Table, found: Sequence[Balance]) -> Prose:
+    """The largest standardised difference by name, and which pass the usual limit."""
+    known = [b for b in found if is_defined(b.smd)]
+    if not known:
+        return say("Difficulty: within each task all scenes are alike in what is known of them.")
+    worst = max(known, key=lambda b: abs(float(str(b.smd))))
+    runs: list[str | Cited] = [
+        f"Difficulty: of {len(known)} comparisons of the scenes the largest difference is ",
+        table.cite(worst.measure.key, "smd"),
+        f" s.d. of scenes ({name_of(worst.task)}, {QUANTITIES[worst.quantity]})",
+    ]
+    over = [b for b in known if abs(float(str(b.smd))) >= LARGE]
+    if over:
+        named = "; ".join(f"{name_of(b.task)}, {QUANTITIES[b.quantity]}" for b in over)
+        runs.append(f". Apart by {LARGE} s.d. or more, so that times may differ for it: {named}.")
+    else:
+        runs.append(f"; none reaches {LARGE} s.d., the usual limit of balance.")
+    return say("{}", runs)
