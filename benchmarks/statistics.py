@@ -132,35 +132,39 @@ def reports(participants: int, seconds: float, gib: float | None) -> Iterator[Fi
         data = make_data(Path(folder) / "data", participants)
         words = [sys.executable, "-m", "experiment", "report", str(data), "--out", f"{folder}/out"]
         start = time.perf_counter()
-        peak = _run(words)
+        peak, cpu = _run(words)
         yield row("report", scene, time.perf_counter() - start, "s", seconds)
+        if cpu is not None:  # what a busy machine does not change
+            yield row("report, processor time", scene, cpu, "s", None)
         if gib is not None and peak is not None:
             yield row("memory of the report", scene, peak, "GiB", gib)
         size = (Path(folder) / "out" / "report.html").stat().st_size / 2**20
         yield row("report.html", scene, size, "MiB", 3.0 if participants == 16 else None)
 
 
-def _run(words: list[str]) -> float | None:
-    """Run a command; the peak memory of it and its children in GiB, where the system tells."""
+def _run(words: list[str]) -> tuple[float | None, float | None]:
+    """Run a command; its peak memory in GiB and processor seconds, where the system tells."""
     context = multiprocessing.get_context("spawn")
     receive, send = context.Pipe(duplex=False)
+    told: tuple[float | None, float | None]
     worker = context.Process(target=_measured, args=(words, send))
     worker.start()
-    peak = receive.recv()
+    told = receive.recv()
     worker.join()
-    return float(peak) if peak is not None else None
+    return told
 
 
 def _measured(words: list[str], send: Any) -> None:
     """In a process of its own, so that the peak is this command's."""
     subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
     if sys.platform == "win32":
-        send.send(None)
+        send.send((None, None))
         return
     import resource
 
     unit = 2**30 if sys.platform == "darwin" else 2**20
-    send.send(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / unit)
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    send.send((used.ru_maxrss / unit, used.ru_utime + used.ru_stime))
 
 
 def make_data(folder: Path, participants: int) -> Path:

@@ -168,7 +168,10 @@ def check_trials(trials: pd.DataFrame, source: str) -> None:
     """Levels, required values, bounds and unique rows; raises DataError naming each."""
     lines = _level_problems(trials, tuple(schema.LEVELS))
     for name in schema.REQUIRED:
-        gaps = trials.index[trials[name].isna() | (trials[name].astype("str") == "")]
+        empty = trials[name].isna()
+        if not pd.api.types.is_numeric_dtype(trials[name]):
+            empty |= trials[name] == ""
+        gaps = trials.index[empty]
         lines += [f"{at(trials, i)}: {name} = '': expected a value" for i in gaps]
     for name, (what, bound, closed) in schema.BOUNDS.items():
         low = trials[name] < bound if closed else trials[name] <= bound
@@ -209,8 +212,9 @@ def _check_source(table: pd.DataFrame, source: str) -> None:
 def _check_ids(table: pd.DataFrame) -> None:
     """Row ids are unique in the study; participants' ids are plain."""
     lines = []
-    first = table.drop_duplicates("row_id").set_index("row_id")
-    for i in table.index[table["row_id"].duplicated()]:
+    again = table.index[table["row_id"].duplicated()]
+    first = table.drop_duplicates("row_id").set_index("row_id") if len(again) else table
+    for i in again:
         row_id = table.at[i, "row_id"]
         lines.append(
             f"{at(table, i)}: row_id = {row_id!r}: expected a unique one, but "

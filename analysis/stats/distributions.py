@@ -45,6 +45,17 @@ def chi2_tail(x: float, df: float) -> float:
     return float(special.chdtrc(df, x))
 
 
+def studentized_range_tail(q: float, k: int) -> float:
+    """P(range of k standard normals ≥ q): the studentised range with infinite df.
+
+    1 − k ∫ φ(z) (Φ(z) − Φ(z − q))^{k−1} dz by trapezoid: smooth, and dead at both ends.
+    """
+    z = np.linspace(-9.0, 9.0 + q, 4001)
+    density = np.exp(-z * z / 2) / np.sqrt(2 * np.pi)
+    inside = (special.ndtr(z) - special.ndtr(z - q)) ** (k - 1)
+    return float(np.clip(1 - k * np.sum(density * inside) * (z[1] - z[0]), 0.0, 1.0))
+
+
 def normal_two_sided(z: float) -> float:
     """P(|Z| ≥ |z|)."""
     return float(2 * special.ndtr(-abs(z)))

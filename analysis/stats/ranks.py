@@ -14,7 +14,12 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy import special
 
-from analysis.stats.distributions import chi2_tail, holm, normal_two_sided
+from analysis.stats.distributions import (
+    chi2_tail,
+    holm,
+    normal_two_sided,
+    studentized_range_tail,
+)
 from analysis.stats.undefined import ONE_PARTICIPANT, Interval, Number, Undefined, no_interval
 
 Array = NDArray[np.float64]
@@ -197,8 +202,6 @@ class Pair:
 
 def post_hoc(y: Array) -> list[Pair]:
     """All pairs of the k ≥ 3 columns: Nemenyi's p and Holm-corrected signed ranks."""
-    from scipy.stats import studentized_range  # imports slowly, and few studies have k ≥ 3
-
     n, k = y.shape
     means = ranks(y).mean(axis=0)
     error = np.sqrt(k * (k + 1) / (12 * n))
@@ -212,7 +215,7 @@ def post_hoc(y: Array) -> list[Pair]:
             b,
             float(means[a] - means[b]),
             # df → ∞: Nemenyi 1963 compares mean ranks with the studentised range
-            float(studentized_range.sf(abs(means[a] - means[b]) / error, k, np.inf)),
+            studentized_range_tail(abs(means[a] - means[b]) / error, k),
             test,
             test.p if isinstance(test.p, Undefined) else next(adjusted),
         )

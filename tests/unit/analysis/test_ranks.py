@@ -110,3 +110,12 @@ def test_post_hoc_agrees_with_holm_and_the_studentised_range():
     assert pairs[2].nemenyi_p == pytest.approx(stats.studentized_range.sf(gap, 3, np.inf))
     raw = sorted(p.signed.p for p in pairs)
     assert min(p.holm_p for p in pairs) == pytest.approx(min(1, 3 * raw[0]))
+
+
+@pytest.mark.parametrize("k", [2, 3, 4, 10])
+@pytest.mark.parametrize("q", [0.0, 0.5, 3.3, 6.0])
+def test_the_studentised_range_agrees_with_scipy(q, k):
+    from analysis.stats.distributions import studentized_range_tail
+
+    expected = stats.studentized_range.sf(q, k, np.inf)
+    assert studentized_range_tail(q, k) == pytest.approx(expected, abs=1e-9)  # scipy's own error
