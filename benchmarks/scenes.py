@@ -1,4 +1,4 @@
-"""The three scenes of paper 004's performance table, and one built to break each way of drawing."""
+"""The three scenes of paper 004's performance table."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from renderer import geometry, transforms
 from renderer.camera import Camera, look_at
-from renderer.scene import Object, Scene
+from renderer.scene import Scene
 from tasks.abstract_scene import abstract_scene
 from tasks.building import unique_building
 from tasks.controls import orbit, walk
@@ -43,25 +42,6 @@ def jeep(aspect: float, views: int) -> Views:
     turns = np.linspace(0, 2 * np.pi, views, endpoint=False) + 0.4
     eyes = [middle + np.array([3.4 * np.sin(t), 1.1, 3.4 * np.cos(t)]) for t in turns]
     return jeep_scene(), [look_at(eye, middle, fov_y=0.47, near=0.5, far=20) for eye in eyes]
-
-
-def breaking(aspect: float, views: int) -> Views:
-    """Long boxes that cross each other and form cycles, rings through rings, targets between."""
-    rng = np.random.default_rng(7)
-    objects = []
-    for _ in range(40):
-        size = rng.permutation([9.0, 0.6, 0.6])
-        turn = transforms.random_rotation(rng)
-        place = transforms.placed(rng.uniform(-3, 3, 3), turn)
-        objects.append(Object(geometry.box(*size), place, tuple(rng.uniform(0.2, 1, 3))))
-    ring = geometry.torus(1.2, 0.3, 24, 12)
-    for i in range(20):
-        place = transforms.placed(rng.uniform(-3, 3, 3), transforms.random_rotation(rng))
-        color = (1.0, 0.0, 0.0) if i < 8 else tuple(rng.uniform(0.2, 1, 3))
-        objects.append(Object(ring, place, color, target=i < 8))
-    turns = np.linspace(0, 2 * np.pi, views, endpoint=False)
-    eyes = [np.array([16 * np.sin(t), 4.0, 16 * np.cos(t)]) for t in turns]
-    return Scene(tuple(objects)), [look_at(e, np.zeros(3), fov_y=0.7, near=1, far=60) for e in eyes]
 
 
 SCENES: dict[str, Callable[[float, int], Views]] = {

@@ -28,22 +28,38 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("bench", choices=BENCHES, help="what to measure")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table to a file")
+    parser.add_argument(
+        "--markdown", type=Path, metavar="FILE", help="put the table into a page, as Markdown"
+    )
+    parser.add_argument(
+        "--figure", type=Path, metavar="FILE", help="draw it, as .svg or .png (accuracy only)"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
     """Print each row as it is measured; write them all at the end."""
-    if args.json is not None and not args.json.parent.is_dir():
-        raise InputError(f"--json = {args.json}: expected an existing folder")
+    for option in ("json", "markdown", "figure"):
+        path = getattr(args, option)
+        if path is not None and not path.parent.is_dir():
+            raise InputError(f"--{option} = {path}: expected an existing folder")
+    if args.figure is not None and args.figure.suffix not in (".svg", ".png"):
+        raise InputError(f"--figure = {args.figure}: expected a name that ends in .svg or .png")
     try:
         module = importlib.import_module(f"benchmarks.{args.bench}")
     except ModuleNotFoundError as error:
         raise InputError(f"bench {args.bench}: {error}; expected it to be installed") from error
+    if args.figure is not None and not hasattr(module, "chart"):
+        raise InputError(f"--figure = {args.figure}: bench {args.bench} draws none")
     rows = []
     for row in module.figures():
         rows.append(row)
         print(line(row), flush=True)
     if args.json is not None:
         args.json.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    if args.markdown is not None:
+        importlib.import_module("benchmarks.tables").put(args.markdown, args.bench, rows)
+    if args.figure is not None:
+        module.chart(rows, args.figure)
     return 0
 
 

@@ -107,12 +107,20 @@ class Renderer:
             small, layer = self._looking(size)
             scale = size[1] / self.size[1]
             frame = plan(scene, camera, technique, size, self.without, scale)
-            table = self._table(scene)
-            layer.draw(table, frame, camera, technique, small, scale)
-            shares = layer.exact_layers(table, frame, camera, technique, size, scale)
+            layer.draw(self._table(scene), frame, camera, technique, small, scale)
+            shares = self.shares(scene, camera, technique, size)
             return visibility_of_shares(shares, small.read(), n)
         layers = self.layers(scene, camera, technique, size)
         return visibility(layers, self._looking(size)[0].read(), n)
+
+    def shares(
+        self, scene: Scene, camera: Camera, technique: DynamicTransparency, size: tuple[int, int]
+    ) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
+        """What each pixel shows when it is sorted by itself: from the front, objects + 1 (h, w),
+        0 for none, and their shares of the pixel (h, w)."""
+        layer, scale = self._looking(size)[1], size[1] / self.size[1]
+        frame = plan(scene, camera, technique, size, self.without, scale)
+        return layer.exact_layers(self._table(scene), frame, camera, technique, size, scale)
 
     def layers(
         self, scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]

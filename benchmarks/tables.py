@@ -1,0 +1,89 @@
+"""Rows of `seethrough bench` as tables in Markdown, kept up to date inside a page.
+
+A row whose scene reads `scene: way` becomes a line of a table of its scene, with a column for each
+figure; all others are lines of their own. In a page, what the last run of a bench printed stands
+between `<!-- bench NAME -->` and `<!-- /bench NAME -->`.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+from pathlib import Path
+from typing import Any
+
+Row = dict[str, Any]
+
+
+def machine() -> str:
+    """The machine and the driver, in a line."""
+    text = f"{os.cpu_count()} cores ({platform.machine()}), Python {platform.python_version()}"
+    try:
+        from renderer.gpu.context import standalone
+
+        info = standalone().info
+    except RuntimeError:
+        return f"{text}, no OpenGL"
+    return f"{text}, {info['GL_RENDERER']}, OpenGL {info['GL_VERSION']}"
+
+
+def markdown(rows: list[Row]) -> str:
+    """All rows as tables."""
+    single = [r for r in rows if ": " not in r["scene"]]
+    parts = [_plain(single)] if single else []
+    for scene in dict.fromkeys(r["scene"].split(": ")[0] for r in rows if ": " in r["scene"]):
+        parts.append(_pivot(scene, [r for r in rows if r["scene"].startswith(f"{scene}: ")]))
+    return "\n\n".join(parts) + "\n"
+
+
+def _plain(rows: list[Row]) -> str:
+    lines = [
+        "| figure | scene | value | must | aim | met |",
+        "| --- | --- | --- | --- | --- | --- |",
+    ]
+    for r in rows:
+        value = f"{r['value']:.4g} {r['unit']}".strip()
+        limits = " | ".join("" if r[k] is None else f"{r[k]:g}" for k in ("must", "aim"))
+        lines.append(f"| {r['figure']} | {r['scene']} | {value} | {limits} | {_met(r)} |")
+    return "\n".join(lines)
+
+
+def _met(row: Row) -> str:
+    if row["must"] is None:
+        return ""
+    return "yes" if row["met"] else "**no**"
+
+
+def _pivot(scene: str, rows: list[Row]) -> str:
+    """One table for a scene; ways that were asked for different figures get tables of their own."""
+    ways: dict[str, dict[str, Row]] = {}
+    for r in rows:
+        ways.setdefault(r["scene"].split(": ", 1)[1], {})[r["figure"]] = r
+    tables: dict[tuple[str, ...], list[str]] = {}
+    for way, cells in ways.items():
+        texts = [_cell(cells[figure]) for figure in cells]
+        tables.setdefault(tuple(cells), []).append(f"| {way} | " + " | ".join(texts) + " |")
+    found = []
+    for figures, lines in tables.items():
+        head = f"| {scene} | " + " | ".join(figures) + " |"
+        found.append("\n".join([head, "| --- " * (len(figures) + 1) + "|", *lines]))
+    return "\n\n".join(found)
+
+
+def _cell(row: Row) -> str:
+    text = f"{row['value']:.4g} {row['unit']}".strip()
+    if row["must"] is not None:
+        text += f" (must {row['must']:g}: {'met' if row['met'] else '**not met**'})"
+    return text
+
+
+def put(path: Path, name: str, rows: list[Row]) -> None:
+    """Write the tables of a bench into a page: between its marks, else at the end."""
+    begin, end = f"<!-- bench {name} -->", f"<!-- /bench {name} -->"
+    table = f"{begin}\nOn {machine()}:\n\n{markdown(rows)}{end}"
+    old = path.read_text("utf-8") if path.exists() else ""
+    before, found, rest = old.partition(begin)
+    after = rest.partition(end)[2] if found else "\n"
+    if before and not before.endswith("\n"):
+        before += "\n"
+    path.write_text(f"{before}{table}{after}", "utf-8")
