@@ -106,7 +106,7 @@ def microseconds(
             _call(emit_tree, prepared.tree.arguments, points, out)
         )
     for made in feudals:
-        lists_of = made.program.stretches_of(np.arange(len(made.program.planes) + 1))
+        lists_of = made.program.stretches_of(np.arange(made.stats.outputs + 1))
         for name, stretches in (("feudal", lists_of), ("feudal triangles", made.program.stretches)):
             ways.setdefault(name, []).append(_emitting(stretches, points))
     best = {name: np.full(len(calls), np.inf) for name, calls in ways.items()}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.feudal_stretches import Stretches, write_out
+from renderer.ordering.feudal_stretches import Lists, Stretches, write_out
 from renderer.ordering.feudal_tree import Node
 from renderer.ordering.polygons import Floats, Integers
 
@@ -19,21 +19,21 @@ class Program:
     """The tree as three lists of polygons for each node: on the way down, at the switch, back up.
 
     Going down, a node draws B_j towards the eye and F_j away from it, level by level; coming back
-    up, F_j towards and B_j away, in the reverse order. `entries` (e,) are polygons and `wanted`
-    (e,) the way they must face: 1 towards the eye, 0 away, 2 either way. Node i has the entries
-    spans[i, k] to spans[i, k + 1], k = DOWN, SWITCH, UP; `breaks` (e,) marks the first of a class.
-    A closed volume has no entries that look away. `planes` (m, 4) are the output polygons',
-    `stretches` the same lists written out for a view, as triangles.
+    up, F_j towards and B_j away, in the reverse order. In `lists`, `entries` (e,) are polygons and
+    `wanted` (e,) the way they must face: 1 towards the eye, 0 away, 2 either way. Node i has the
+    entries spans[i, k] to spans[i, k + 1], k = DOWN, SWITCH, UP; `breaks` (e,) marks the first of a
+    class. A closed volume has no entries that look away.
+
+    Coplanar polygons share a plane: polygon p faces the eye when the eye is in front of plane
+    toward[p] of `planes` (k, 4), or behind plane toward[p] - k. `stretches` are the lists written
+    out for a view, as triangles.
     """
 
     planes: Floats
-    stretches: Stretches
-    entries: Integers
-    wanted: NDArray[np.uint8]
+    toward: Integers
+    lists: Lists
     breaks: NDArray[np.bool_]
-    spans: Integers
-    children: Integers
-    switches: Integers
+    stretches: Stretches
     depth: int
 
     def order(self, point: Floats) -> NDArray[np.int32]:
@@ -42,20 +42,19 @@ class Program:
 
     def stretches_of(self, bounds: Integers) -> Stretches:
         """The lists written out with polygon p as the items bounds[p] to bounds[p + 1]."""
-        return write_out(
-            self.planes, bounds, self.entries, self.wanted, self.spans, self.children,
-            self.switches,
-        )  # fmt: skip
+        return write_out(self.lists, self.planes, self.toward, bounds)
 
     def classes(self, point: Floats) -> list[Integers]:
         """Polygons in classes, from back to front."""
-        return priority_list(self, self.planes @ point > 0)
+        front = self.planes @ point > 0
+        return priority_list(self, np.concatenate([front, ~front])[self.toward])
 
 
 def program(
-    nodes: list[Node], planes: Floats, triangles: Integers, flat: Integers, closed: bool
-) -> Program:
-    """Flatten a tree. `planes` (m, 4) and `triangles` (m + 1,) belong to output polygons.
+    nodes: list[Node], planes: Floats, toward: Integers, bounds: Integers, flat: Integers,
+    closed: bool,
+) -> Program:  # fmt: skip
+    """Flatten a tree. `toward` (m,) and `bounds` (m + 1,), its triangles, are output polygons'.
 
     `flat` are polygons without area: they belong to no node and are drawn first of all.
     """
@@ -85,7 +84,7 @@ def program(
             put(back, 0, len(front) == 0)
         spans[i, 3] = len(entries)
     spans[1:, DOWN] = spans[:-1, 3]
-    lists = (
+    lists = Lists(
         np.array(entries, np.int64),
         np.array(wanted, np.uint8),
         spans,
@@ -93,13 +92,9 @@ def program(
         np.array([node.switch for node in nodes], np.int64),
     )
     return Program(
-        planes,
-        write_out(planes, triangles, *lists),
-        *lists[:2],
-        np.array(breaks, bool),
-        *lists[2:],
-        depth=_depth(nodes),
-    )
+        planes, toward, lists, np.array(breaks, bool), write_out(lists, planes, toward, bounds),
+        _depth(nodes),
+    )  # fmt: skip
 
 
 def _depth(nodes: list[Node]) -> int:
@@ -122,7 +117,7 @@ def priority_list(made: Program, toward: NDArray[np.bool_]) -> list[Integers]:
         fresh = True
         for e in range(begin, end):
             fresh |= bool(made.breaks[e])
-            polygon, way = int(made.entries[e]), int(made.wanted[e])
+            polygon, way = int(made.lists.entries[e]), int(made.lists.wanted[e])
             if way == 2 or bool(toward[polygon]) == bool(way):
                 if fresh:
                     classes.append([])
@@ -133,14 +128,14 @@ def priority_list(made: Program, toward: NDArray[np.bool_]) -> list[Integers]:
     stack = [(0, DOWN)]
     while stack:
         node, step = stack.pop()
-        put(int(made.spans[node, step]), int(made.spans[node, step + 1]))
+        put(int(made.lists.spans[node, step]), int(made.lists.spans[node, step + 1]))
         if step == UP:
             continue
         stack.append((node, step + 1))
-        switch = int(made.switches[node])
+        switch = int(made.lists.switches[node])
         if switch >= 0:
             far = 1 if toward[switch] else 0
-            child = int(made.children[node, far if step == DOWN else 1 - far])
+            child = int(made.lists.children[node, far if step == DOWN else 1 - far])
             if child >= 0:
                 stack.append((child, DOWN))
     return [np.sort(np.array(c)) for c in classes]

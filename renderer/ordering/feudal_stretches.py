@@ -18,32 +18,35 @@ from numpy.typing import NDArray
 
 from renderer.ordering.polygons import Floats, Integers
 
-# Switches of a knot: its order is written out 2^SWITCHES times.
+# Switches of a knot: its order is written out 2^SWITCHES times. `emit` unrolls this number.
 SWITCHES = 5
-# Entries are copied in blocks; stretches are filled up to whole ones.
+# Entries are copied in blocks; stretches are filled up to whole ones. `emit` unrolls it too.
 BLOCK = 4
 NONE = -1
+# An entry holds what to draw above these bits and its condition in them.
+SHIFT = 32
 
 Indices = NDArray[np.uint32]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stretches:
-    """`planes` (m, 4) in columns, one of each output polygon.
+    """`planes` (k, 4) in columns.
 
-    `entries` (e, 2): what to draw, and the condition: p where polygon p must face the eye, m + p
-    where it must face away, 2 m always, 2 m + 1 never. `spans` (s, 3): a stretch's first entry, the
-    one after its last, and the knot below that follows it (NONE: the order ends). `firsts` is the
-    first stretch of each order, `knots` (k + 1, 2) a knot's first order and its first of
-    `switches` (polygons). `room` is the most that can be drawn, `depth` the longest way down.
+    A condition is c where the eye must be in front of plane c, k + c where behind it, 2 k always,
+    2 k + 1 never. `entries` (e,): what to draw, and its condition. `spans` (s, 3): a stretch's
+    first entry, the one after its last, and the knot below that follows it (NONE: the order
+    ends). `firsts` is the first stretch of each order, `knots` (n,) a knot's first order, and
+    `asked` (n, SWITCHES) the conditions that its switches' polygons face the eye. `room` is the
+    most that can be drawn, `depth` the longest way down.
     """
 
     planes: Floats
-    entries: Indices
+    entries: NDArray[np.uint64]
     spans: NDArray[np.int32]
     firsts: Indices
     knots: Indices
-    switches: Indices
+    asked: Indices
     room: int
     depth: int
 
@@ -56,9 +59,19 @@ class Stretches:
     def arguments(self) -> tuple:
         """What `emit` takes before the point."""
         return (
-            self.planes, self.entries, self.spans, self.firsts, self.knots, self.switches,
-            self.depth,
+            self.planes, self.entries, self.spans, self.firsts, self.knots, self.asked, self.depth,
         )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Lists:
+    """A tree as lists of polygons for each node: see `feudal_list.Program`."""
+
+    entries: Integers
+    wanted: NDArray[np.uint8]
+    spans: Integers
+    children: Integers
+    switches: Integers
 
 
 def knot_roots(children: Integers, switches: Integers, most: int = SWITCHES) -> NDArray[np.bool_]:
@@ -85,21 +98,19 @@ def knot_roots(children: Integers, switches: Integers, most: int = SWITCHES) -> 
 class _Writer:
     """Writes out the orders of knots."""
 
-    def __init__(
-        self, entries: Integers, wanted: Integers, spans: Integers, children: Integers,
-        switches: Integers, bounds: Integers,
-    ) -> None:  # fmt: skip
-        self.spans, self.children, self.switches = spans, children, switches
-        self.root = knot_roots(children, switches)
+    def __init__(self, lists: Lists, bounds: Integers, toward: Integers, planes: int) -> None:
+        self.spans, self.children, self.switches = lists.spans, lists.children, lists.switches
+        self.root = knot_roots(lists.children, lists.switches)
         self.number = np.cumsum(self.root) - 1
-        m = len(bounds) - 1
-        condition = np.choose(wanted, [m + entries, entries, np.full(len(entries), 2 * m)])
-        counts = np.diff(bounds)[entries]
+        facing = toward[lists.entries]
+        away, always = (facing + planes) % (2 * planes), np.full(len(facing), 2 * planes)
+        condition = np.choose(lists.wanted, [away, facing, always])
+        counts = np.diff(bounds)[lists.entries]
         self.starts = np.concatenate([[0], np.cumsum(counts)])
         step = np.arange(self.starts[-1]) - np.repeat(self.starts[:-1], counts)
-        items = np.repeat(bounds[entries], counts) + step
-        self.rows = np.column_stack([items, np.repeat(condition, counts)])
-        self.filler = np.array([[0, 2 * m + 1]])
+        items = np.repeat(bounds[lists.entries], counts) + step
+        self.rows = _packed(items, np.repeat(condition, counts))
+        self.filler = _packed(np.zeros(1, np.int64), np.array([2 * planes + 1]))
         self.written: list[NDArray] = []
         self.length = 0
         self.stretches: list[tuple[int, int, int]] = []
@@ -141,85 +152,89 @@ class _Writer:
 
     def _stretch(self, parts: list[NDArray], below: int) -> None:
         rows = np.concatenate([*parts, self.filler[:0]])
-        fill = np.repeat(self.filler, -len(rows) % BLOCK, axis=0)
+        fill = np.repeat(self.filler, -len(rows) % BLOCK)
         self.written += [rows, fill]
         begin = self.length
         self.length += len(rows) + len(fill)
         self.stretches.append((begin, self.length, below))
 
 
-def write_out(
-    planes: Floats, bounds: Integers, entries: Integers, wanted: Integers, spans: Integers,
-    children: Integers, switches: Integers,
-) -> Stretches:  # fmt: skip
-    """Stretches of a tree given as lists for each node (see `feudal_list.Program`).
+def _packed(items: Integers, conditions: Integers) -> NDArray[np.uint64]:
+    return (items.astype(np.uint64) << np.uint64(SHIFT)) | conditions.astype(np.uint64)
+
+
+def write_out(lists: Lists, planes: Floats, toward: Integers, bounds: Integers) -> Stretches:
+    """Stretches of a tree. `toward` (m,) is the condition that a polygon faces the eye.
 
     Polygon p is drawn as the items bounds[p] to bounds[p + 1].
     """
-    writer = _Writer(entries, wanted.astype(np.int64), spans, children, switches, bounds)
+    writer = _Writer(lists, bounds, toward, len(planes))
     firsts: list[int] = []
     knots, asked = [], []
-    depth = np.ones(len(switches), np.int64)
+    depth = np.ones(len(lists.switches), np.int64)
     for root in np.flatnonzero(writer.root):
         nodes, orders = writer.knot(int(root))
-        knots.append((len(firsts), len(asked)))
+        knots.append(len(firsts))
         firsts += orders
-        asked += [int(switches[node]) for node in nodes]
-    for node, below in enumerate(children):
-        depth[below[below >= 0]] = depth[node] + writer.root[below[below >= 0]]
+        never = [2 * len(planes) + 1] * (SWITCHES - len(nodes))
+        asked.append([int(toward[lists.switches[node]]) for node in nodes] + never)
+    for node, children in enumerate(lists.children):
+        below = children[children >= 0]
+        depth[below] = depth[node] + writer.root[below]
     return Stretches(
         planes=np.asfortranarray(planes),
-        entries=np.concatenate([*writer.written, writer.filler]).astype(np.uint32),
+        entries=np.concatenate([*writer.written, writer.filler]),
         spans=np.array(writer.stretches, np.int32).reshape(-1, 3),
         firsts=np.array(firsts, np.uint32),
-        knots=np.array([*knots, (len(firsts), len(asked))], np.uint32),
-        switches=np.array(asked, np.uint32),
+        knots=np.array(knots, np.uint32),
+        asked=np.array(asked, np.uint32).reshape(-1, SWITCHES),
         room=int(bounds[-1]),
         depth=int(depth.max()),
     )
 
 
 @numba.njit(cache=True)
-def emit(planes, entries, spans, firsts, knots, switches, depth, point, out):
+def emit(planes, entries, spans, firsts, knots, asked, depth, point, out):
     """Write what is drawn into `out`, which has BLOCK places to spare; returns how much.
 
     Indices are unsigned throughout: numba tests signed ones for counting from the end.
     """
     u = np.uint64
+    one, two, three, low = u(1), u(2), u(3), u((1 << SHIFT) - 1)
     m = u(len(planes))
-    facing = np.empty(u(2) * m + u(2), np.uint8)
+    facing = np.empty(two * m + two, np.uint8)
     nx, ny, nz, offset = planes[:, 0], planes[:, 1], planes[:, 2], planes[:, 3]
     x, y, z, w = point[0], point[1], point[2], point[3]
     for p in range(m):
         facing[p] = nx[p] * x + ny[p] * y + nz[p] * z + offset[p] * w > 0.0
     for p in range(m):
         facing[m + p] = facing[p] ^ np.uint8(1)
-    facing[u(2) * m], facing[u(2) * m + u(1)] = 1, 0
+    facing[two * m], facing[two * m + one] = 1, 0
     stack = np.empty(depth, np.uint64)
-    top, at, length = u(0), u(0), u(0)
-    knot = 0
+    top, at, length, knot = u(0), u(0), u(0), 0
     while True:
         if knot >= 0:
-            code, bit = u(0), u(0)
-            for k in range(u(knots[knot, 1]), u(knots[knot + 1, 1])):
-                code |= u(facing[switches[k]]) << bit
-                bit += u(1)
-            at = u(firsts[u(knots[knot, 0]) + code])
+            k = u(knot)
+            code = u(facing[asked[k, 0]]) | (u(facing[asked[k, 1]]) << one)
+            code |= (u(facing[asked[k, 2]]) << two) | (u(facing[asked[k, 3]]) << three)
+            code |= u(facing[asked[k, 4]]) << u(4)
+            at = u(firsts[u(knots[k]) + code])
         elif top == 0:
             return length
         else:
-            top -= u(1)
-            at = stack[top] + u(1)
+            top -= one
+            at = stack[top] + one
         for e in range(u(spans[at, 0]), u(spans[at, 1]), u(4)):
-            e1, e2, e3 = e + u(1), e + u(2), e + u(3)
-            a, b = u(facing[entries[e, 1]]), u(facing[entries[e1, 1]])
-            c, d = u(facing[entries[e2, 1]]), u(facing[entries[e3, 1]])
-            out[length] = entries[e, 0]
-            out[length + a] = entries[e1, 0]
-            out[length + a + b] = entries[e2, 0]
-            out[length + a + b + c] = entries[e3, 0]
-            length += a + b + c + d
+            e0, e1, e2, e3 = entries[e], entries[e + one], entries[e + two], entries[e + three]
+            second = length + u(facing[e0 & low])
+            third = second + u(facing[e1 & low])
+            fourth = third + u(facing[e2 & low])
+            out[length] = e0 >> u(SHIFT)
+            out[second] = e1 >> u(SHIFT)
+            out[third] = e2 >> u(SHIFT)
+            out[fourth] = e3 >> u(SHIFT)
+            length = fourth + u(facing[e3 & low])
         knot = spans[at, 2]
         if knot >= 0:
             stack[top] = at
-            top += u(1)
+            top += one
