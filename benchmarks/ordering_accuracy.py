@@ -1,36 +1,36 @@
 """Error against time of every ordering and of the usual approximations, on the same scenes.
 
-Which to pick: polygons that stand still and reach through one another, `bsp`; up to a few thousand
-of them, solid things above all, `feudal`, which cuts less. Things that move and don't intersect,
-`boxes`. Small polygons of one size, or when a wrong blend here and there does no harm, a sort by
-distance or view depth, at the price of drawing unsorted. The axis tree is never the best choice,
-and the paper's rule for boxes never better than the plane's. Without any order: the exact list
-where OpenGL 4.3 and the memory are there; depth peeling, eight passes or more, where they aren't;
-weighted blending when nobody looks closely; chance only to be averaged over many frames.
+`seethrough bench ordering_accuracy --json FILE` prints for every scene whether the orders that are
+exact give the exact picture, then error and time of every way, then which to pick when, as the
+numbers have it; with `--figure FILE.svg` it draws error against time. `python -m
+benchmarks.ordering_accuracy --figure FILE.svg --pictures FOLDER` draws that figure alone, and paper
+000's figures 4 to 6.
 """
 
 from __future__ import annotations
 
+import argparse
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from renderer.camera import Camera, look_at
+from benchmarks import ordering_exactness
+from benchmarks.painted_scene import PaintedScene as Bench
 from renderer.gpu.approximations import PeelingPainter, StochasticPainter, WeightedPainter
-from renderer.gpu.context import standalone
-from renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
-from renderer.models.translucent.scenes import TranslucentScene, scene
+from renderer.models.translucent.scenes import scene
 from renderer.ordering import axis_tree, boxes, bsp, distance, feudal
 from renderer.ordering.polygons import Floats
-from renderer.ordering.prepared import Drawable, Prepared, drawable
+from renderer.ordering.prepared import Prepared
 
 SCENES = ("panels100", "boxes", "leaves", "cow", "house", "soup1000")
 SIZE = (400, 300)
-EYES = 3
+EYES, TURNS = 4, 3
+PASSES, DRAWS = (1, 2, 4, 8, 16), (8, 32)
+UNSORTED = "unsorted"
 ORDERINGS: dict[str, Callable[..., Prepared]] = {
     "distance (003)": distance.prepare,
     "view depth (004)": lambda p: distance.prepare(p, "depth"),
@@ -41,129 +41,105 @@ ORDERINGS: dict[str, Callable[..., Prepared]] = {
     "feudal static (002)": feudal.prepare,
     "feudal dynamic (002)": lambda p: feudal.prepare(p, "dynamic"),
 }
+Result = dict[str, Any]
 
 
-class Bench:
-    """One scene on the GPU: the exact picture, and how far others are off it."""
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A way to a picture: `paint` draws it for an eye, after `prepare_ms` of preparation."""
 
-    def __init__(self, made: TranslucentScene, size: tuple[int, int]) -> None:
-        self.made = made
-        self.painter = PolygonPainter(standalone(430), size, texture=made.texture)
-        self.exact = ExactPainter(self.painter)
-        self.plain = corners_of(drawable(made.polygons, np.arange(len(made.polygons))))
-        if made.opaque is not None:
-            self.painter.opaque = corners_of(drawable(made.opaque, np.arange(len(made.opaque))))
-        self._corners: dict[int, tuple[Prepared, Corners]] = {}
-        self._exact: dict[bytes, NDArray[np.float32]] = {}
-
-    def release(self) -> None:
-        """Give the GPU back."""
-        self.painter.release()
-        self.painter.context.release()
-
-    def camera(self, eye: Floats) -> Camera:
-        """Looks at the scene's middle."""
-        radius = self.made.radius
-        return look_at(eye, self.made.center, near=0.05 * radius, far=6 * radius)
-
-    def truth(self, eye: Floats) -> NDArray[np.float32]:
-        """The exact picture, kept."""
-        key = eye.tobytes()
-        if key not in self._exact:
-            self._exact[key] = self.exact.painted(self.plain, self.camera(eye))
-        return self._exact[key]
-
-    def ordered(self, prepared: Prepared, eye: Floats) -> NDArray[np.float32]:
-        """The picture painted in a method's order: order and drawing."""
-        if id(prepared) not in self._corners:
-            self._corners[id(prepared)] = (prepared, corners_of(prepared.drawable))
-        camera = self.camera(eye)
-        order = prepared.order(eye=eye, view=camera.forward)
-        return self.painter.painted(self._corners[id(prepared)][1], order, camera)
-
-    def off(self, prepared: Prepared, eye: Floats) -> float:
-        """Share of pixels more than 1/255 off the exact picture."""
-        truth = self.truth(eye)
-        return float(
-            (np.abs(self.ordered(prepared, eye) - truth)[..., :3].max(-1) > 1 / 255).mean()
-        )
+    name: str
+    paint: Callable[[Floats], None]
+    prepare_ms: float = 0.0
 
 
-def corners_of(drawn: Drawable) -> Corners:
-    """Triangles for the GPU."""
-    return Corners.of(drawn.polygons.vertices, drawn.polygons.attributes, drawn.triangles)
-
-
-def ways(bench: Bench) -> Iterator[tuple[str, Callable[[Floats], NDArray[np.float32]], float]]:
-    """Every way to a picture of a scene: its name, the way, and seconds of preparation."""
-    painter, plain = bench.painter, bench.plain
+def ways(bench: Bench) -> Iterator[Way]:
+    """Every way to a picture of a scene."""
     for name, prepare in ORDERINGS.items():
         prepare(bench.made.polygons).order(eye=bench.made.center + 1e3, view=np.ones(3))
         start = time.perf_counter()
         prepared = prepare(bench.made.polygons)
-        yield name, (lambda eye, p=prepared: bench.ordered(p, eye)), time.perf_counter() - start
-    yield "unsorted", lambda eye: painter.painted(plain, None, bench.camera(eye)), 0.0
-    weighted, peeling, chance = (
-        WeightedPainter(painter),
-        PeelingPainter(painter),
-        StochasticPainter(painter),
-    )
+        spent = 1e3 * (time.perf_counter() - start)
+        yield Way(name, lambda eye, p=prepared: bench.paint(p, eye), spent)  # type: ignore[misc]
+    yield from _without_order(bench)
+
+
+def _without_order(bench: Bench) -> Iterator[Way]:
+    painter, plain, camera = bench.painter, bench.plain, bench.camera
+    weighted, peeling = WeightedPainter(painter), PeelingPainter(painter)
+    chance = StochasticPainter(painter)
 
     def depths(eye: Floats) -> tuple[float, float]:
         away = float(np.linalg.norm(eye - bench.made.center))
         return away - bench.made.radius, away + bench.made.radius
 
-    yield (
-        "weighted blended",
-        lambda eye: weighted.painted(plain, bench.camera(eye), depths(eye)),
-        0.0,
-    )
-    for passes in (1, 2, 4, 8, 16):
-        yield (
-            f"depth peeling, {passes}",
-            lambda eye, n=passes: peeling.painted(plain, bench.camera(eye), n),
-            0.0,
+    yield Way(UNSORTED, lambda eye: painter.paint(plain, None, camera(eye)))
+    yield Way("weighted blended", lambda eye: weighted.paint(plain, camera(eye), depths(eye)))
+    for n in PASSES:
+        yield Way(
+            f"depth peeling, {n}",
+            lambda eye, n=n: peeling.paint(plain, camera(eye), n),  # type: ignore[misc]
         )
-    for draws in (8, 32):
-        yield (
-            f"stochastic, {draws}",
-            lambda eye, n=draws: chance.painted(plain, bench.camera(eye), n),
-            0.0,
+    for n in DRAWS:
+        yield Way(
+            f"stochastic, {n}",
+            lambda eye, n=n: chance.paint(plain, camera(eye), n),  # type: ignore[misc]
         )
-    yield "exact list", lambda eye: bench.exact.painted(plain, bench.camera(eye)), 0.0
+    yield Way("exact list", lambda eye: bench.exact.paint(plain, camera(eye)))
 
 
-def measure_all(names: tuple[str, ...] = SCENES) -> list[dict[str, Any]]:
-    """For each scene and way: error, and times of preparing and of a frame, read-back included."""
-    results = []
-    for name in names:
-        bench = Bench(scene(name), SIZE)
-        eyes = bench.made.eyes(
-            EYES, np.random.default_rng(np.random.SeedSequence(3, spawn_key=(10,)))
-        )
-        for way, paint, preparing in ways(bench):
-            paint(eyes[0])
-            errors, times = [], []
-            for eye in eyes:
-                truth = bench.truth(eye)
+def measure(name: str, eyes: int = EYES, turns: int = TURNS) -> list[Result]:
+    """For each way of one scene: error, and times of preparing and of a frame.
+
+    A frame is ordering and drawing, read-back not included. Ways take turns, and the fastest turn
+    at each eye counts, so that other work on the machine falls on none or on all.
+    """
+    bench = Bench(scene(name), SIZE)
+    stream = np.random.SeedSequence(3, spawn_key=(10,))
+    places = bench.made.eyes(eyes, np.random.default_rng(stream))
+    found = list(ways(bench))
+    spent = np.full((len(found), eyes), np.inf)
+    squares, over = np.zeros((2, len(found), eyes))
+    for e, eye in enumerate(places):
+        for i, way in enumerate(found):
+            way.paint(eye)
+            picture = bench.painter.picture()
+            squares[i, e] = ((picture - bench.truth(eye))[..., :3] ** 2).mean()
+            over[i, e] = bench.wrong(picture, eye).mean()
+        for _ in range(turns):
+            for i, way in enumerate(found):
                 start = time.perf_counter()
-                picture = paint(eye)
-                times.append(time.perf_counter() - start)
-                errors.append(((picture - truth)[..., :3] ** 2).mean())
-            results.append(
-                {
-                    "scene": name, "way": way, "prepare_ms": 1e3 * preparing,
-                    "frame_ms": 1e3 * min(times), "rmse": 255 * float(np.sqrt(np.mean(errors))),
-                }
-            )  # fmt: skip
-        bench.release()
-    return results
+                way.paint(eye)
+                bench.painter.context.finish()
+                spent[i, e] = min(spent[i, e], time.perf_counter() - start)
+    bench.release()
+    return [
+        {
+            "scene": name, "way": way.name, "prepare_ms": way.prepare_ms,
+            "frame_ms": 1e3 * float(np.median(spent[i])),
+            "rmse": 255 * float(np.sqrt(squares[i].mean())), "over": 100 * float(over[i].mean()),
+        }
+        for i, way in enumerate(found)
+    ]  # fmt: skip
+
+
+def measure_all(names: tuple[str, ...] = SCENES) -> list[Result]:
+    """`measure`, scene by scene."""
+    return [result for name in names for result in measure(name)]
 
 
 def figures() -> Iterator[dict[str, Any]]:
-    """The table as rows of `seethrough bench`."""
-    for result in measure_all():
-        for what, unit in (("rmse", "/255"), ("frame_ms", "ms")):
+    """The tables as rows of `seethrough bench`."""
+    yield from ordering_exactness.figures()
+    for name in SCENES:
+        yield from rows(measure(name))
+
+
+def rows(results: list[Result]) -> Iterator[dict[str, Any]]:
+    """Four rows for each result."""
+    units = {"rmse": "/255", "over": "%", "frame_ms": "ms", "prepare_ms": "ms"}
+    for result in results:
+        for what, unit in units.items():
             yield {
                 "figure": f"{what}, {result['way']}", "scene": result["scene"],
                 "value": float(f"{result[what]:.4g}"), "unit": unit,
@@ -171,30 +147,52 @@ def figures() -> Iterator[dict[str, Any]]:
             }  # fmt: skip
 
 
-def draw_figure(results: list[dict[str, Any]], path: Path) -> None:
-    """Error against time of a frame, one panel for each scene."""
-    from matplotlib.figure import Figure
+def results_of(table: list[dict[str, Any]]) -> list[Result]:
+    """The results that rows were made of."""
+    found: dict[tuple[str, str], Result] = {}
+    for row in table:
+        what, _, way = row["figure"].partition(", ")
+        if what in ("rmse", "over", "frame_ms", "prepare_ms"):
+            key = (row["scene"], way)
+            found.setdefault(key, {"scene": key[0], "way": way})[what] = row["value"]
+    return list(found.values())
 
-    names = list(dict.fromkeys(r["scene"] for r in results))
-    labels = list(dict.fromkeys(r["way"] for r in results))
-    marks = "osD^v<>Ph*XpH8d+x1234"
-    picture = Figure(figsize=(11, 6.5), layout="constrained")
-    axes = picture.subplots(2, (len(names) + 1) // 2).ravel()
-    for plot, name in zip(axes, names, strict=False):
-        for i, way in enumerate(labels):
-            found = [r for r in results if r["scene"] == name and r["way"] == way]
-            for r in found:
-                plot.plot(
-                    r["frame_ms"],
-                    max(r["rmse"], 0.01),
-                    marks[i % len(marks)],
-                    color=f"C{i % 10}",
-                    label=way,
-                )
-        plot.set(xscale="log", yscale="log", title=name, xlabel="ms a frame", ylabel="RMSE / 255")
-        plot.grid(alpha=0.3)
-    for unused in axes[len(names) :]:
-        unused.remove()
-    handles, shown = axes[0].get_legend_handles_labels()
-    picture.legend(handles, shown, loc="outside right center", fontsize=8)
-    picture.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+
+def summary(table: list[dict[str, Any]]) -> str:
+    """Which way to pick when, from the rows of `figures`."""
+    from benchmarks.ordering_advice import advice
+
+    return advice(results_of(table))
+
+
+def chart(table: list[dict[str, Any]], path: Path) -> None:
+    """The figure of error against time, from the rows of `figures`."""
+    draw_figure(results_of(table), path)
+
+
+def draw_figure(results: list[Result], path: Path) -> None:
+    """Error against time of a frame, one panel for each scene."""
+    from benchmarks.ordering_figures import error_against_time
+
+    error_against_time(results, path)
+
+
+def main() -> None:
+    """Draw what is asked for, and say which way to pick."""
+    parser = argparse.ArgumentParser(description="error against time, and paper 000's figures")
+    parser.add_argument("--figure", type=Path, metavar="FILE", help="error against time, SVG")
+    parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="paper 000's figures 4–6")
+    chosen = parser.parse_args()
+    if chosen.pictures:
+        from benchmarks.paper_figures import draw_pictures
+
+        for line in draw_pictures(chosen.pictures):
+            print(line, flush=True)
+    if chosen.figure:
+        results = measure_all()
+        draw_figure(results, chosen.figure)
+        print(summary(list(rows(results))))
+
+
+if __name__ == "__main__":
+    main()

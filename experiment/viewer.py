@@ -84,15 +84,20 @@ class Viewer:
         eye = self.scene.center + state.distance * radius * way
         return look_at(eye, self.scene.center, near=0.01 * radius, far=40 * radius)
 
-    def draw(self, state: ViewState) -> NDArray[np.float32]:
-        """(height, width, 4) picture, row 0 on top."""
+    def picture(self, state: ViewState) -> NDArray[np.float32]:
+        """(height, width, 4) what `draw` draws, row 0 on top."""
+        self.draw(state)
+        return self.painter.picture()
+
+    def draw(self, state: ViewState) -> None:
+        """Draw the scene into the frame."""
         camera = self.camera(state)
         self.painter.opaque = self._opaque if state.opaque else None
         self.painter.textured = state.texturing and self.scene.texture is not None
         order = self.prepared.order(eye=camera.eye, view=camera.forward)
         self.painter.context.wireframe = state.lines
         try:
-            return self.painter.painted(self._corners, order, camera)
+            self.painter.paint(self._corners, order, camera)
         finally:
             self.painter.context.wireframe = False
 
@@ -101,7 +106,7 @@ class Viewer:
         target.use()
         self.painter.context.enable_only(moderngl.NOTHING)
         self.painter.color.use(0)
-        self._present.set(layer=0)
+        self._present.set(layer=0, share=1.0)
         self._screen.render(moderngl.TRIANGLES, vertices=3)
 
     def summary(self, method: str) -> list[str]:

@@ -42,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
     from renderer.gpu.context import standalone
 
     viewer = Viewer(standalone(), SIZE, made, prepared)
-    picture = viewer.draw(ViewState())
+    picture = viewer.picture(ViewState())
     Image.fromarray(np.round(picture[..., :3].clip(0, 1) * 255).astype(np.uint8)).save(args.picture)
     print("\n".join(viewer.summary(args.order)))
     return 0

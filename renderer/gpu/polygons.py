@@ -55,7 +55,7 @@ class PolygonPainter:
         picture = np.ones((1, 1, 4)) if texture is None else texture
         pixels = np.ascontiguousarray(np.round(picture * 255), np.uint8)
         self.surface = context.texture((pixels.shape[1], pixels.shape[0]), 4, pixels.tobytes())
-        self.paint = program(context, "polygon.vert", "polygon.frag", ["PAINT"])
+        self.blended = program(context, "polygon.vert", "polygon.frag", ["PAINT"])
         self.opaque: Corners | None = None
         self._buffers: dict[int, tuple[Corners, moderngl.Buffer]] = {}
 
@@ -69,10 +69,17 @@ class PolygonPainter:
     def painted(
         self, corners: Corners, order: NDArray[np.int32] | None, camera: Camera, blend: bool = True
     ) -> NDArray[np.float32]:
-        """(height, width, 4) picture, row 0 on top: triangles drawn in `order` (t,), or unsorted.
+        """(height, width, 4) picture, row 0 on top, of what `paint` draws."""
+        self.paint(corners, order, camera, blend)
+        return self.picture()
+
+    def paint(
+        self, corners: Corners, order: NDArray[np.int32] | None, camera: Camera, blend: bool = True
+    ) -> None:
+        """Draw triangles in `order` (t,), or unsorted, into the frame.
 
         Depth writes are off: a wrong order shows as a wrong blend. Without `blend` the triangles
-        hide one another, depth writes on (paper 000, figure 4).
+        are opaque and hide one another, depth writes on (paper 000, figure 4).
         """
         self.begin(camera)
         state = moderngl.BLEND | moderngl.DEPTH_TEST if blend else moderngl.DEPTH_TEST
@@ -80,9 +87,10 @@ class PolygonPainter:
         self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
         self.frame.depth_mask = not blend
         self.frame.use()
-        self.draw(self.paint, corners, camera, order)
+        self.blended.set(unblended=not blend)
+        self.draw(self.blended, corners, camera, order)
+        self.blended.set(unblended=False)
         self.frame.depth_mask = True
-        return self.picture()
 
     def begin(self, camera: Camera) -> None:
         """Clear the frame and draw the opaque triangles."""
@@ -91,7 +99,7 @@ class PolygonPainter:
         self.frame.clear(*self.background, 1.0, depth=1.0)
         if self.opaque is not None and len(self.opaque.rows):
             self.context.enable_only(moderngl.DEPTH_TEST)
-            self.draw(self.paint, self.opaque, camera, None)
+            self.draw(self.blended, self.opaque, camera, None)
 
     def draw(
         self, shader: Shader, corners: Corners, camera: Camera, order: NDArray[np.int32] | None
@@ -100,9 +108,15 @@ class PolygonPainter:
         self.setup(shader, camera)
         if not len(corners.rows) or (order is not None and not len(order)):
             return
-        array = self._vertex_array(shader, corners, order)
+        indices = None
+        if order is not None:
+            flat = (order[:, None] * np.int32(3) + np.arange(3, dtype=np.int32)).ravel()
+            indices = self.context.buffer(flat.tobytes())
+        array = self._vertex_array(shader, corners, indices)
         array.render(moderngl.TRIANGLES)
         array.release()
+        if indices is not None:
+            indices.release()
 
     def setup(self, shader: Shader, camera: Camera) -> None:
         """Camera and texture of a shader."""
@@ -131,7 +145,7 @@ class PolygonPainter:
         array.release()
 
     def _vertex_array(
-        self, shader: Shader, corners: Corners, order: NDArray[np.int32] | None
+        self, shader: Shader, corners: Corners, indices: moderngl.Buffer | None
     ) -> moderngl.VertexArray:
         key = id(corners)
         if key not in self._buffers:
@@ -141,10 +155,6 @@ class PolygonPainter:
         layout = {"position": "3f", "color": "4f", "texturing": "3f"}
         sizes = {"position": 12, "color": 16, "texturing": 12}
         form = " ".join(layout[n] if n in names else f"{sizes[n]}x" for n in layout)
-        indices = None
-        if order is not None:
-            flat = (order[:, None] * np.int32(3) + np.arange(3, dtype=np.int32)).ravel()
-            indices = self.context.buffer(flat.tobytes())
         return self.context.vertex_array(
             shader.program, [(vertices, form, *names)], index_buffer=indices
         )
@@ -165,14 +175,18 @@ class ExactPainter:
         self.entries = context.buffer(reserve=ENTRY_BYTES * self.room)
 
     def painted(self, corners: Corners, camera: Camera) -> NDArray[np.float32]:
-        """(height, width, 4) picture, row 0 on top. Grows its list until all fragments fit."""
+        """(height, width, 4) picture, row 0 on top, of what `paint` draws."""
+        self.paint(corners, camera)
+        return self.painter.picture()
+
+    def paint(self, corners: Corners, camera: Camera) -> None:
+        """Draw the exact picture into the frame. The list grows until all fragments fit."""
         while (needed := self._gather(corners, camera)) > self.room:
             self.entries.release()
             self.room = needed
             self.entries = self.painter.context.buffer(reserve=ENTRY_BYTES * needed)
         self.sort.set(width=self.painter.size[0])
         self.painter.over(self.sort)
-        return self.painter.picture()
 
     def _gather(self, corners: Corners, camera: Camera) -> int:
         painter = self.painter

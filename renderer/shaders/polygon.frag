@@ -14,9 +14,11 @@ vec4 fragment_color() {
 }
 
 #ifdef PAINT
+uniform bool unblended;
 out vec4 result;
 void main() {
     vec4 c = fragment_color();
+    if (unblended) c.a = 1.0;
     result = vec4(c.rgb * c.a, c.a);
 }
 #endif
@@ -42,9 +44,12 @@ void main() {
 
 #ifdef PEEL
 uniform sampler2D last;
+uniform sampler2D solid;  // depth of what is opaque
 out vec4 result;
 void main() {
-    if (gl_FragCoord.z <= texelFetch(last, ivec2(gl_FragCoord.xy), 0).r) discard;
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    if (gl_FragCoord.z <= texelFetch(last, at, 0).r) discard;
+    if (gl_FragCoord.z >= texelFetch(solid, at, 0).r) discard;
     vec4 c = fragment_color();
     result = vec4(c.rgb * c.a, c.a);
 }

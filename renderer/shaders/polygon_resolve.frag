@@ -1,5 +1,5 @@
 // Provides the picture from what a pass gathered: SORTED (the exact picture, from each pixel's
-// list), UNDER (a peeled layer beneath those before it) or AVERAGE (of weighted sums).
+// list), UNDER (a share of another picture, blended or added) or AVERAGE (of weighted sums).
 out vec4 result;
 
 #ifdef SORTED
@@ -40,8 +40,9 @@ void main() {
 
 #ifdef UNDER
 uniform sampler2D layer;
+uniform float share;
 void main() {
-    result = texelFetch(layer, ivec2(gl_FragCoord.xy), 0);
+    result = share * texelFetch(layer, ivec2(gl_FragCoord.xy), 0);
 }
 #endif
 

@@ -39,9 +39,16 @@ def painters(context, made):
     return painter, ExactPainter(painter)
 
 
-def cameras(made, count):
-    eyes = made.eyes(count, np.random.default_rng(np.random.SeedSequence(3, spawn_key=(20,))))
-    return [look_at(eye, made.center, near=0.1, far=10 * made.radius) for eye in eyes]
+def cameras(made, count, within=0):
+    """From eyes all around, and from some among the polygons."""
+    rng = np.random.default_rng(np.random.SeedSequence(3, spawn_key=(20,)))
+    eyes = [
+        *made.eyes(count, rng),
+        *(made.center + made.radius * rng.uniform(-0.6, 0.6, (within, 3))),
+    ]
+    return [
+        look_at(eye, made.center, near=0.04 * made.radius, far=10 * made.radius) for eye in eyes
+    ]
 
 
 def off(picture, truth):
@@ -49,21 +56,22 @@ def off(picture, truth):
 
 
 @pytest.mark.parametrize(
-    "name", ["panels100", "cottage", "leaves", "fishbowl", "fence", "cow", "vise"]
-)
+    "name",
+    ["boxes", "panels100", "cottage", "leaves", "fishbowl", "fence", "cow", "vise", "house",
+     "soup1000"],
+)  # fmt: skip
 def test_bsp_and_feudal_give_the_exact_picture(name, context):
+    """`seethrough bench ordering_accuracy` does the same from 100 eyes, in larger pictures."""
     made = scene(name)
     painter, exact = painters(context, made)
     plain = whole(made.polygons)
-    for method in ("bsp", "feudal", "feudal_dynamic"):
-        prepared = prepare(method, made.polygons)
-        pieces = corners(prepared.drawable)
-        for camera in cameras(made, 4):
-            truth = exact.painted(plain, camera)
-            assert (
-                off(painter.painted(pieces, prepared.order(eye=camera.eye), camera), truth)
-                <= ALONG_CUTS
-            )
+    ready = [prepare(m, made.polygons) for m in ("bsp", "feudal", "feudal_dynamic")]
+    ways = [(prepared, corners(prepared.drawable)) for prepared in ready]
+    for camera in cameras(made, 8, within=4):
+        truth = exact.painted(plain, camera)
+        for prepared, pieces in ways:
+            picture = painter.painted(pieces, prepared.order(eye=camera.eye), camera)
+            assert off(picture, truth) <= ALONG_CUTS
     painter.release()
 
 
@@ -77,7 +85,8 @@ def test_boxes_give_the_exact_picture_of_what_does_not_intersect(context):
             picture = painter.painted(
                 corners(prepared.drawable), prepared.order(eye=camera.eye), camera
             )
-            assert off(picture, truth) == 0.0
+            # Sides that meet are equally deep along their edge: there rounding decides.
+            assert off(picture, truth) <= ALONG_CUTS
         painter.release()
 
 

@@ -9,11 +9,12 @@ import numpy as np
 
 from renderer.models.translucent import garden, house, vise
 from renderer.models.translucent.solids import Faces, box
-from renderer.ordering.polygons import Floats, Polygons, polygons_from, triangles_from
+from renderer.ordering.polygons import Floats, Polygons, newell, polygons_from, triangles_from
 
 # Length of a soup's sides, times the mean distance of its triangles: makes the baseline of two to
 # three pieces for each triangle at any size.
 SOUP_SIZE = 0.25
+LIGHT = np.array([3.0, 6.0, 2.0]) / 7.0  # where it comes from
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -56,9 +57,16 @@ def _colored(
     colors = rng.uniform(0.15, 1.0, (int(labels.max(initial=0)) + 1, 3))[labels]
     corner = np.repeat(np.arange(len(polygons)), polygons.counts)
     columns = np.zeros((len(corner), 7))
-    columns[:, :3], columns[:, 3] = colors[corner], 0.5
+    columns[:, :3], columns[:, 3] = (colors * _light(polygons)[:, None])[corner], 0.5
     made = Polygons(polygons.vertices, polygons.starts, columns, polygons.objects)
     return TranslucentScene(name, made, closed=closed)
+
+
+def _light(polygons: Polygons) -> Floats:
+    """(m,) light that each face gets, .7 to 1, so that the sides of a box can be told apart."""
+    normals = newell(polygons)
+    length = np.maximum(np.linalg.norm(normals, axis=1), np.finfo(float).tiny)
+    return 0.85 + 0.15 * (normals @ LIGHT) / length
 
 
 def _solids(name: str, parts: list[Faces]) -> TranslucentScene:
