@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -15,11 +17,15 @@ from analysis.page.blocks import Block, Column, Fold, Report, Section, Table, sa
 from analysis.published.consistency import Finding, all_findings
 from analysis.published.numbers import Published, load_published
 from analysis.published.ordinal import Case, correct_cases, rating_cases
-from analysis.published.predictions import equivalence_section, predictions_section
+from analysis.published.predictions import (
+    MARGIN,
+    equivalence_section,
+    equivalence_table,
+    predictions_section,
+)
 from analysis.published.reconstruct import exact_moments, r_interval, r_of
+from analysis.sections.provenance import PAIRS, software
 
-ALPHA = 0.05
-MARGIN = 0.20
 FITTING_TRIALS = range(1, 13)
 
 TITLE = "The published study of dynamic transparency, recomputed"
@@ -80,14 +86,27 @@ def published_report(seed: int = 1) -> Report:
     )
     compared = _compared(published, tests)
     findings = all_findings(published)
+    equal = equivalence_table(published, tests)
     sections = (
-        predictions_section(published, tests, findings),
+        predictions_section(published, tests, findings, equal),
         _recomputed(published, tests, compared),
         _consistency(findings),
         _ordinal(published, rng),
-        equivalence_section(published, tests),
+        equivalence_section(published, tests, equal),
+        _ran(seed),
     )
     return Report(TITLE, SUBTITLE, BANNER, sections)
+
+
+def _ran(seed: int) -> Section:
+    """Versions, the stream, and the hash of the numbers that all this comes from."""
+    data = (files("analysis.published") / "published.toml").read_bytes()
+    rows = (
+        *software(),
+        {"what": "analysis stream", "value": f"seed {seed}, spawn key (3, 0)"},
+        {"what": "published.toml, SHA-256", "value": hashlib.sha256(data).hexdigest()},
+    )
+    return Section("provenance", "What ran", (Table("ran", "What ran", PAIRS, rows),))
 
 
 def reconstructed(published: Published, rng: Generator) -> list[Measure]:
@@ -98,7 +117,7 @@ def reconstructed(published: Published, rng: Generator) -> list[Measure]:
             m.name,
             m.label,
             m.unit,
-            2,
+            2 if m.unit else 3,
             *exact_moments(n, m.standard, m.dynamic, r_of(m, n), rng),
             family="tasks" if m.name in published.tasks else "",
         )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import oracles
 import pytest
+from scipy import stats
 
 from analysis.page.blocks import Table, walk
 from analysis.published import consistency
@@ -20,6 +22,7 @@ from analysis.published.grim import (
 )
 from analysis.published.numbers import Claim, Moments, Printed, Published, load_published
 from analysis.published.ordinal import correct_cases, rating_cases
+from analysis.published.predictions import worst_tost
 from analysis.published.reconstruct import exact_moments, r_interval, r_of
 from analysis.published.report import published_report
 
@@ -213,3 +216,22 @@ def test_it_says_what_is_by_construction_and_answers_the_predictions():
     )
     for words in ("P1, ", "P2, ", "P3, ", "equivalence is not shown"):
         assert words in text
+
+
+def test_t2_is_equivalent_whatever_the_correlation(published):
+    """The largest TOST p over correlations and what rounds to the printed numbers, by search."""
+    first, second = published.correct
+    n = published.participants
+    found = []
+    for m1, m2 in itertools.product((first.mean.low, first.mean.high), repeat=2):
+        for r in np.linspace(-1, 1, 41):
+            s1, s2 = first.sd.high, second.sd.high
+            error = np.sqrt(s1**2 + s2**2 - 2 * r * s1 * s2) / np.sqrt(n)
+            margin = 0.2 * m1
+            ends = ((m1 - m2 + margin) / error, (margin - m1 + m2) / error)
+            found.append(max(stats.t.sf(end, n - 1) for end in ends))
+    margin, p = worst_tost(published)
+    assert margin == pytest.approx(0.2 * first.mean.value)
+    assert p < 0.05
+    # an upper bound takes the lowest margin and the largest gap together: a little above the search
+    assert max(found) <= p <= 1.05 * max(found)
