@@ -22,6 +22,7 @@ from pydantic import (
 from experiment.design import Factors
 from experiment.errors import InputError
 from experiment.folders import PARTICIPANT
+from experiment.own_models import beside
 from experiment.parameter_tables import from_table
 from renderer.techniques.dynamic import DynamicTransparency
 from tasks.parameters import AbstractParameters, BuildingParameters
@@ -174,7 +175,10 @@ class Study(_Table):
 
     def resolved(self) -> dict[str, Any]:
         """Every value, defaults included, as plain JSON types."""
-        return json.loads(self.model_dump_json())
+        table = json.loads(self.model_dump_json())
+        for model in table["walkthrough"]["models"]:
+            del model["folder"]  # where a file lies differs between stations that run one study
+        return table
 
     def digest(self) -> str:
         """SHA-256 of the resolved study: two sessions with the same digest ran the same study."""
@@ -220,7 +224,7 @@ def load(name: str) -> Study:
         raise InputError(f"{path}: byte {error.start} is not UTF-8") from None
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {_one_line(str(error))}") from None
-    return _with_consent(parse(table, str(path)), path)
+    return beside(_with_consent(parse(table, str(path)), path), path)
 
 
 def _with_consent(study: Study, path: Path) -> Study:
@@ -251,16 +255,23 @@ def parse(table: Mapping[str, Any], file: str) -> Study:
 
 def _check_models(parameters: BuildingParameters, file: str) -> None:
     """The building's models are there, each once, and enough of them to tell one from others."""
-    types = parameters.types
-    if not types:
+    types, own = parameters.types, [model.name for model in parameters.models]
+    if not types and not own:
         return
     from renderer.models import MODELS
 
-    wrong = [t for t in types if t not in MODELS or types.count(t) > 1]
-    if wrong or (len(types) < 3 and parameters.objects > 1):
+    for number, name in enumerate(own):
+        if name in MODELS or own.count(name) > 1:
+            raise InputError(
+                f"{file}: walkthrough.models[{number}].name = {_show(name)}: expected a name that "
+                "no other model has"
+            )
+    known = {*MODELS, *own}
+    wrong = [t for t in types if t not in known or types.count(t) > 1]
+    if wrong or (types and len(types) < 3 and parameters.objects > 1):
         raise InputError(
             f"{file}: walkthrough.types = {_show(wrong or types)}: expected three or more of "
-            f"{', '.join(sorted(MODELS))}, each once"
+            f"{', '.join(sorted(known))}, each once"
         )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from experiment.clock import RealClock
 from experiment.config import Study
 from experiment.display import Input
+from experiment.own_models import keep
 from experiment.provenance import provenance
 from experiment.recorder import FileRecorder, Who
 from experiment.resume import going_on, starting_point
@@ -47,6 +48,7 @@ def play_in_window(
         who = Who(study.study.name, participant, source, start.slot, described, start.session)
         person: Input = window if watched is None else _simulated(watched, window)
         recorder = FileRecorder(data, who, attempts=start.attempts)
+        keep(study, data)
         world = World(window, person, clock, recorder, TASKS, say)
         return run_session(study, start.slot, world, start.done)
     finally:

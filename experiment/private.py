@@ -28,8 +28,8 @@ def make_folder(path: Path) -> None:
     path.mkdir(mode=FOLDER, exist_ok=True)
 
 
-def write_new(path: Path, text: str) -> None:
-    """A new file with all of `text`, on disk when this returns, or none. Raises OSError.
+def write_new(path: Path, content: str | bytes) -> None:
+    """A new file with all of `content`, on disk when this returns, or none. Raises OSError.
 
     FileExistsError where there is one, also from another process. The name appears last, so a
     crash leaves no half file.
@@ -38,7 +38,7 @@ def write_new(path: Path, text: str) -> None:
     try:
         file = os.open(half, os.O_WRONLY | os.O_CREAT | os.O_EXCL, FILE)
         try:
-            write(file, text.encode("utf-8", "replace"))
+            write(file, content.encode("utf-8", "replace") if isinstance(content, str) else content)
             os.fsync(file)
         finally:
             os.close(file)

@@ -16,6 +16,7 @@ from typing import Any
 from experiment.config import Study, parse
 from experiment.design import Trial, session_for
 from experiment.errors import InputError
+from experiment.own_models import kept
 from experiment.scenes import StudyScenes
 from renderer.techniques.standard import Standard
 from tasks import events as ev
@@ -81,6 +82,7 @@ def _recorded(table: Path, row: dict[str, str], number: int) -> Recorded:
         study = parse(provenance["study"], str(sidecar))
     except (OSError, ValueError, KeyError) as error:
         raise InputError(f"{sidecar}: not a session's sidecar: {error!r}") from None
+    study = kept(study, table.parents[3])
     task_sets = session_for(int(row["slot"]), study.design.factors())
     trial = next(t for s in task_sets for t in s.trials if t.number == number)
     return Recorded(

@@ -28,8 +28,9 @@ class Texts:
         return self._texts[key]
 
     def get(self, key: str) -> str:
-        """The text, or the key itself for what needs no translation (a letter, a number)."""
-        return self._texts.get(key, key)
+        """The text, or the key itself for what needs no translation: letters, numbers, the names
+        of a study's own models."""
+        return self._texts.get(key, key.removeprefix("kind."))
 
     def fill(self, key: str, values: Iterable[tuple[str, str]] = ()) -> str:
         """The text with its {placeholders} filled; values that are keys are looked up too."""

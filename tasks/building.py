@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.random import Generator
@@ -14,6 +14,7 @@ from renderer.geometry import Mesh
 from renderer.scene import Object, Scene
 from renderer.transforms import placed, rotation_y
 from tasks.floor import Floor, random_floor
+from tasks.own_models import mesh_of
 from tasks.parameters import BuildingParameters
 from tasks.walls import inner_walls, shell
 
@@ -72,16 +73,16 @@ def count_building(
     return _furnished(rng, parameters, models, asked, counts)
 
 
-def _library(models: Models | None) -> Models:
+def _library(p: BuildingParameters, models: Models | None) -> Models:
     if models is not None:
         return models
     from renderer.models import MODELS  # the meshes are only built by those who need them
 
-    return MODELS
+    return {**MODELS, **{own.name: partial(mesh_of, own) for own in p.models}}
 
 
 def _names(p: BuildingParameters, models: Models | None) -> list[str]:
-    library = _library(models)
+    library = _library(p, models)
     unknown = [t for t in p.types if t not in library]
     if unknown:
         raise ValueError(f"types = {unknown}, expected some of {sorted(library)}")
@@ -108,7 +109,7 @@ def _furnished(
     counts: dict[str, int],
 ) -> Building:
     """The building with `counts` objects of each type, in a random order."""
-    library = _library(models)
+    library = _library(p, models)
     floor = random_floor(rng, p)
     cells = p.grid // 2 + 0.5
     start = (cells * p.cell - p.side / 2,) * 2

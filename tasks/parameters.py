@@ -66,12 +66,40 @@ class AbstractParameters:
 
 
 @dataclass(frozen=True)
+class OwnModel:
+    """A model of the study's own: a glTF, OBJ, STL or PLY file beside the study's.
+
+    Participants read its `name`. `size`, `up` and `turn` are those of renderer/models/user.py.
+    `sha256` of the file and the `folder` it is in are found out when the study is read.
+    """
+
+    name: str
+    file: str
+    size: float = 1.5
+    up: str = "y"
+    turn: float = 0.0
+    sha256: str = ""
+    folder: str = ""
+
+    def __post_init__(self) -> None:
+        if not (self.name.isprintable() and self.name.strip() and len(self.name) <= 32):
+            raise ValueError(f"name = {self.name[:40]!r}, expected 1 to 32 printable characters")
+        if not self.file.isprintable() or len(self.file) > 200 or not self.file:
+            raise ValueError(f"file = {self.file[:40]!r}, expected a file beside the study")
+        if self.up not in ("y", "z"):
+            raise ValueError(f"up = {self.up!r}, expected 'y' or 'z'")
+        _between("size", self.size, 0.01, 100)
+        _between("turn", self.turn, -360, 360)
+
+
+@dataclass(frozen=True)
 class BuildingParameters:
     """The building, what stands in it, and the walk through it. One world unit is half a metre.
 
     The paper prints the grid and the number of objects; sizes and speeds are ours: a building of
     80 × 80 units, doors 2.1 m high, eyes at 1.6 m, walking at 3 m/s. `count` is how often the
-    asked type occurs in the counting task, `types` the models to use (none: all there are).
+    asked type occurs in the counting task, `types` the models to use (none: all there are),
+    `models` those that the study brings along.
     """
 
     grid: int = 16
@@ -86,6 +114,7 @@ class BuildingParameters:
     object_radius: tuple[float, float] = (1.0, 2.2)
     count: tuple[int, int] = (4, 12)
     types: tuple[str, ...] = ()
+    models: tuple[OwnModel, ...] = ()
     eye_height: float = 3.2
     fov_y: float = pi / 3
     speed: float = 6.0

@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     study = load(arguments.study)
     Texts(study.study.language, study.texts)
     print(f"config      {study.study.name}: valid, {study.digest()[:12]}")
-    for line in _design(study):
+    for line in (*_models(study), *_design(study)):
         print(line)
     if arguments.config_only:
         return 0
@@ -55,6 +55,15 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.certificate is not None:
         _write(measured, arguments.certificate)
     return 0 if _machine(study, measured, context, arguments.seconds) and passed else 1
+
+
+def _models(study: Study) -> Iterator[str]:
+    """What the study brings along: read already, or there would be no study."""
+    from tasks.own_models import mesh_of
+
+    for own in study.walkthrough.models:
+        count = len(mesh_of(own).triangles)
+        yield f"model       {own.name}: {own.file}, {count} triangles, {own.sha256[:12]}"
 
 
 def _design(study: Study) -> Iterator[str]:

@@ -97,6 +97,7 @@ def _one(  # type: ignore[no-untyped-def]
     study: Study, slot: int, seed: int, out: Path, context, progress, person, explain: bool
 ) -> None:
     from experiment.offscreen import OffscreenDisplay
+    from experiment.own_models import keep
     from experiment.provenance import provenance
     from experiment.recorder import FileRecorder, Who
     from experiment.session import World, run_session
@@ -119,6 +120,7 @@ def _one(  # type: ignore[no-untyped-def]
             _explain(f"S{slot:02d} trial {record.trial.number} {record.trial.task}", person)
 
     session_input = SimulatedInput(person, display, clock)
+    keep(study, out)
     world = World(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
     run_session(study, slot, world)
 

@@ -1,0 +1,63 @@
+"""A study's own models: found beside its file, kept in its data folder, found there again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from experiment.errors import InputError
+from experiment.private import make_folder, write_new
+from tasks.own_models import digest, kept_as, mesh_of, packed
+from tasks.parameters import OwnModel
+
+if TYPE_CHECKING:
+    from experiment.config import Study
+
+FOLDER = "models"
+
+
+def beside(study: Study, path: Path) -> Study:
+    """The study with its models read, and their files' hashes. Raises InputError."""
+    found = []
+    for number, model in enumerate(study.walkthrough.models):
+        try:
+            model = replace(model, folder=str(path.parent))
+            mesh_of(model)
+            found.append(replace(model, sha256=digest(model)))
+        except (ValueError, OSError) as error:
+            reason = str(error).removeprefix(f"{path.parent / model.file}: ")
+            raise InputError(
+                f"{path}: walkthrough.models[{number}].file = {model.file!r}: {reason}"
+            ) from None
+    return _with(study, found)
+
+
+def keep(study: Study, data: Path) -> None:
+    """Put the meshes into the data folder, for replays on any machine. Raises InputError."""
+    for model in study.walkthrough.models:
+        path = kept_as(replace(model, folder=str(data / FOLDER)))
+        try:
+            make_folder(path.parent)
+            if not path.exists():
+                write_new(path, packed(mesh_of(model)))
+        except FileExistsError:
+            pass  # another station kept it first, under the name of the same file
+        except OSError as error:
+            raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def kept(study: Study, data: Path) -> Study:
+    """A study from a sidecar, with its models as the data folder kept them. Raises InputError."""
+    found = [replace(model, folder=str(data / FOLDER)) for model in study.walkthrough.models]
+    for model in found:
+        if not kept_as(model).is_file():
+            raise InputError(f"{kept_as(model)}: expected the model {model.name!r} as it was shown")
+    return _with(study, found)
+
+
+def _with(study: Study, models: list[OwnModel]) -> Study:
+    if not models:
+        return study
+    parameters = replace(study.walkthrough, models=tuple(models))
+    return study.model_copy(update={"walkthrough": parameters})
