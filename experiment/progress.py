@@ -49,9 +49,9 @@ class Progress:
         else:
             self._line("done" if kind is None else "stopped")
 
-    def step(self, detail: str = "") -> None:
-        """One more is done."""
-        self.done += 1
+    def step(self, detail: str = "", steps: int = 1) -> None:
+        """One more is done, or several."""
+        self.done += steps
         if self._bar and self._task is not None:
             self._bar.update(self._task, completed=self.done, description=f"{self.what} {detail}")
         elif time.monotonic() - self._said >= LINE_EVERY:

@@ -46,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     data.add_argument("--tables", type=Path, metavar="FILE", help="visibility tables, kept")
     data.add_argument("--pool", type=int, default=POOL, metavar="K", help="scenes a task")
     data.add_argument("--workers", type=int, default=1, metavar="W", help="processes; default: 1")
+    data.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, tcp://HOST:PORT")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -62,10 +63,10 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(str(error)) from None
     profile = find(arguments.profile)
     if arguments.mode == "data":
-        _data_mode(arguments, study, count, profile, without)
+        _data_mode(arguments, count, profile, without)
     else:
-        if arguments.workers != 1 or arguments.tables is not None:
-            raise InputError("--workers and --tables: expected with --mode data only")
+        if arguments.workers != 1 or arguments.tables or arguments.scheduler:
+            raise InputError("--workers, --scheduler and --tables: expected with --mode data only")
         if arguments.watch:
             return _watch(study, count, arguments.seed, arguments.out, profile, without)
         simulate(study, count, arguments.seed, arguments.out, profile, without, arguments.explain)
@@ -148,37 +149,20 @@ def _explain(trial: str, person: SimulatedParticipant) -> None:
 
 
 def _data_mode(
-    arguments: argparse.Namespace,
-    study: Study,
-    count: int,
-    profile: Profile,
-    without: frozenset[str],
+    arguments: argparse.Namespace, count: int, profile: Profile, without: frozenset[str]
 ) -> None:
-    from experiment.participants import batch as b
+    from experiment.participants import data_run
+    from experiment.participants.batch import Batch
 
-    if not 1 <= arguments.workers <= MOST_WORKERS:
-        raise InputError(
-            f"--workers = {arguments.workers}: expected a number from 1 to {MOST_WORKERS}"
-        )
-    if arguments.pool < 1:
-        raise InputError(f"--pool = {arguments.pool}: expected at least 1 scene a task")
-    if arguments.explain:
-        raise InputError("--explain: expected with --mode visual only")
-    tables = arguments.tables or arguments.out.with_name(arguments.out.name + "-tables.npz")
-    batch = b.Batch(arguments.study, arguments.seed, arguments.pool, tables, profile, without)
-    chunks = b.missing_chunks(arguments.out, study, count)
-    if not tables.exists():
-        looks = len(b.abstract_trials(study)) * arguments.pool
-        with Progress("making tables", looks) as progress:
-            b.fill(batch, progress)
-            # Buildings have too many viewpoints to draw them all: those that somebody looks from.
-            b.play_chunk(range(1, min(count, b.CHUNK) + 1))
-            b.keep_tables()
-    slots = [slot for chunk in chunks for slot in chunk]
-    with Progress("simulating", len(chunks)) as progress:
-        results = b.play(batch, slots, arguments.workers)
-        for chunk, rows in zip(chunks, results, strict=True):
-            b.write(arguments.out, batch, study, chunk, rows)
-            progress.step(f"S{chunk[0]}–S{chunk[-1]}")
-    if arguments.workers == 1 and chunks:
-        b.keep_tables()
+    a = arguments
+    if not 1 <= a.workers <= MOST_WORKERS:
+        raise InputError(f"--workers = {a.workers}: expected a number from 1 to {MOST_WORKERS}")
+    if a.scheduler is not None and a.workers != 1:
+        raise InputError("--workers and --scheduler: expected one of them")
+    if a.pool < 1:
+        raise InputError(f"--pool = {a.pool}: expected at least 1 scene a task")
+    if a.explain or a.watch:
+        raise InputError("--explain and --watch: expected with --mode visual only")
+    tables = a.tables or a.out.with_name(a.out.name + "-tables.npz")
+    job = Batch(a.study, a.seed, a.pool, tables, profile, without)
+    data_run.run(job, a.out, count, a.workers, a.scheduler)

@@ -11,10 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, Trial, generator
-from experiment.participants.tables import Draw, Table, TableEyes, load, save
+from experiment.participants.tables import Draw, Key, Table, TableEyes, load, save
 from experiment.scenes import StudyScenes
 from renderer.camera import Camera
 from renderer.scene import Scene
@@ -23,6 +24,10 @@ from tasks.base import Task, View
 from tasks.catalog import TASKS
 
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
+
+
+# Viewpoints by table: how many objects its scene has, and their rows.
+Looks = dict[str, tuple[int, dict[Key, NDArray[np.float64]]]]
 
 
 class Pool(StudyScenes):
@@ -75,6 +80,22 @@ class Pool(StudyScenes):
     def load(self, path: Path) -> None:
         """Read tables written by `save`."""
         self.tables |= load(path)
+
+    def take_fresh(self) -> Looks:
+        """What was drawn since the last call."""
+        found = {}
+        for name, table in self.tables.items():
+            if table.fresh:
+                found[name] = (table.objects, {key: table.rows[key] for key in table.fresh})
+                table.fresh.clear()
+        return found
+
+    def merge(self, looks: Looks) -> None:
+        """Take over what another process has drawn."""
+        for name, (objects, rows) in looks.items():
+            table = self.tables.setdefault(name, Table(objects))
+            for key, row in rows.items():
+                table.rows.setdefault(key, row)
 
     @property
     def looks(self) -> int:

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import asin, atan2, floor, inf, pi
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,6 +93,7 @@ class Table:
 
     objects: int
     rows: dict[Key, NDArray[np.float64]] = field(default_factory=dict)
+    fresh: list[Key] = field(default_factory=list)  # looks kept since somebody last asked
     _latest: tuple[Key, Visibility] | None = None
 
     def put(self, key: Key, seen: Visibility) -> None:
@@ -100,6 +102,7 @@ class Table:
         columns = (index, seen.pixels[index], seen.weight[index], seen.position[index, 0],
                    seen.position[index, 1], seen.contrast[index], seen.area[index])  # fmt: skip
         self.rows[key] = np.stack(columns).astype(float)
+        self.fresh.append(key)
 
     def get(self, key: Key) -> Visibility:
         """The look as it was kept, the same to the last bit."""
@@ -154,7 +157,7 @@ def save(path: Path, tables: dict[str, Table]) -> None:
     draft.replace(path)
 
 
-def load(path: Path) -> dict[str, Table]:
+def load(path: Path | BinaryIO) -> dict[str, Table]:
     """Tables by name. Raises ValueError for a file that holds something else."""
     tables: dict[str, Table] = {}
     with np.load(path) as file:

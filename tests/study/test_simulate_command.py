@@ -21,7 +21,7 @@ def tables(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def small_chunks(monkeypatch):
-    monkeypatch.setattr("experiment.participants.batch.CHUNK", 2)
+    monkeypatch.setattr("experiment.participants.batch_files.CHUNK", 2)
 
 
 def data_mode(tables, out, *more):
@@ -50,10 +50,13 @@ def test_an_interrupted_run_goes_on_and_a_finished_one_is_left_alone(tables, tmp
 def test_data_mode_ends_in_a_report_that_says_what_it_is(tables, tmp_path):
     out = tmp_path / "out"
     assert data_mode(tables, out, "--participants", "2", "--without", "slips,people") == 0
-    sidecar = json.loads(next(out.glob("data/simulated/*/*.json")).read_text())
-    assert sidecar["without"] == ["people", "slips"] and "never evidence" in sidecar["mode"]
+    sidecar = json.loads(next(out.glob("data/simulated/*/*_trials_data.json")).read_text())
+    assert sidecar["provenance"]["without"] == ["people", "slips"]
+    assert "never evidence" in sidecar["mode"]
     assert cli.main(["report", str(out), "--out", str(tmp_path / "report")]) == 0
-    assert "simulated" in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    text = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    assert "never evidence" in text and "Ratings and preference" in text
+    assert cli.main(["export", str(out), "--format", "wide", "--out", str(tmp_path / "w")]) == 0
 
 
 def test_visual_mode_explains_its_effects(tmp_path, capsys):
@@ -88,7 +91,11 @@ def test_power_from_the_paper_and_from_simulated_people(tables, tmp_path, capsys
         ("simulate demo --out {t}/x --mode data --pool 0", "--pool = 0: expected at least 1 scene"),
         ("simulate demo --out {t}/x --mode data --workers 0", "--workers = 0: expected a number"),
         ("simulate demo --out {t}/x --workers 2", "expected with --mode data only"),
-        ("simulate demo --out {t}/x --mode data --explain", "--explain: expected with --mode"),
+        ("simulate demo --out {t}/x --scheduler tcp://h:1", "expected with --mode data only"),
+        ("simulate demo --out {t}/x --mode data --scheduler tcp://h:1 --workers 2",
+         "--workers and --scheduler: expected one of them"),
+        ("simulate demo --out {t}/x --mode data --watch", "--explain and --watch: expected with"),
+        ("simulate demo --out {t}/x --mode data --explain", "--explain and --watch: expected with"),
         ("power published --out {t}/p --participants 1..4", "--participants = 1..4: expected A..B"),
         ("power published --out {t}/p --participants many", "--participants = many: expected A..B"),
         ("power published --out {t}/p --replications 3", "--replications = 3: expected a number"),
@@ -108,4 +115,4 @@ def test_a_folder_of_another_study_is_refused(tables, tmp_path, capsys):
     out.mkdir()
     (out / "dataset_description.json").write_text('{"name": "other"}')
     assert data_mode(tables, out, "--participants", "2") == 2
-    assert "holds study other, expected demo" in capsys.readouterr().err
+    assert "holds study other: expected demo" in capsys.readouterr().err

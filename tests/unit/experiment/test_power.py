@@ -10,7 +10,9 @@ from analysis.stats.ranks import friedman
 from experiment import power_ranks
 from experiment.config import load
 from experiment.design import session_for
-from experiment.participants import batch
+from experiment.participants.batch import Batch
+from experiment.participants.batch_files import Results, render
+from experiment.participants.data_mode import Played
 from experiment.power import (
     NormalEffect,
     SampledEffect,
@@ -156,7 +158,9 @@ def test_a_folder_gives_every_test_the_analysis_makes(tmp_path):
         for task_set in session_for(slot, study.design.factors()):
             for trial in task_set.trials:
                 rows.append(_trial(trial, slot, rng))
-    batch.write(tmp_path, batch.Batch("demo", 1, 1), study, (1, 2, 3, 4), rows)
+    about = Batch("demo", 1, 1).about(study)
+    with Results(tmp_path, study, about) as results:
+        results.add(render(about, study, (1, 2, 3, 4), [Played("demo", "S01", 1, trials=rows)]))
     names = [e.name for e in sampled(tmp_path)]
     assert names == [
         "time, overall", "time count", "time pattern", "time unique", "time count_in_building",

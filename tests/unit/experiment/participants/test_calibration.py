@@ -1,4 +1,4 @@
-"""Calibration against made-up data, profiles as files, batches."""
+"""Calibration against made-up data, and profiles as files."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from experiment.errors import InputError
-from experiment.participants import batch
 from experiment.participants.calibration import (
     LEVELS,
     TimeMeasure,
@@ -129,28 +128,6 @@ def test_bad_profile_files_are_refused_in_a_line(tmp_path, text, message):
 def test_a_profile_nobody_knows_is_refused():
     with pytest.raises(InputError, match=r"--profile = hero: expected one of average, careful"):
         find("hero")
-
-
-def test_a_batch_writes_whole_chunks_and_goes_on_where_it_stopped(tmp_path):
-    from experiment.config import load
-
-    study = load("demo")
-    job = batch.Batch("demo", 1, 2)
-    assert batch.missing_chunks(tmp_path, study, 40) == [
-        tuple(range(1, 17)), tuple(range(17, 33)), tuple(range(33, 41)),
-    ]  # fmt: skip
-    row = {"row_id": "x", "participant": "S01", "time": 1.5, "correct": True}
-    batch.write(tmp_path, job, study, tuple(range(17, 33)), [row])
-    assert batch.missing_chunks(tmp_path, study, 40) == [
-        tuple(range(1, 17)), tuple(range(33, 41)),
-    ]  # fmt: skip
-    files = sorted(batch.chunk_folder(tmp_path, (17, 32)).iterdir())
-    assert [f.suffix for f in files] == [".csv", ".json"]
-    assert ",true," in files[0].read_text()
-    about = (tmp_path / "dataset_description.json").read_text().replace("demo", "other")
-    (tmp_path / "dataset_description.json").write_text(about)
-    with pytest.raises(InputError, match=r"holds study other, expected demo"):
-        batch.missing_chunks(tmp_path, study, 40)
 
 
 def test_the_calibrated_profile_ships_with_its_provenance():

@@ -1,0 +1,198 @@
+"""Data mode's results on disk: chunk by chunk, each whole or not at all.
+
+A chunk is a folder like a participant's (CONVENTIONS.md), with the tables of up to sixteen people.
+Where DuckDB is installed the same rows lie in `parquet/TABLE/`, a file a chunk: one data set for
+whatever reads Parquet. A chunk's folder appears last: where there is one, everything is there.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from experiment.chain import link, start_of
+from experiment.columns import QUESTIONNAIRE, TRIALS, Column
+from experiment.config import Study
+from experiment.dataset import describe_dataset
+from experiment.errors import InputError
+from experiment.export.parquet import INSTALL, ParquetWriter
+from experiment.folders import stem_of
+from experiment.participants.data_mode import Played
+from experiment.private import make_folder, write_new
+from experiment.record_files import cell, csv_line, header_of
+
+CHUNK = 16  # participants a folder: the published study's number
+NAME = re.compile(r"S(\d{5,})-S(\d{5,})")
+DRAFTS = "unfinished"  # beside `data`, so that nobody reads half a chunk
+
+Slots = Sequence[int]
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """The files of some participants, as texts by name; made by whoever simulated them."""
+
+    slots: tuple[int, ...]
+    texts: Mapping[str, str]
+    looks: Mapping[str, Any] = field(default_factory=dict)  # drawn on the way: Pool.take_fresh
+
+
+def chunk_name(slots: Slots) -> str:
+    """The name of a chunk's folder."""
+    return f"S{slots[0]:05d}-S{slots[-1]:05d}"
+
+
+def render(about: Mapping[str, Any], study: Study, slots: Slots, played: Sequence[Played]) -> Chunk:
+    """A chunk's files: `about` is its sidecar, the same for every chunk of a run."""
+    stem = stem_of(study.study.name, chunk_name(slots).replace("-", "to"))
+    start = start_of({**about, "chain": {}}, header_of(TRIALS))
+    trials, last = _chained([row for p in played for row in p.trials], start)
+    questions = _plain([row for p in played for row in p.questions], QUESTIONNAIRE)
+    sidecar = {**about, "chain": {"start": start}}
+    texts = {f"{stem}_trials_data.csv": trials, f"{stem}_trials_data.json": _json(sidecar)}
+    if any(p.questions for p in played):
+        texts[f"{stem}_questionnaire_data.csv"] = questions
+    early = {p.participant: p.status for p in played if p.status != "complete"}
+    end = {
+        "status": "complete" if not early else "time limit",
+        "early": early,
+        "trials": sum(len(p.trials) for p in played),
+        "chain": last,
+        "files": {
+            name: hashlib.sha256(text.encode()).hexdigest()
+            for name, text in texts.items()
+            if "questionnaire" in name
+        },
+    }
+    return Chunk(tuple(slots), {**texts, f"{stem}_end.json": _json(end)})
+
+
+def _plain(rows: Sequence[Mapping[str, Any]], columns: tuple[Column, ...]) -> str:
+    names = [c.name for c in columns]
+    lines = [csv_line([cell(row.get(name)) for name in names]) for row in rows]
+    return "\n".join([header_of(columns), *lines]) + "\n"
+
+
+def _chained(rows: Sequence[Mapping[str, Any]], chain: str) -> tuple[str, str]:
+    """The trial table's text, and its chain's end."""
+    names = [c.name for c in TRIALS[:-1]]
+    lines = [header_of(TRIALS)]
+    for row in rows:
+        text = csv_line([cell(row.get(name)) for name in names])
+        chain = link(chain, text)
+        lines.append(f"{text},{chain}")
+    return "\n".join(lines) + "\n", chain
+
+
+def _json(content: Mapping[str, Any]) -> str:
+    return json.dumps(content, indent=2) + "\n"
+
+
+class Results(AbstractContextManager["Results"]):
+    """A data folder that grows by chunks. Raises InputError for one of another study or run."""
+
+    def __init__(self, out: Path, study: Study, about: Mapping[str, Any]) -> None:
+        self.out = out
+        self._folder = out / "data" / "simulated"
+        self._check(study, about)
+        describe_dataset(out, study.study.name)
+        try:
+            self._parquet: ParquetWriter | nullcontext[None] = ParquetWriter()
+            self.note = ""
+        except ModuleNotFoundError:
+            self._parquet = nullcontext()
+            self.note = f"no Parquet files, only CSV: they need DuckDB: {INSTALL}"
+
+    def __exit__(self, *error: object) -> None:
+        self._parquet.__exit__(None, None, None)
+        shutil.rmtree(self.out / DRAFTS, ignore_errors=True)
+
+    def missing(self, count: int) -> list[tuple[int, ...]]:
+        """Slots 1 … count that are not there yet, in chunks."""
+        there = {slot for a, b in self._there() for slot in range(a, b + 1)}
+        chunks: dict[int, list[int]] = {}
+        for slot in range(1, count + 1):
+            if slot not in there:
+                chunks.setdefault((slot - 1) // CHUNK, []).append(slot)
+        return [run for chunk in chunks.values() for run in _runs(chunk)]
+
+    def add(self, chunk: Chunk) -> None:
+        """Write a chunk; it is on disk when this returns. Raises InputError."""
+        name = chunk_name(chunk.slots)
+        draft = self.out / DRAFTS / name
+        try:
+            if draft.exists():
+                shutil.rmtree(draft)
+            make_folder(draft)
+            for file, text in chunk.texts.items():
+                write_new(draft / file, text)
+            self._as_parquet(draft, name)
+            make_folder(self._folder)
+            draft.rename(self._folder / name)
+        except OSError as error:
+            raise InputError(f"{draft}: cannot be written: {error.strerror}") from None
+
+    def _as_parquet(self, draft: Path, name: str) -> None:
+        if not isinstance(self._parquet, ParquetWriter):
+            return
+        for path in draft.glob("*_data.csv"):
+            table = path.stem.split("_")[-2]
+            make_folder(self.out / "parquet" / table)
+            whole = self.out / "parquet" / table / f"{name}.parquet"
+            part = draft.with_name(f"{name}-{table}.parquet")
+            self._parquet.write(table, [path], part)
+            part.replace(whole)
+
+    def _there(self) -> Iterator[tuple[int, int]]:
+        for folder in sorted(self._folder.glob("*")):
+            found = NAME.fullmatch(folder.name)
+            if not found:
+                raise InputError(
+                    f"--out = {self.out}: holds {folder.name} of visual mode: data mode expects a "
+                    "folder of its own"
+                )
+            yield int(found[1]), int(found[2])
+
+    def _check(self, study: Study, about: Mapping[str, Any]) -> None:
+        """One folder holds one study, simulated in one way."""
+        described = self.out / "dataset_description.json"
+        if described.exists():
+            try:
+                name = json.loads(described.read_text(encoding="utf-8"))["name"]
+            except (OSError, ValueError, KeyError, TypeError):
+                raise InputError(f"{described}: expected a JSON object with a name") from None
+            if name != study.study.name:
+                raise InputError(
+                    f"--out = {self.out}: holds study {name}: expected {study.study.name}"
+                )
+        list(self._there())
+        sidecar = next(self._folder.glob("*/*_trials_data.json"), None)
+        if sidecar is None:
+            return
+        before = json.loads(sidecar.read_text(encoding="utf-8")).get("provenance", {})
+        # As JSON gives it back: tuples are lists there.
+        for key, value in json.loads(json.dumps(about["provenance"])).items():
+            if before.get(key) != value:
+                short = f": {before.get(key)}, expected {value}" if key not in LONG else ""
+                raise InputError(f"--out = {self.out}: simulated with another {key}{short}")
+
+
+LONG = ("study", "study_sha256", "profile")  # keys whose values are too long for a line
+
+
+def _runs(slots: Sequence[int]) -> Iterator[tuple[int, ...]]:
+    """Consecutive slots together."""
+    run: list[int] = []
+    for slot in slots:
+        if run and slot != run[-1] + 1:
+            yield tuple(run)
+            run = []
+        run.append(slot)
+    yield tuple(run)

@@ -1,0 +1,118 @@
+"""The same work on a Dask cluster: results in the order of the items, whoever made them.
+
+Workers get study and tables as values: they share no disk with this machine. Dask hands the
+chunks of a worker that died to another one.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import logging
+import pickle
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from threading import Lock
+from typing import Any
+
+from experiment.config import load
+from experiment.errors import InputError
+from experiment.participants import batch as b
+from experiment.participants.batch_files import Chunk, Slots, chunk_name
+from experiment.participants.tables import load as load_tables
+
+PATIENCE = 5.0  # seconds until a scheduler that does not answer is not there
+AHEAD = 2  # chunks handed out for each thread of the cluster, so that none waits
+MOST_LOSSES = 20  # of the scattered tables, with the workers that held them
+
+_one_at_a_time = Lock()  # participants of one process share its tables
+_prepared: list[str] = []  # the run that this process is ready for
+
+
+def play(job: b.Batch, chunks: Sequence[Slots], address: str) -> Iterator[Chunk]:
+    """`batch.play_files` of each chunk, in order.
+
+    Raises InputError where no scheduler answers, or its workers keep dying.
+    """
+    try:
+        from distributed import Client, KilledWorker  # an extra: only this option needs it
+    except ModuleNotFoundError:
+        raise InputError("--scheduler: needs Dask: pip install 'seethrough[cluster]'") from None
+    # What Dask says about lost workers and schedulers in many lines is said in one here.
+    logging.getLogger("distributed").setLevel(logging.CRITICAL + 1)
+    try:
+        client = Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:
+        said = " ".join(str(error).split())[:120] or type(error).__name__
+        raise InputError(f"--scheduler = {address}: no Dask scheduler answers: {said}") from None
+    with client:
+        try:
+            yield from _Queue(client, job, chunks)
+        except KilledWorker:
+            raise InputError(f"--scheduler = {address}: its workers die one by one") from None
+        except (ModuleNotFoundError, AttributeError) as error:
+            raise InputError(
+                f"--scheduler = {address}: its workers need this version of seethrough: {error}"
+            ) from None
+
+
+class _Queue:
+    """Chunks in the hands of the cluster, the oldest first."""
+
+    def __init__(self, client: Any, job: b.Batch, chunks: Sequence[Slots]) -> None:
+        self._client, self._chunks = client, iter(chunks)
+        self._job = pickle.dumps((replace(job, tables=None), load(job.study)))
+        there = job.tables is not None and job.tables.exists()
+        self._tables = job.tables.read_bytes() if there and job.tables else b""
+        self._waiting: deque[tuple[Slots, Any]] = deque()
+        self._scattered = self._scatter()
+
+    def __iter__(self) -> Iterator[Chunk]:
+        losses = 0
+        while self._fill():
+            slots, future = self._waiting[0]
+            error = future.exception()
+            if error is None or not _is_lost(error):
+                yield future.result()
+                self._waiting.popleft()
+                continue
+            losses += 1
+            if losses > MOST_LOSSES:
+                raise InputError(f"--scheduler: {chunk_name(slots)} was lost with its workers")
+            self._again()
+
+    def _scatter(self) -> Any:
+        return self._client.scatter([self._job, self._tables], broadcast=True)
+
+    def _submit(self, slots: Slots) -> Any:
+        return self._client.submit(_work, *self._scattered, slots, pure=False)
+
+    def _fill(self) -> bool:
+        """Hand out more; whether anything is on its way."""
+        most = AHEAD * max(1, sum(self._client.nthreads().values()))
+        while len(self._waiting) < most and (slots := next(self._chunks, None)) is not None:
+            self._waiting.append((slots, self._submit(slots)))
+        return bool(self._waiting)
+
+    def _again(self) -> None:
+        """The tables died with the last worker that held them: send them and the chunks again."""
+        self._scattered = self._scatter()
+        self._waiting = deque((slots, self._submit(slots)) for slots, _ in self._waiting)
+
+
+def _is_lost(error: BaseException) -> bool:
+    from distributed.client import FutureCancelledError
+
+    return isinstance(error, FutureCancelledError)
+
+
+def _work(job: bytes, tables: bytes, slots: Slots) -> Chunk:
+    """Runs in a worker's process."""
+    run = hashlib.sha256(job).hexdigest()
+    with _one_at_a_time:
+        if _prepared != [run]:
+            batch, study = pickle.loads(job)
+            b.prepare(batch, study, load_tables(io.BytesIO(tables)) if tables else {})
+            _prepared[:] = [run]
+        return b.play_files(slots)
