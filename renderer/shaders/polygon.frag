@@ -8,9 +8,12 @@ in vec3 texel;
 in float depth;
 flat in int triangle;
 
+// Without its texture a polygon is plain glass.
+const vec4 GLASS = vec4(1.0, 1.0, 1.0, 0.5);
+
 vec4 fragment_color() {
-    vec4 picture = use_texture ? mix(vec4(1.0), texture(surface, texel.xy), texel.z) : vec4(1.0);
-    return tint * picture;
+    vec4 picture = use_texture ? texture(surface, texel.xy) : GLASS;
+    return tint * mix(vec4(1.0), picture, texel.z);
 }
 
 #ifdef PAINT
