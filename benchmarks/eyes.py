@@ -19,12 +19,12 @@ import numpy as np
 
 from experiment.config import Study, load
 from experiment.design import SIMULATED, Trial, generator, session_for
+from experiment.driver import open_context
 from experiment.pages import Page, Paragraph
 from experiment.participants.data_mode import play_trial
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import LazyDraw, Pool
 from experiment.trial import TrialRecord
-from renderer.gpu.context import standalone
 from renderer.gpu.renderer import Renderer
 from renderer.techniques.standard import Standard
 from renderer.visibility import Visibility
@@ -88,7 +88,7 @@ def run(repeats: int) -> list[dict[str, Any]]:
     """Every way to look, the reference first."""
     study = load("published")
     trials = [s.trials[0] for s in session_for(1, study.design.factors())]
-    renderer = Renderer(standalone(), (800, 600))
+    renderer = Renderer(open_context(), (800, 600))
     ways = []
     for height in HEIGHTS:
         pool = OpenEyes(study, 4, renderer, height)

@@ -29,16 +29,6 @@ def data_mode(tables, out, *more):
     return cli.main([*words, "--out", str(out), *more])
 
 
-def test_data_mode_is_the_same_on_one_worker_and_two(tables, tmp_path):
-    one, two = tmp_path / "one", tmp_path / "two"
-    assert data_mode(tables, one, "--participants", "4") == 0
-    assert data_mode(tables, two, "--participants", "4", "--workers", "2") == 0
-    assert rows(one) == rows(two)
-    assert len(rows(one)) == 4 * 8
-    assert len({r["row_id"] for r in rows(one)}) == 4 * 8
-    assert {r["source"] for r in rows(one)} == {"simulated"}
-
-
 def test_an_interrupted_run_goes_on_and_a_finished_one_is_left_alone(tables, tmp_path):
     out = tmp_path / "out"
     assert data_mode(tables, out, "--participants", "2") == 0
