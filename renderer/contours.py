@@ -20,7 +20,6 @@ from renderer.silhouettes import Topology
 # is off by at most 0.4 % there, and a colour by a step of 1/255.
 STRAIGHT = 0.04
 FAR = 60000.0  # where there is nothing within reach
-BLOCK = 8  # pixels: a mask is said to touch whole blocks of them
 
 
 @dataclass(frozen=True, eq=False)
@@ -326,32 +325,3 @@ def _skirt(pixels, points, starts, meets, reach, slack, out):  # type: ignore[no
             if meets[q] or (ax == 0 and ay == 0) or (bx == 0 and by == 0):
                 ax = ay = bx = by = 0.0
             _about(pixels[q, 0], pixels[q, 1], ax, ay, bx, by, reach, out)
-
-
-@njit(cache=True, nogil=True)
-def mark(distance, left, top, width, blocks):  # type: ignore[no-untyped-def]
-    """Set the blocks in which any of the (h, w) distances is within a mask's `width`; `left` and
-    `top` are where they lie in the window."""
-    for row in range(distance.shape[0]):
-        for column in range(distance.shape[1]):
-            if distance[row, column] <= width:
-                blocks[(top + row) // BLOCK, (left + column) // BLOCK] = True
-
-
-@njit(cache=True)
-def runs(blocks):  # type: ignore[no-untyped-def]
-    """(k, 4) left, top, right, bottom of rectangles that make up the set blocks (h, w)."""
-    height, width = blocks.shape
-    found = np.empty((height * (width + 1) // 2 + 1, 4), np.int64)
-    k = 0
-    for row in range(height):
-        begin = -1
-        for column in range(width + 1):
-            there = column < width and blocks[row, column]
-            if there and begin < 0:
-                begin = column
-            elif begin >= 0 and not there:
-                found[k, 0], found[k, 1], found[k, 2], found[k, 3] = begin, row, column, row + 1
-                begin = -1
-                k += 1
-    return found[:k]

@@ -3,9 +3,38 @@
 from __future__ import annotations
 
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from renderer.gpu.programs import program
 
 WIDTH = 2048  # texels; a row of cells is no wider unless one cell is
 MOST = 64  # of slices or masks: the arrays in shaders/exact.frag
+
+
+_CORNERS = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
+
+
+class Wiper:
+    """Draws rectangles of nothing, at the farthest depth."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._shader = program(context, "flat.vert", "depth.frag")
+
+    def draw(self, places: NDArray[np.float64], size: tuple[int, int]) -> None:
+        """Fill (n, 4) rectangles (left, bottom, right, top; y up) of the bound framebuffer."""
+        if not len(places):
+            return
+        data = (places * [1, -1, 1, -1] + [0, size[1], 0, size[1]])[:, _CORNERS]
+        buffer = self._context.buffer(np.ascontiguousarray(data, dtype="f4"))
+        array = self._context.vertex_array(self._shader.program, [(buffer, "2f", "in_place")])
+        self._shader.set(size=size, depth=1.0)
+        self._context.enable_only(moderngl.DEPTH_TEST)
+        self._context.depth_func = "1"
+        array.render(moderngl.TRIANGLES)
+        array.release()
+        buffer.release()
 
 
 class Cells:
@@ -21,6 +50,8 @@ class Cells:
         numbers: bool = False,
         components: int = 4,
     ) -> None:
+        self._context = context
+        self._wiper: Wiper | None = None
         self._limit = context.info["GL_MAX_TEXTURE_SIZE"]
         self._arrange(size, max(count, 1))
         # Room for a little more of the same, so that the next frame need not make it anew.
@@ -62,6 +93,20 @@ class Cells:
         """Empty all cells and bind them."""
         self.framebuffer.scissor = None
         self._emptied.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=(0, 0, *self.whole))
+        self.framebuffer.use()
+
+    def wipe(self, cells: NDArray[np.int64], boxes: NDArray[np.float64]) -> None:
+        """Empty what of `cells` (n,) lies in these (n, 4) boxes alone, each in pixels of its cell
+        (left, bottom, right, top; y up), and bind all."""
+        base = np.stack([cells % self.columns, cells // self.columns], axis=1) * self.size
+        limit = np.tile(self.size, 2)
+        places = np.clip(boxes, 0, limit) + np.tile(base, 2)
+        if self._wiper is None:
+            self._wiper = Wiper(self._context)
+        self._emptied.scissor = None
+        self._emptied.viewport = (0, 0, *self._room)
+        self._emptied.use()
+        self._wiper.draw(places, self._room)
         self.framebuffer.use()
 
     def corner(self, k: int) -> tuple[int, int]:

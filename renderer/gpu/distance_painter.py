@@ -16,7 +16,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import contours, masks
+from renderer import blocks, contours, masks
 from renderer.camera import Camera
 from renderer.gpu import tiles
 from renderer.gpu.mask_maker import MaskGeometry, outline_segments
@@ -55,11 +55,11 @@ class DistancePainter:
         technique: DynamicTransparency,
         width: float,
         size: tuple[int, int],
-        blocks: NDArray[np.bool_] | None = None,
+        touched: NDArray[np.bool_] | None = None,
     ) -> int:
-        """Draw what the masks look up; `runs` draw each of the `covered` targets. Sets the `blocks`
-        of pixels that the masks of closed meshes touch. Returns the draw calls made."""
-        self._made, self._width, self._size, self._blocks = made, width, size, blocks
+        """Draw what the masks look up; `runs` draw each of the `covered` targets. Sets the blocks
+        of pixels `touched` by the masks of closed meshes. Returns the draw calls made."""
+        self._made, self._width, self._size, self._touched = made, width, size, touched
         if not len(made.looped) and not len(made.covered):
             return 0
         whole = (tiles.WIDTH, made.height)
@@ -145,8 +145,8 @@ class DistancePainter:
             found = contours.distances(
                 *(mesh.topology, mesh.edges, pose, lens, tile, self._width, straight)
             )
-            if self._blocks is not None:
-                contours.mark(found, tile[0], int(tile[1]), self._width, self._blocks)
+            if self._touched is not None:
+                blocks.mark(found, tile[0], int(tile[1]), self._width, self._touched)
             return found
 
         used = int(self._made.tile[:, 2].max(initial=1))

@@ -14,7 +14,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import order
+from renderer import blocks, order
 from renderer.camera import Camera
 from renderer.gpu.cells import MOST, Cells
 from renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS, Filled, PixelSorter
@@ -71,7 +71,7 @@ class ExactPainter:
             filled, every = self._filled(job), len(job.frame.held) > 0
             for k, part in enumerate(parts):
                 target.scissor = _gl(part, job.size)
-                draws += self._sorter.sort(filled, part, k, self._masks.blocks, every)
+                draws += self._sorter.sort(filled, part, k, self._bits[k], every)
             target.scissor = None
             passes += 2
         return passes, draws
@@ -83,7 +83,7 @@ class ExactPainter:
         whole = np.array([[0, 0, *job.size]])
         if job.technique.granularity != "pixel":
             self._select(job, whole)
-        self._fill(job, whole)
+        self._fill(job, whole, whole=True)
         textures = [self._context.texture(job.size, 4, dtype="f4") for _ in range(4)]
         framebuffer = self._context.framebuffer(textures)
         found = []
@@ -139,8 +139,13 @@ class ExactPainter:
         if batch:
             yield np.array(batch)
 
-    def _fill(self, job: ExactJob, parts: NDArray[np.int64]) -> int:
-        """Draw all slices and masks of some parts of the picture. Returns the draw calls."""
+    def _fill(self, job: ExactJob, parts: NDArray[np.int64], whole: bool = False) -> int:
+        """Draw all slices and masks of some parts of the picture. Returns the draw calls.
+
+        Where nothing is drawn, cells keep what they held, unless the `whole` of them is asked for.
+        """
+        whole |= job.technique.min_transmittance > 0
+        emptied: tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]] = ([], [])
         size = tuple((parts[:, 2:] - parts[:, :2]).max(axis=0).tolist())
         slices: list[NDArray[np.int64]] = []
         entries: list[NDArray[np.int64]] = []
@@ -149,6 +154,7 @@ class ExactPainter:
         # For each cell of masks: the cells of its targets, the part's first one and how many.
         owners: list[NDArray[np.int64]] = []
         bases: list[tuple[int, int]] = []
+        self._bits: list[tuple[NDArray[np.uint64], NDArray[np.uint64]]] = []
         for part in parts:
             corner = (int(part[0]), int(job.size[1] - part[3]))
             objects, which = _sets(job, part)
@@ -160,6 +166,10 @@ class ExactPainter:
             count = int(mask.max(initial=-1)) + 1
             owners += [slice_of[targets[mask == k]] for k in range(count)]
             bases += [(self._slice_base[-1], int(which.max(initial=-1)) + 1)] * count
+            self._bits.append(self._bits_of(job, objects, which, reach, mask))
+            boxes = job.frame.boxes.extents[objects] + _SLACK
+            emptied[0].append(_boxes(boxes, which + self._slice_base[-1], part))
+            emptied[1].append(_boxes(reach, mask + self._mask_base[-1], part))
             for found, cells, numbers, where, base in (
                 (objects, slices, which, corners[0], self._slice_base),
                 (targets, entries, mask, corners[1], self._mask_base),
@@ -173,14 +183,22 @@ class ExactPainter:
                 cells += [found[numbers == k] for k in range(count)]
                 where += [corner] * count
                 base.append(base[-1] + count)
-        draws = self._fill_slices(job, size, slices, corners[0])
-        return draws + self._fill_masks(job, size, entries, corners[1], owners, bases)
+        wiped = [None if whole else np.concatenate(rows) for rows in emptied]
+        draws = self._fill_slices(job, size, slices, corners[0], wiped[0])
+        return draws + self._fill_masks(job, size, entries, corners[1], owners, bases, wiped[1])
 
-    def _fill_slices(self, job, size, parts, corners):  # type: ignore[no-untyped-def]
+    def _bits_of(self, job, objects, which, reach, mask):  # type: ignore[no-untyped-def]
+        """(h, w) of each block, which slices and which masks can show in it."""
+        touched = self._masks.blocks
+        boxes = job.frame.boxes.extents[objects] + _SLACK
+        masks = blocks.covered(reach, mask, touched.shape)
+        return blocks.covered(boxes, which, touched.shape), np.where(touched, masks, 0)
+
+    def _fill_slices(self, job, size, parts, corners, wiped):  # type: ignore[no-untyped-def]
         surfaces = job.technique.granularity == "surface"
         # 16-bit floats hold whole numbers up to 2048.
         dtype = "f2" if len(job.table.scene.objects) <= 2048 else "f4"
-        self._slices = self._cells(self._slices, size, len(parts), dtype, True, surfaces)
+        self._slices = self._cells(self._slices, size, len(parts), dtype, True, surfaces, wiped)
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = "<"
         base = job.table.first_triangle.astype(float)
@@ -194,10 +212,12 @@ class ExactPainter:
         self._slices.framebuffer.scissor = None
         return sum(len(part) for part in runs)
 
-    def _fill_masks(self, job, size, parts, corners, owners, bases):  # type: ignore[no-untyped-def]
+    def _fill_masks(self, job, size, parts, corners, owners, bases, wiped):  # type: ignore[no-untyped-def]
         """Draw the entries of all masks, which look up where their targets show."""
         components = 2 if job.technique.granularity == "pixel" else 4
-        self._entries = self._cells(self._entries, size, len(parts), "f4", False, False, components)
+        self._entries = self._cells(
+            self._entries, size, len(parts), "f4", False, False, wiped, components
+        )
         self._context.enable_only(moderngl.NOTHING)
         shader, slices = self._masks.mask, self._slices
         depths, extents = _window_depth(job), job.frame.boxes.extents + _SLACK
@@ -221,13 +241,16 @@ class ExactPainter:
         self._entries.framebuffer.scissor = None
         return sum(len(targets) for targets in parts)
 
-    def _cells(self, old, size, count, dtype, depth, numbers, components=4):  # type: ignore[no-untyped-def]
+    def _cells(self, old, size, count, dtype, depth, numbers, wiped, components=4):  # type: ignore[no-untyped-def]
         """Empty, bound cells: the old ones if they serve."""
         if old is None or not old.lay_out(size, count, dtype, numbers, components):
             if old is not None:
                 old.release()
             old = Cells(self._context, size, count, dtype, depth, numbers, components)
-        old.clear()
+        if wiped is None:
+            old.clear()
+        else:
+            old.wipe(wiped[:, 4].astype(np.int64), wiped[:, :4])
         return old
 
     def _set_parts(self, job: ExactJob, opacity: NDArray[np.float64] | None) -> None:
@@ -259,7 +282,7 @@ class ExactPainter:
         draws = 0
         for parts in self._batches(job, whole):
             for part in parts:
-                draws += self._fill(job, part[None])
+                draws += self._fill(job, part[None], whole=True)
                 light, which = self._lit(job, part)
                 lit = light > 0
                 # Elsewhere nothing was drawn, and cells hold what they happened to hold.
@@ -312,6 +335,18 @@ def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], ND
     objects = np.nonzero(boxes.inside & _overlapping(boxes.extents, part))[0]
     grown = np.ascontiguousarray(boxes.extents[objects] + _SLACK)
     return objects, order.apart(grown) if len(objects) else np.zeros(0, np.int64)
+
+
+def _boxes(
+    boxes: NDArray[np.float64], cells: NDArray[np.int64], part: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """(n, 5) the blocks that (n, 4) boxes of the frame touch, in pixels of a part's cells (y up),
+    and the cells."""
+    step = blocks.BLOCK
+    low, high = np.floor(boxes[:, :2] / step) * step, (np.floor(boxes[:, 2:] / step) + 1) * step
+    low, high = np.maximum(low, part[:2]), np.minimum(high, part[2:])
+    rows = [low[:, 0] - part[0], part[3] - high[:, 1], high[:, 0] - part[0], part[3] - low[:, 1]]
+    return np.stack([*rows, cells], axis=1)
 
 
 def _way(cells: Cells, k: int, corner: tuple[int, int]) -> tuple[int, int]:

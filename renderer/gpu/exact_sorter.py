@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.contours import BLOCK, runs
+from renderer import blocks
 from renderer.gpu.cells import Cells
 from renderer.gpu.programs import Shader, program
 from renderer.techniques.dynamic import DynamicTransparency
@@ -49,35 +49,28 @@ class PixelSorter:
         filled: Filled,
         part: NDArray[np.int64],
         number: int,
-        blocks: NDArray[np.bool_],
+        bits: tuple[NDArray[np.uint64], NDArray[np.uint64]],
         every: bool,
     ) -> int:
-        """Draw a part, the batch's `number`th, into the bound framebuffer, where `blocks` say that
-        a mask is; with `every`, the other objects in it too. Returns the draw calls."""
+        """Draw a part, the batch's `number`th, into the bound framebuffer; `bits` are which slices
+        and masks can show in a block. With `every`, also where no mask is. Returns the draws."""
+        found, which = blocks.runs(*bits, part)
+        by_pixel = filled.technique.granularity == "pixel"
+        masked = (which[:, 1] != 0) | (not by_pixel)
         draws = 0
-        if filled.technique.granularity != "pixel":
-            blocks = np.ones_like(blocks)
-        low, high = part[:2] // BLOCK, -(-part[2:] // BLOCK)
-        inside = blocks[low[1] : high[1], low[0] : high[0]]
-        for output, wanted in (("OUTPUT_PICTURE", True), ("OUTPUT_NEAREST", False)):
-            if not wanted and not every:
-                continue
-            found = runs(inside if wanted else ~inside)
-            if not len(found):
-                continue
-            shader, array = self._bound(filled, part, number, output)
-            corners = ((found + np.tile(low, 2)) * BLOCK)[:, _CORNERS]
-            places = np.ascontiguousarray(corners, dtype="f4")
-            if places.nbytes > self._places.size:
-                self._places.release()
-                self._places = self._context.buffer(reserve=2 * places.nbytes, dynamic=True)
-                self._programs.clear()
+        for output, chosen in (("OUTPUT_PICTURE", masked), ("OUTPUT_NEAREST", ~masked)):
+            if chosen.any() and (every or output == "OUTPUT_PICTURE"):
+                rows = _vertices(found[chosen], which[chosen])
+                if rows.nbytes > self._places.size:
+                    self._places.release()
+                    self._places = self._context.buffer(reserve=2 * rows.nbytes, dynamic=True)
+                    self._programs.clear()
                 shader, array = self._bound(filled, part, number, output)
-            self._places.orphan()
-            self._places.write(places)
-            shader.set(size=filled.size, depth=0.0, every=every)
-            array.render(moderngl.TRIANGLES, 6 * len(places))
-            draws += 1
+                self._places.orphan()
+                self._places.write(rows)
+                shader.set(size=filled.size, every=every)
+                array.render(moderngl.TRIANGLES, len(rows))
+                draws += 1
         return draws
 
     def whole(
@@ -85,7 +78,10 @@ class PixelSorter:
     ) -> None:
         """Fill the bound framebuffer with the shares from the `first`th on, or with light."""
         shader, array = self._bound(filled, part, number, output)
-        shader.set(**{"from": first})
+        counts = (filled.slice_base, filled.mask_base)
+        ones = [(1 << (base[number + 1] - base[number])) - 1 for base in counts]
+        which = tuple(v >> k & 0xFFFFFFFF for v in ones for k in (0, 32))
+        shader.set(which=which, **{"from": first})
         array.render(moderngl.TRIANGLES, 3)
 
     def _bound(
@@ -94,20 +90,19 @@ class PixelSorter:
         surfaces = filled.technique.granularity == "surface"
         key = (output, surfaces)
         if key not in self._programs:
-            defines = [output] + ["WITH_SURFACES"] * surfaces
             placed = output in ("OUTPUT_PICTURE", "OUTPUT_NEAREST")
-            vertex = "flat.vert" if placed else "present.vert"
+            defines = [output] + ["WITH_SURFACES"] * surfaces + ["PLACED"] * placed
+            vertex = "block.vert" if placed else "present.vert"
             shader = program(self._context, vertex, "exact.frag", defines)
-            content = [(self._places, "2f", "in_place")] if placed else []
+            content = [(self._places, "2f 4u", "in_place", "in_which")] if placed else []
             self._programs[key] = (shader, self._context.vertex_array(shader.program, content))
         shader, array = self._programs[key]
         if number == 0:
             self._set(filled, shader, output == "OUTPUT_LIGHT")
         a, b = filled.slice_base[number : number + 2]
-        c, d = filled.mask_base[number : number + 2]
+        c = filled.mask_base[number]
         origin = (int(part[0]), int(filled.size[1] - part[3]))
-        shader.set(slices=b - a, mask_count=d - c, origin=origin)
-        shader.set(first_cell=filled.slices.corner(a), first_mask=filled.entries.corner(c))
+        shader.set(slices=b - a, slice_base=a, mask_base=c, origin=origin)
         self._context.enable_only(moderngl.NOTHING)
         return shader, array
 
@@ -128,8 +123,7 @@ class PixelSorter:
         values: dict[str, Any] = {
             "cell": slices.size,
             "columns": slices.columns,
-            "row_end": slices.columns * slices.size[0],
-            "mask_row_end": entries.columns * entries.size[0],
+            "mask_columns": entries.columns,
             "background": filled.background,
             "per_pixel": technique.granularity == "pixel",
             "least": technique.combine == "min",
@@ -140,3 +134,11 @@ class PixelSorter:
         if light:
             values["tau"] = max(1.0 - technique.alpha_target, 1e-6)
         shader.set(**values)
+
+
+def _vertices(found: NDArray[np.int64], which: NDArray[np.uint64]) -> NDArray[np.void]:
+    """Two triangles for each rectangle: x, y as float32, and the bits."""
+    rows = np.zeros((len(found), 6), dtype=[("place", "f4", 2), ("which", "u8", 2)])
+    rows["place"] = found[:, _CORNERS]
+    rows["which"] = which[:, None]
+    return rows.reshape(-1)

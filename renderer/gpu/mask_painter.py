@@ -8,8 +8,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.blocks import BLOCK
 from renderer.camera import Camera
-from renderer.contours import BLOCK
 from renderer.gpu.distance_painter import DistancePainter
 from renderer.gpu.mask_maker import MaskGeometry, mask_geometry
 from renderer.gpu.programs import Shader, program

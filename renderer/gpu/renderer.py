@@ -78,7 +78,9 @@ class Renderer:
         if self._unchanged(scene, camera, technique):
             stats = FrameStats(0, 0, 0, 0)
         else:
-            self.plan = plan(scene, camera, technique, self.size, self.without)
+            # Where pixels are antialiased, only the depth buffer's picture is.
+            without = self.without | {"held"} if self._samples else self.without
+            self.plan = plan(scene, camera, technique, self.size, without)
             table = self._table(scene)
             stats = self._layer.draw(table, self.plan, camera, technique, self._target)
             self._target.resolve()
@@ -138,7 +140,7 @@ class Renderer:
             last = ids
 
         scale = size[1] / self.size[1]
-        frame = plan(scene, camera, technique, size, self.without, scale)
+        frame = plan(scene, camera, technique, size, self.without | {"held"}, scale)
         layer.draw(self._table(scene), frame, camera, technique, small, scale, keep)
         return found
 
