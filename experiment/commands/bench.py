@@ -32,7 +32,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--markdown", type=Path, metavar="FILE", help="put the table into a page, as Markdown"
     )
     parser.add_argument(
-        "--figure", type=Path, metavar="FILE", help="draw it, as .svg or .png (accuracy only)"
+        "--figure",
+        type=Path,
+        metavar="FILE",
+        help="draw it, as .svg or .png (accuracy, ordering_accuracy)",
     )
 
 
@@ -54,6 +57,8 @@ def run(args: argparse.Namespace) -> int:
     for row in module.figures():
         rows.append(row)
         print(line(row), flush=True)
+    if hasattr(module, "summary"):
+        print(f"\n{module.summary(rows)}")
     if args.json is not None:
         args.json.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", "utf-8")
     if args.markdown is not None:
