@@ -47,7 +47,7 @@ def small_crossings(aspect: float, views: int) -> Views:
         turned = transforms.placed(behind, transforms.random_rotation(rng))
         objects.append(Object(ring, turned, RED, target=True))
     turns = np.linspace(-0.3, 0.3, views)
-    eyes = [np.array([24 * np.sin(t), 2.0, 24 * np.cos(t)]) for t in turns]
+    eyes = [np.array([34 * np.sin(t), 2.0, 34 * np.cos(t)]) for t in turns]
     return Scene(tuple(objects)), [look_at(e, np.zeros(3), fov_y=0.6, near=1, far=60) for e in eyes]
 
 

@@ -1,9 +1,9 @@
-"""What the gallery shows: every mode, mask, granularity and some hard cases, as scenes to draw."""
+"""What the gallery shows: every mode, mask, granularity and hard case, as scenes to draw."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -19,104 +19,159 @@ from tasks.controls import orbit, walk
 from tasks.parameters import AbstractParameters, BuildingParameters
 
 DYNAMIC = DynamicTransparency()
-RED = (0.9, 0.15, 0.1)
+SIZE, LARGE = (400, 300), (800, 600)
 
 
 @dataclass(frozen=True, eq=False)
 class Plate:
-    """One picture: its file name, and what it shows in words."""
+    """One picture: its file name, what it shows in words, and how large it is drawn."""
 
     name: str
     caption: str
     scene: Scene
     camera: Camera
     technique: Technique
+    size: tuple[int, int] = SIZE
 
 
-def plates(aspect: float, seed: int = 1) -> Iterator[Plate]:
-    """All pictures, scenario by scenario."""
-    parameters = AbstractParameters()
-    scene = abstract_scene(np.random.default_rng(seed), parameters)
-    camera = orbit(parameters, aspect).camera()
-    near = look_at(camera.eye * 0.55, np.zeros(3), fov_y=0.6, near=5, far=250)
-    yield Plate("abstract-standard", "The abstract world, standard", scene, near, Standard())
-    yield Plate("abstract-dynamic", "The same, dynamic transparency", scene, near, DYNAMIC)
-    yield from _options(scene, near)
-    building = BuildingParameters()
-    house = unique_building(np.random.default_rng(seed), building)
-    view = walk(building, house.start, 1.5).camera()
-    yield Plate("walkthrough-standard", "The building, standard", house.scene, view, Standard())
-    yield Plate("walkthrough-dynamic", "The same through its walls", house.scene, view, DYNAMIC)
-    yield from _jeep()
-    yield from _hard()
+@dataclass(frozen=True, eq=False)
+class Section:
+    """Pictures under one heading, with a line about them; `refused` are inputs and the message
+    that each one got."""
+
+    title: str
+    about: str
+    plates: tuple[Plate, ...]
+    refused: tuple[tuple[str, str], ...] = field(default=())
 
 
-def _options(scene: Scene, camera: Camera) -> Iterator[Plate]:
-    for mask in MASKS:
-        technique = replace(DYNAMIC, mask=mask, width=14)
-        yield Plate(f"mask-{mask}", f"Mask: {mask}", scene, camera, technique)
-    for granularity in GRANULARITIES:
-        technique = replace(DYNAMIC, granularity=granularity)
-        caption = f"Granularity: {granularity}"
-        yield Plate(f"granularity-{granularity}", caption, scene, camera, technique)
-    light = replace(DYNAMIC, mode="active", pointer=(0.65, 0.5), radius=0.25, softness=0.08)
-    yield Plate("mode-active", "Active mode: a searchlight in the middle", scene, camera, light)
-    for layers in (1, 2):
-        technique = replace(DYNAMIC, layers=layers)
-        caption = f"At most {layers} transparent layer{'s' * (layers > 1)}"
-        yield Plate(f"layers-{layers}", caption, scene, camera, technique)
-    technique = replace(DYNAMIC, model="additive")
-    yield Plate("model-additive", "Additive transparency", scene, camera, technique)
-    crowd = replace(scene, objects=tuple(replace(o, target=True) for o in scene.objects))
-    yield Plate("all-targets-product", "200 targets, masks multiply", crowd, camera, DYNAMIC)
-    technique = replace(DYNAMIC, combine="min")
-    yield Plate("all-targets-min", "200 targets, the least mask counts", crowd, camera, technique)
+def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
+    """The gallery from top to bottom."""
+    from experiment import gallery_hard
+
+    yield Section(
+        "The three scenes and the models",
+        "Standard rendering beside dynamic transparency.",
+        tuple(_scenes(aspect, seed)),
+    )
+    yield from _options()
+    yield from gallery_hard.sections()
 
 
-def _jeep() -> Iterator[Plate]:
+def _scenes(aspect: float, seed: int) -> Iterator[Plate]:
+    """Paper 004's scenes, each drawn both ways, and the contact sheet of the models."""
     from renderer.models.jeep import jeep_scene
+    from renderer.models.sheet import contact_sheet_scene
 
-    camera = look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.47)
-    scene = jeep_scene()
-    yield Plate("jeep-standard", "The jeep, standard", scene, camera, Standard())
-    yield Plate("jeep-dynamic", "Engine, gearbox, axles and seats inside", scene, camera, DYNAMIC)
+    parameters = AbstractParameters()
+    world = abstract_scene(np.random.default_rng(seed), parameters)
+    start = orbit(parameters, aspect).camera()
+    near = look_at(start.eye * 0.55, np.zeros(3), fov_y=0.6, near=5, far=250)
+    building = BuildingParameters()
+    house = unique_building(np.random.default_rng(seed + 2), building)
+    view = walk(building, house.start).camera()
+    side = look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.47)
+    scenes = (
+        ("abstract", "The abstract world: 200 shapes, the red ones are targets", world, near),
+        ("walkthrough", "The building: all models are targets", house.scene, view),
+        ("jeep", "The jeep: engine, gearbox, axles and seats are targets", jeep_scene(), side),
+    )
+    for name, caption, scene, camera in scenes:
+        words = f"{caption}; standard"
+        yield Plate(f"{name}-standard", words, scene, camera, Standard(), LARGE)
+        words = f"{caption}; dynamic transparency"
+        yield Plate(f"{name}-dynamic", words, scene, camera, DYNAMIC, LARGE)
+    sheet, camera = contact_sheet_scene(aspect)
+    yield Plate("models", "Every model of the library", sheet, camera, Standard(), LARGE)
 
 
-def _hard() -> Iterator[Plate]:
-    """Walls longer than their room, crossing boxes, nested dolls, many layers, the near plane."""
-    eye = look_at(np.array([0.0, 1.5, 9.0]), np.zeros(3), fov_y=0.7, near=0.2, far=80)
-    ring = geometry.torus(0.9, 0.3, 32, 16)
-    wall = Object(geometry.box(0.2, 4, 40), transforms.translation(-1.2, 0, -10), (0.75, 0.72, 0.6))
-    target = Object(ring, transforms.placed((-3.2, 0.5, -2), scale=1.4), RED, target=True)
-    yield Plate(
-        "hard-long-wall", "A wall longer than its room", Scene((wall, target)), eye, DYNAMIC
+def stage() -> tuple[Scene, Camera]:
+    """A horse, a chair and a torus behind a fence of three groups of planks, a ball before it."""
+    from renderer.models import MODELS
+
+    rng = np.random.default_rng(4)
+    objects = []
+    for k in range(12):
+        wood = tuple(np.array([0.55, 0.5, 0.42]) + rng.uniform(-0.14, 0.14, 3))
+        place = transforms.translation(0.72 * (k - 5.5), 0.0, 0.0)
+        objects.append(Object(geometry.box(0.68, 4.6, 0.12), place, wood, group=k // 4))
+    ball = transforms.translation(-0.4, -0.9, 1.3)
+    objects.append(Object(geometry.sphere(1.0, 2), ball, (0.25, 0.5, 0.75)))
+    for name, x, y, size, turn in (("horse", -0.3, -0.2, 2.8, 0.5), ("chair", 2.6, -0.4, 2.0, 2.6)):
+        mesh = MODELS[name]()
+        scale = size / np.ptp(mesh.vertices, axis=0).max()
+        local = transforms.placed((x, y, -2.2), transforms.rotation_y(turn), scale)
+        middle = transforms.translation(*(-mesh.vertices.mean(axis=0)))
+        objects.append(Object(mesh, local @ middle, target=True, kind=name))
+    ring = transforms.placed((-2.9, 0.6, -2.2), transforms.rotation_x(1.2))
+    objects.append(Object(geometry.torus(0.7, 0.25, 32, 16), ring, (0.85, 0.15, 0.1), target=True))
+    camera = look_at(np.array([0.6, 0.8, 9.5]), np.zeros(3), fov_y=0.55, near=1, far=40)
+    return Scene(tuple(objects)), camera
+
+
+def _options() -> Iterator[Section]:
+    """One section for each thing that the technique may vary, on the same stage."""
+    scene, camera = stage()
+
+    def shown(name: str, caption: str, scene: Scene = scene, **options: object) -> Plate:
+        return Plate(name, caption, scene, camera, replace(DYNAMIC, **options))  # type: ignore[arg-type]
+
+    plain = Plate("stage-standard", "Standard rendering", scene, camera, Standard())
+    yield Section(
+        "Masks",
+        "The part that has the target's opacity, and the gradient about it.",
+        (plain, *(shown(f"mask-{m}", f"Mask: {m}", mask=m, width=14) for m in MASKS)),
     )
-    cross = [
-        Object(geometry.box(6, 0.8, 0.8), transforms.rotation_z(a) @ transforms.rotation_y(b), c)
-        for a, b, c in (
-            (0.3, 0.7, (0.2, 0.5, 0.9)),
-            (1.6, 0.2, (0.9, 0.7, 0.2)),
-            (2.6, -0.6, (0.3, 0.8, 0.4)),
-        )
-    ]
-    ball = Object(geometry.sphere(1.6, 3), transforms.translation(0, 0, -3), RED, target=True)
-    yield Plate("hard-crossing", "Boxes that cross each other", Scene((*cross, ball)), eye, DYNAMIC)
-    colors = (RED, (0.2, 0.7, 0.3), (0.2, 0.4, 0.9))
-    dolls = tuple(
-        Object(geometry.sphere(r, 3), np.eye(4), c, target=r < 1, group=1)
-        for r, c in zip((0.7, 1.4, 2.1), colors, strict=True)
+    widths = (shown(f"width-{w}", f"A border of {w} pixels", width=w) for w in (0, 10, 30))
+    clear = (
+        shown(f"alpha-{a:g}", f"Occluders keep {100 * a:g} %", alpha_target=a) for a in (0.1, 0.3)
     )
-    yield Plate(
-        "hard-dolls", "Nested dolls, a group", Scene(dolls), eye, replace(DYNAMIC, width=25)
+    yield Section("Width and opacity", "10 pixels and 30 % are the defaults.", (*widths, *clear))
+    yield Section(
+        "Granularity",
+        "What turns transparent as a whole. The planks are three groups.",
+        tuple(shown(f"granularity-{g}", f"By {g}", granularity=g) for g in GRANULARITIES),
     )
-    panes = tuple(
-        Object(geometry.box(5, 5, 0.1), transforms.translation(0.2 * i - 1, 0, 3 - 0.4 * i), c)
-        for i, c in enumerate(np.random.default_rng(2).uniform(0.2, 1, (12, 3)).tolist())
+    light = {"mode": "active", "radius": 0.2, "softness": 0.08}
+    yield Section(
+        "Modes",
+        "Passive: every mask works. Active: masks work in a searchlight that follows the pointer.",
+        (
+            shown("mode-passive", "Passive"),
+            shown("mode-active", "Active, pointer at the horse", pointer=(0.62, 0.5), **light),
+            shown("mode-active-aside", "Active, pointer at the torus", pointer=(0.2, 0.4), **light),
+            shown("mode-active-none", "Active, the pointer is away: standard", **light),
+        ),
     )
-    deep = Scene((*panes, replace(target, transform=transforms.translation(0.5, 0, -4))))
-    yield Plate("hard-deep", "Twelve panes before a target", deep, eye, DYNAMIC)
-    kept = replace(DYNAMIC, min_transmittance=0.5)
-    yield Plate("hard-deep-kept", "The same, half its light kept for sure", deep, eye, kept)
-    close = look_at(np.array([0.0, 0.0, 0.45]), np.array([0.0, 0, -3]), fov_y=1.2, near=0.3, far=30)
-    cut = Scene((replace(ball, transform=transforms.translation(0.6, 0, -3.2)), *cross))
-    yield Plate("hard-inside", "From inside the boxes", cut, close, DYNAMIC)
+    yield from _adding_up(scene, shown)
+
+
+def _adding_up(scene: Scene, shown) -> Iterator[Section]:  # type: ignore[no-untyped-def]
+    """Layers, models of transparency, and what never turns transparent."""
+    yield Section(
+        "Layers and how they add up",
+        "The ball and the fence are two layers before the horse.",
+        (
+            *(
+                shown(f"layers-{m}", f"At most {m} layer{'s' * (m != 1)}", layers=m)
+                for m in (0, 1, 2)
+            ),
+            shown("model-additive", "Additive transparency", model="additive"),
+            shown("kept", "80 % of the light kept for sure", min_transmittance=0.8),
+            shown("combine-min", "Where masks line up, the least counts", combine="min"),
+        ),
+    )
+    hard = [replace(o, impenetrable=o.group == 1) for o in scene.objects]
+    yield Section(
+        "Impenetrable things and the order of objects",
+        "What is impenetrable never turns transparent, or not until the viewer is near.",
+        (
+            shown("impenetrable", "The middle of the fence is impenetrable", Scene(tuple(hard))),
+            shown("penetrable-near", "Only the ball is near enough", penetrable_within=8.3),
+            shown(
+                "order-centers", "Order by the groups' centres, as in the paper", order="centers"
+            ),
+            shown("order-planes", "Order by planes between boxes (default)"),
+            shown("order-exact", "Every pixel sorted by itself", exact=True),
+        ),
+    )

@@ -7,21 +7,30 @@ import html
 from pathlib import Path
 
 from experiment.errors import InputError
-from experiment.gallery import plates
+from experiment.gallery import SIZE, Plate, Section, sections
 
 HELP = "draw every mode, mask, granularity and hard case into a page"
-SIZE = (400, 300)
+WIDEST = 800  # pixels of a picture on the page
+COLORS = 192  # of a picture's palette: a third of the bytes, no difference to be seen
 
 _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>Seethrough: gallery</title>
+<meta name="viewport" content="width=device-width, initial-scale=1">
 <style>
-body {{ font: 15px/1.4 system-ui, sans-serif; margin: 2rem; color: #222; background: #fff; }}
-main {{ display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 1rem; }}
-figure {{ margin: 0; }} img {{ width: 100%; border-radius: 4px; }} figcaption {{ color: #555; }}
+body {{ font: 15px/1.4 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem; padding: 0 1rem;
+  color: #222; background: #fff; }}
+h2 {{ margin: 2.5rem 0 .25rem; }} section > p {{ margin: 0 0 .75rem; }}
+.plates {{ display: grid; gap: 1rem; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr)) }}
+figure {{ margin: 0; }} figcaption {{ color: #555; }}
+img {{ width: 100%; aspect-ratio: 4 / 3; object-fit: contain; background: #f4f4f4;
+  border-radius: 4px; image-rendering: auto; }}
+img.small {{ image-rendering: pixelated; }}
+dt {{ font-weight: 600; }} dd {{ margin: 0 0 .5rem; font-family: ui-monospace, monospace; }}
 </style>
 <h1>What the renderer draws</h1>
+<p>Made by <code>seethrough gallery</code>. Targets show through whatever stands before them.</p>
 <main>
-{figures}
+{sections}
 </main></html>
 """
 
@@ -38,8 +47,6 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(f"--seed = {args.seed}: expected a number ≥ 0")
     if args.out.exists() and not args.out.is_dir():
         raise InputError(f"--out = {args.out}: expected a folder")
-    from PIL import Image
-
     from renderer.gpu.context import standalone
     from renderer.gpu.renderer import Renderer
 
@@ -48,16 +55,45 @@ def run(args: argparse.Namespace) -> int:
         renderer = Renderer(standalone(), SIZE, samples=4)
     except RuntimeError as error:
         raise InputError(str(error)) from error
-    figures = []
-    for plate in plates(SIZE[0] / SIZE[1], args.seed):
-        renderer.draw(plate.scene, plate.camera, plate.technique)
-        Image.fromarray(renderer.read()).save(args.out / f"{plate.name}.png")
-        caption = html.escape(plate.caption)
-        figures.append(
-            f'<figure><img src="{plate.name}.png" alt="{caption}">'
-            f"<figcaption>{caption}</figcaption></figure>"
-        )
+    texts, count = [], 0
+    for section in sections(SIZE[0] / SIZE[1], args.seed):
+        for plate in section.plates:
+            draw(renderer, plate, args.out / f"{plate.name}.png")
+        count += len(section.plates)
+        texts.append(_section(section))
     page = args.out / "index.html"
-    page.write_text(_PAGE.format(figures="\n".join(figures)), "utf-8")
-    print(f"{page}: {len(figures)} pictures")
+    page.write_text(_PAGE.format(sections="\n".join(texts)), "utf-8")
+    print(f"{page}: {count} pictures")
     return 0
+
+
+def draw(renderer, plate: Plate, path: Path) -> None:  # type: ignore[no-untyped-def]
+    """Write one picture as a small PNG."""
+    from PIL import Image
+
+    renderer.resize(plate.size)
+    renderer.draw(plate.scene, plate.camera, plate.technique)
+    picture = Image.fromarray(renderer.read())
+    picture.thumbnail((WIDEST, WIDEST))
+    picture.quantize(COLORS, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def _section(section: Section) -> str:
+    lines = [f"<section><h2>{html.escape(section.title)}</h2>"]
+    if section.about:
+        lines.append(f"<p>{html.escape(section.about)}</p>")
+    if section.plates:
+        lines += ['<div class="plates">', *map(_figure, section.plates), "</div>"]
+    if section.refused:
+        items = (f"<dt>{html.escape(a)}</dt><dd>{html.escape(b)}</dd>" for a, b in section.refused)
+        lines += ["<dl>", *items, "</dl>"]
+    return "\n".join([*lines, "</section>"])
+
+
+def _figure(plate: Plate) -> str:
+    caption = html.escape(plate.caption)
+    small = ' class="small"' if min(plate.size) < 100 else ""
+    return (
+        f'<figure><img src="{plate.name}.png" alt="{caption}" loading="lazy"{small}>'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )

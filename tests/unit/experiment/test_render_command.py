@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 from PIL import Image
 
+from experiment import gallery_hard
 from experiment.cli import main
-from experiment.gallery import plates
-from renderer.techniques.dynamic import GRANULARITIES, MASKS
+from experiment.gallery import Section, sections
+from renderer.gpu.renderer import Renderer
+from renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES
 
 
 def test_a_picture_is_written_and_explained(tmp_path, capsys):
@@ -48,10 +53,46 @@ def test_bad_input_is_one_line_and_status_two(tmp_path, capsys, extra, message):
 
 def test_the_gallery_shows_every_mask_granularity_and_mode():
     """By the names of its pictures, each once."""
-    names = [plate.name for plate in plates(4 / 3)]
+    names = [plate.name for section in sections(4 / 3) for plate in section.plates]
     assert len(set(names)) == len(names)
-    for mask in MASKS:
-        assert f"mask-{mask}" in names
-    for granularity in GRANULARITIES:
-        assert f"granularity-{granularity}" in names
-    assert {"mode-active", "layers-1", "model-additive", "hard-dolls"} <= set(names)
+    assert {f"mask-{mask}" for mask in MASKS} <= set(names)
+    assert {f"granularity-{granularity}" for granularity in GRANULARITIES} <= set(names)
+    assert {f"mode-{mode}" for mode in MODES} <= set(names)
+    assert {"layers-1", "model-additive", "combine-min", "kept", "impenetrable"} <= set(names)
+    hard = ("inside", "face", "tiny", "half", "behind", "near-plane", "long-wall", "line-50")
+    meeting = ("crossing", "links", "touch", "coincide", "plane", "dolls", "million", "near-far")
+    assert {f"hard-{name}" for name in (*hard, *meeting, "targets-0", "targets-200")} <= set(names)
+
+
+def test_the_page_shows_the_pictures_and_what_is_refused(tmp_path, capsys, monkeypatch):
+    """Each picture is written in its size, with words for those who do not see it."""
+    first = next(gallery_hard._numbers())
+    odd = replace(first, name="odd", caption="7 < 30", size=(30, 7))
+    refused = tuple(gallery_hard._refused())
+    some = [Section("Some & few", "", (first, odd)), Section("Refused", "", (), refused)]
+    monkeypatch.setattr("experiment.commands.gallery.sections", lambda *_: iter(some))
+    assert main(["gallery", "--out", str(tmp_path / "out")]) == 0
+    assert capsys.readouterr().out.endswith("index.html: 2 pictures\n")
+    page = (tmp_path / "out" / "index.html").read_text("utf-8")
+    assert '<img src="odd.png" alt="7 &lt; 30"' in page and "Some &amp; few" in page
+    assert "transform of lamp has a value that is not finite" in page
+    assert "alpha_target = 1.5" in page and "mask = &#x27;square&#x27;" in page
+    assert len(refused) == 4
+    for plate in (first, odd):
+        with Image.open(tmp_path / "out" / f"{plate.name}.png") as picture:
+            assert picture.size == plate.size
+
+
+@pytest.mark.parametrize("name", ["abstract-dynamic", "walkthrough-standard", "jeep-dynamic"])
+def test_the_pictures_of_the_readme_are_the_gallerys(name, tmp_path, context):
+    """Drawn again, they look the same: drivers and roundings may differ at edges."""
+    kept = Path(__file__).parents[3] / "docs" / "pictures" / f"{name}.png"
+    plate = next(p for s in sections(4 / 3) for p in s.plates if p.name == name)
+    renderer = Renderer(context, plate.size, samples=4)
+    renderer.draw(plate.scene, plate.camera, plate.technique)
+    with Image.open(kept) as picture:
+        then = np.asarray(picture.convert("RGB")).astype(int)
+    apart = np.abs(renderer.read() - then).max(axis=2)
+    # The palette of 192 colours alone moves a colour by up to some 20 steps, and few by more.
+    assert (apart > 24).mean() < 0.02
+    assert kept.stat().st_size < 300 * 1024
