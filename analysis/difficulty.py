@@ -15,12 +15,12 @@ from analysis.measures import design
 from analysis.stats.undefined import Number, Undefined
 
 QUANTITIES: Mapping[str, str] = {
-    "targets": "targets in the scene",
-    "visible": "visible fraction of a target",
-    "hidden": "targets hidden in every view",
-    "occluders": "distractors that hide part of a target",
+    "targets": "targets",
+    "visible": "visible fraction",
+    "hidden": "hidden targets",
+    "occluders": "occluders",
     "clutter": "objects in view",
-    "path": "path past every target (units)",
+    "path": "path (units)",
 }
 NO_SPREAD = "the scenes do not differ"
 
@@ -61,8 +61,10 @@ def balance(trials: pd.DataFrame) -> list[Balance]:
         cells = means(known, quantity, {k: levels[k] for k in ("task", "transparency")})
         for task in cells.factors["task"]:
             m = measure(f"{quantity}_{task}", quantity, "", 3, cells, task=task)
-            walked = quantity != "path" or cells.values.any()  # nobody walks in the abstract world
-            if m is not None and walked:
+            if m is None:
+                continue
+            # nobody walks in the abstract world
+            if quantity != "path" or m.standard.any() or m.dynamic.any():
                 own = known[known["task"] == task]
                 found.append(Balance(task, quantity, m, _smd(own, quantity)))
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, Cells, means, sums
+from analysis.cells import Array, Cells, level_codes, means, sums
 from analysis.comparison import Measure, measure
 from analysis.load.schema import TRANSPARENCY
 from analysis.measures import design
@@ -73,7 +73,9 @@ def learning_curve(trials: pd.DataFrame) -> pd.DataFrame:
     by_person = rows.groupby(["participant", *keys], observed=True)["y"].mean().reset_index()
     curve = by_person.groupby(keys, observed=True)["y"]
     table = curve.agg(log_time="mean", people="size").reset_index()
-    return table.assign(time=np.exp(table["log_time"]))
+    table = table.assign(time=np.exp(table["log_time"]))
+    order = level_codes(table["transparency"], TRANSPARENCY)
+    return table.iloc[np.lexsort((table["trial_in_set"], order))].reset_index(drop=True)
 
 
 def share_missed(trials: pd.DataFrame) -> Measure | None:

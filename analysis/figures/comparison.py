@@ -128,7 +128,7 @@ def _ratings(scenario: str, measures: Sequence[Measure], tests: Table) -> Spec:
             mean, sd = row[f"mean_{level}"], row[f"sd_{level}"]
             tip = f"{m.label}, {level}: mean {significant(mean)}"
             if is_defined(sd):
-                tip += f", s.d. {significant(sd)}"
+                tip += f", SD {significant(sd)}"
                 ends.append({"x": i + side, "low": mean - sd, "high": mean + sd})
             bar = {"from": i + side - 0.18, "to": i + side + 0.18, "mean": mean, "zero": 0}
             bars.append({**bar, "level": level, "tip": tip})
@@ -165,15 +165,15 @@ def effect_sizes(key: str, title: str, tests: Table) -> Figure:
     y = {"y": {"field": "y", **categories(labels, "y")}}
     lines = [{k: v for k, v in row.items() if k != "tip"} for row in rows]
     axis = "standardised difference d_z; positive: less with dynamic transparency"
+    dz = number("dz", axis, axis={"tickCount": 8})
     spec = {
         "width": 520,
         "height": 26 * len(rows),
         "layer": [
             zero_line("x", axis),
             layer("rule", lines, {**y, **_span("x", axis)}, color=INK, strokeWidth=2),
-            layer("point", rows, {**y, "x": number("dz", axis)}, color=DYNAMIC, filled=True,
-                  size=60, opacity=1),
+            layer("point", rows, {**y, "x": dz}, color=DYNAMIC, filled=True, size=60, opacity=1),
         ],
-    }  # fmt: skip
+    }
     said = "; ".join(str(row["tip"]) for row in rows)
     return Figure(key, title, f"Dots with intervals. {said}.", spec)

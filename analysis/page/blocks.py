@@ -15,7 +15,7 @@ class Column:
     """A table's column: its name in the CSV, its heading, and how its numbers are shown.
 
     `low` and `high` name the columns of its interval, shown with it in one cell of the page. The
-    style `own` takes the row's `digits`.
+    style `own` takes the row's `digits`, and its `kind` (fixed, or bound for what is at most 1).
     """
 
     name: str
@@ -65,7 +65,8 @@ class Table:
 
     def style(self, row: Mapping[str, Any], column: Column) -> str:
         """How this row's number in `column` is shown."""
-        return f"fixed{row['digits']}" if column.style == "own" else column.style
+        kind = row.get("kind", "fixed")
+        return f"{kind}{row['digits']}" if column.style == "own" else column.style
 
     def text(self, row: Mapping[str, Any], column: Column) -> str:
         """A cell as the page has it: the number, and its interval where it has one."""

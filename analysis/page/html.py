@@ -17,7 +17,9 @@ _CITED = Markup(
     '<data value="{}" data-from="{}" data-row="{}" data-column="{}" '
     'title="tables/{}: {}, {}">{}</data>'
 )
-_SYMBOL = re.compile(r"(?<![\w<])([FtpnMr]|χ)(?=\(|²\(|\u00a0=|\s(?:&lt;|\(|$)|\u00a0$|$)")
+_SYMBOL = re.compile(
+    r"(?<![\w<])(SD|df|[FtpnMrWV]|χ)(?=\(|²\(|\u00a0=|\s(?:&lt;|≤|\(|$)|\u00a0$|$)"
+)
 
 
 def _template(name: str) -> str:

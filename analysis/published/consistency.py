@@ -69,7 +69,7 @@ def r_finding(published: Published, m: PublishedMeasure) -> Finding:
     r = r_of(m, published.participants)
     low, high = r_interval(m, published.participants)
     possible = low <= 1 and high >= -1
-    assumed = "; with an assumed s.d. (the scan is unreadable)" if m.dynamic.assumed else ""
+    assumed = "; with an assumed SD (the scan is unreadable)" if m.dynamic.assumed else ""
     return Finding(
         f"r_{m.name}",
         f"{m.label}: is there a correlation that gives F?",
@@ -167,7 +167,7 @@ def combined_findings(published: Published) -> list[Finding]:
         ),
         Finding(
             "combined_error_sd",
-            "Can a plain mean of T1 and T4 have the combined s.d.?",
+            "Can a plain mean of T1 and T4 have the combined SD?",
             "yes" if both.standard.sd.low <= largest else "no",
             f"it is at most {bounded(largest, 3)} (at r = 1); printed is "
             f"{bounded(both.standard.sd.value, 3)}",
@@ -208,7 +208,7 @@ def grim_correct_findings(published: Published) -> list[Finding]:
         ),
         Finding(
             "grimmer_correct",
-            f"T2: how many trials each, up to {MOST_TRIALS}, give both means and s.d.?",
+            f"T2: how many trials each, up to {MOST_TRIALS}, give both means and SD?",
             "yes" if per in both else "no",
             f"{' or '.join(map(str, both)) or 'none'}, not {per}; {shown}",
         ),
@@ -220,12 +220,12 @@ def grim_single_findings(published: Published) -> list[Finding]:
     found = []
     for item in published.single:
         answers = fitting_whole_numbers(item.moments, published.participants, item.highest)
-        shown = _counted(answers) if answers else "no answers have this mean and s.d."
+        shown = _counted(answers) if answers else "no answers have this mean and SD"
         found.append(
             Finding(
                 f"grim_{item.name}",
                 f"{item.label}: can whole answers have M = {item.moments.mean.text}, "
-                f"s.d. {item.moments.sd.text}?",
+                f"SD = {item.moments.sd.text}?",
                 "yes" if answers else "no",
                 shown,
             )
@@ -246,7 +246,7 @@ def grim_rating_finding(published: Published) -> Finding:
         for m in published.rating
     ]
     shown = [
-        f"M = {m.mean.text} (s.d. {m.sd.text}): {'possible' if f else 'impossible'}"
+        f"M = {m.mean.text} (SD = {m.sd.text}): {'possible' if f else 'impossible'}"
         for m, f in zip(published.rating, fits, strict=True)
     ]
     return Finding(

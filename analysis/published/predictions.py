@@ -8,6 +8,7 @@ from analysis.comparison import apa_f
 from analysis.page.blocks import Cited, Column, Fold, Prose, Section, Table, say
 from analysis.published.consistency import Finding
 from analysis.published.numbers import Published
+from analysis.sections.summary import places
 from analysis.stats.distributions import t_upper
 
 ALPHA = 0.05
@@ -43,7 +44,7 @@ def equivalence_table(published: Published, tests: Table) -> Table:
             "label": "T2 share correct",
             "margin": margin,
             "p": p,
-            "how": "means and s.d. alone: the largest p that correlation and rounding allow",
+            "how": "means and SD alone: the largest p that correlation and rounding allow",
         }
     )
     every = tuple({**row, "shown": "yes" if row["p"] < ALPHA else "not shown"} for row in rows)
@@ -90,12 +91,13 @@ def predictions_section(
 ) -> Section:
     """P1 to P3 by name."""
     printed = _printed(published)
-    blocks = (
+    answers = (
         _faster(published, tests, findings),
         _accurate(published, tests, printed, equal),
         _depth(published, printed),
-        Fold("Printed numbers without an F", (printed,)),
     )
+    fold = Fold("Printed numbers without an F", (printed,))
+    blocks = (*answers, *places(answers), fold)
     return Section("predictions", "The paper's predictions", blocks)
 
 
@@ -117,7 +119,7 @@ def _printed(published: Published) -> Table:
         Column("item", "item"),
         Column("label", "item"),
         Column("mean", "M", "text", "as printed"),
-        Column("sd", "s.d.", "text", "as printed"),
+        Column("sd", "SD", "text", "as printed"),
     )
     return Table(
         "printed",
@@ -189,7 +191,7 @@ def _depth(published: Published, printed: Table) -> Prose:
     own = next(s for s in published.single if s.name == "depth_self_report")
     return say(
         f"P3, static depth perception does not suffer: not tested. {{}} of {depth.highest} right "
-        f"with dynamic transparency (s.d. {{}}) and a self-report of {{}} on a scale to "
+        f"with dynamic transparency (SD = {{}}) and a self-report of {{}} on a scale to "
         f"{own.highest} are high, but nobody took the test without it: there is nothing to "
         "compare with.",
         printed.cite("depth_test", "mean"),

@@ -42,9 +42,9 @@ COMPARED = (
     Column("measure", "measure"),
     Column("label", "measure"),
     Column("mean_standard", "M standard", "text", "as printed"),
-    Column("sd_standard", "s.d.", "text", "as printed"),
+    Column("sd_standard", "SD", "text", "as printed"),
     Column("mean_dynamic", "M dynamic", "text", "as printed"),
-    Column("sd_dynamic", "s.d.", "text", "as printed"),
+    Column("sd_dynamic", "SD", "text", "as printed"),
     Column("f_published", "F published", "text", "as printed"),
     Column("F", "F again", "fixed3", "by construction"),
     Column("p_published", "p published", "text", "as printed"),
@@ -144,15 +144,15 @@ def _compared(published: Published, tests: Table) -> Table:
             }
         )
     shown = tuple("label f_published F p_published p p_holm r pes dz".split())
-    note = "T3 distance: the scan of its second s.d. is unreadable, 8.78 is assumed."
+    note = "T3 distance: the scan of its second SD is unreadable, 8.78 is assumed."
     return Table("published", "Published beside recomputed", COMPARED, tuple(rows), shown, note)
 
 
 def _recomputed(published: Published, tests: Table, compared: Table) -> Section:
     sentences = [
         say(
-            f"{m.label[0].upper()}{m.label[1:]}: published M = {{}} (s.d. {{}}) standard and {{}} "
-            f"(s.d. {{}}) dynamic, F = {{}}, p {'' if m.p.bound else '= '}{{}}; recomputed {{}}, "
+            f"{m.label[0].upper()}{m.label[1:]}: published M = {{}} (SD = {{}}) standard and {{}} "
+            f"(SD = {{}}) dynamic, F = {{}}, p {'' if m.p.bound else '= '}{{}}; recomputed {{}}, "
             "d_z = {} [{}, {}].",
             *(
                 compared.cite(m.name, column)
@@ -169,7 +169,7 @@ def _recomputed(published: Published, tests: Table, compared: Table) -> Section:
     ]
     why = say(
         "With two conditions F = n·d² / (s₁² + s₂² − 2·r·s₁·s₂), so each printed row fixes the "
-        "correlation r between the conditions. Data with these means, s.d. and r give F back by "
+        "correlation r between the conditions. Data with these means, SD and r give F back by "
         "construction; that is no evidence. That every r lies in [−1, 1] and every printed p fits "
         "its F is.",
         kind="note",

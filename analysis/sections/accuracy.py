@@ -95,7 +95,7 @@ def _sentence(tests: Table, m: Measure, plan: Plan) -> Prose:
     row = tests.row(m.key)
     what = measured(m.key, m.label)
     start = say(
-        f"{what[0].upper()}{what[1:]}: M = {{}} (s.d. {{}}) standard, {{}} (s.d. {{}}) dynamic, "
+        f"{what[0].upper()}{what[1:]}: M = {{}} (SD = {{}}) standard, {{}} (SD = {{}}) dynamic, "
         "{}.",
         tests.cite(m.key, "mean_standard"),
         tests.cite(m.key, "sd_standard"),
@@ -113,7 +113,7 @@ def _correct(context: Context) -> tuple[list[Block], Table | None]:
     """Shares of right answers; the blocks, and the table of Friedman's tests."""
     cells = share_correct(context.trials)
     context.missing["share correct"] = cells.missing
-    table = cell_table("correct_cells", "Share of right answers", cells, CELLS_SHOWN)
+    table = cell_table("correct_cells", "Share of right answers", cells, CELLS_SHOWN, kind="bound")
     tasks = cells.factors["task"]
     rows, found = [], []
     for i, task in enumerate(tasks):

@@ -24,7 +24,7 @@ COLUMNS = (
     Column("difference", "standard − dynamic", "sig3", "95 % interval", "low", "high"),
     Column("low", "from", "sig3", "95 % interval"),
     Column("high", "to", "sig3", "95 % interval"),
-    Column("smd", "in s.d. of scenes", "fixed2", "dynamic − standard"),
+    Column("smd", "in SD of scenes", "fixed2", "dynamic − standard"),
     Column("p", "p", "p"),
     Column("tost_margin", "margin", "sig3", "of equivalence"),
     Column("tost_p", "p (TOST)", "p"),
@@ -37,7 +37,9 @@ def difficulty_blocks(context: Context) -> list[Block]:
     certificate = context.study.certificate
     found = balance(with_certificate(context.trials, certificate))
     source = (
-        "Measured from fixed views without the technique (the study's difficulty certificate)."
+        "Measured from fixed views without the technique (the study's difficulty certificate): "
+        "visible fraction of the targets in view; targets hidden in every view; distractors that "
+        "hide part of a target; objects in view; path past every target."
         if certificate is not None
         else "The data hold no difficulty certificate, so only the number of targets is compared; "
         "`seethrough check STUDY --certificate DATA/certificate.csv` adds visible fraction, "
@@ -78,12 +80,12 @@ def _sentence(table: Table, found: Sequence[Balance]) -> Prose:
     runs: list[str | Cited] = [
         f"Difficulty: of {len(known)} comparisons of the scenes the largest difference is ",
         table.cite(worst.measure.key, "smd"),
-        f" s.d. of scenes ({name_of(worst.task)}, {QUANTITIES[worst.quantity]})",
+        f" SD of scenes ({name_of(worst.task)}, {QUANTITIES[worst.quantity]})",
     ]
     over = [b for b in known if abs(float(str(b.smd))) >= LARGE]
     if over:
         named = "; ".join(f"{name_of(b.task)}, {QUANTITIES[b.quantity]}" for b in over)
-        runs.append(f". Apart by {LARGE} s.d. or more, so that times may differ for it: {named}.")
+        runs.append(f". Apart by {LARGE} SD or more, so that times may differ for it: {named}.")
     else:
-        runs.append(f"; none reaches {LARGE} s.d., the usual limit of balance.")
+        runs.append(f"; none reaches {LARGE} SD, the usual limit of balance.")
     return say("{}", runs)

@@ -20,11 +20,17 @@ from analysis.sections.tables import keep, missing_note
 from analysis.stats.ranks import share_interval, sign_test
 from analysis.stats.undefined import ONE_PARTICIPANT, Undefined
 
+ONCE = {
+    "preference": "preference for dynamic transparency (0 or 1)",
+    "depth_self_report": "self-reported depth perception (0–4)",
+    "depth_test": "static depth test (correct of 3)",
+}
 SINGLE = (
     Column("item", "item"),
+    Column("label", "item"),
     Column("n", "n", "int"),
     Column("mean", "mean", "fixed2", "95 % interval of a share", "low", "high"),
-    Column("sd", "s.d.", "fixed2"),
+    Column("sd", "SD", "fixed2"),
     Column("low", "from", "bound2", "95 % interval of the share"),
     Column("high", "to", "bound2", "95 % interval of the share"),
     Column("p", "p (sign test)", "p"),
@@ -72,7 +78,7 @@ def _said(m: Measure) -> str:
 def _single(context: Context) -> list[Block]:
     """Items that were asked once."""
     rows = []
-    for item in ("preference", "depth_self_report", "depth_test"):
+    for item, label in ONCE.items():
         values = answers(context.study.questionnaire, item)
         if not len(values):
             continue
@@ -82,6 +88,7 @@ def _single(context: Context) -> list[Block]:
         rows.append(
             {
                 "item": item,
+                "label": label,
                 "n": n,
                 "mean": float(values.mean()),
                 "sd": float(np.std(values, ddof=1)) if n > 1 else Undefined(ONE_PARTICIPANT),
@@ -97,7 +104,7 @@ def _single(context: Context) -> list[Block]:
         "Preference and depth perception",
         SINGLE,
         tuple(rows),
-        tuple("item n mean sd p".split()),
+        tuple("label n mean sd p".split()),
         "Preference: 1 dynamic, 0 standard or neutral; its interval is Clopper and Pearson's.",
     )
     return [*_preference(table), table]

@@ -19,7 +19,7 @@ COLUMNS = (
     Column("ratio", "ratio", "fixed3", "dynamic / standard"),
     Column("low", "from", "fixed3", "95 % interval"),
     Column("high", "to", "fixed3", "95 % interval"),
-    Column("sd_slope", "s.d. of slopes", "fixed3", "between participants"),
+    Column("sd_slope", "SD of slopes", "fixed3", "between participants"),
 )
 
 

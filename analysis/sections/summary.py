@@ -25,7 +25,7 @@ def summary_section(
         _accurate(context.plan, accuracy, note),
         _depth(single, note),
     ]
-    return Section("summary", "In short", (*blocks, *_places(blocks)))
+    return Section("summary", "In short", (*blocks, *places(blocks)))
 
 
 def _faster(context: Context, logs: Table | None, note: str) -> Prose:
@@ -79,8 +79,8 @@ def no_ratio(logs: Table, key: str, alpha: float) -> tuple[str | Cited, ...]:
         return say(" Whether the times are equivalent is {}.", p).runs
     verdict = "equivalence is shown" if p.value < alpha else "equivalence is not shown either"
     return say(
-        f" For a ratio from 1 : {{}} to {{}} : 1, TOST has p "
-        f"{'' if p.text.startswith('<') else '= '}{{}}: {verdict}.",
+        f" For a ratio between 1 / {{}} and {{}}, p {'' if p.text.startswith('<') else '= '}{{}} "
+        f"(TOST): {verdict}.",
         logs.cite(key, "tost_margin"),
         logs.cite(key, "tost_margin"),
         p,
@@ -159,7 +159,7 @@ def _depth(single: Table | None, note: str) -> Prose:
     )
 
 
-def _places(blocks: Sequence[Prose]) -> list[Prose]:
+def places(blocks: Sequence[Prose]) -> list[Prose]:
     """In which files and rows the numbers above are, at full precision."""
     rows: dict[str, list[str]] = {}
     for cited in (run for block in blocks for run in block.runs if isinstance(run, Cited)):

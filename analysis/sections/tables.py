@@ -155,7 +155,7 @@ CELL_COLUMNS = (
     Column("n", "n", "int"),
     Column("trials", "trials", "int"),
     Column("mean", "mean", "own"),
-    Column("sd", "s.d.", "own"),
+    Column("sd", "SD", "own"),
     Column("geometric", "geometric mean", "own"),
     Column("median", "median", "own"),
     Column("minimum", "min", "own"),
@@ -164,9 +164,9 @@ CELL_COLUMNS = (
 
 
 def cell_table(
-    key: str, title: str, cells: Cells, shown: Sequence[str], note: str = "", digits: int = 2
+    key: str, title: str, cells: Cells, shown: Sequence[str], note: str = "", kind: str = "fixed"
 ) -> Table:
-    """Mean and s.d. over participants of each task × transparency cell."""
+    """Mean and s.d. over participants of each task × transparency cell; `kind` as in `Column`."""
     rows = []
     for i, task in enumerate(cells.factors["task"]):
         for j, level in enumerate(cells.factors["transparency"]):
@@ -176,7 +176,8 @@ def cell_table(
                     "cell": f"{task}/{level}",
                     "task": name_of(task),
                     "transparency": level,
-                    "digits": digits,
+                    "digits": 2,
+                    "kind": kind,
                     "n": len(values),
                     "trials": int(cells.counts[:, i, j].sum()),
                     **_spread(values),

@@ -73,7 +73,7 @@ def time_section(context: Context) -> tuple[Section, Table | None]:
         "Completion time by task and transparency",
         cells,
         ("task", "transparency", "n", "trials", "mean", "sd", "geometric", "median"),
-        "Seconds; mean and s.d. over participants' means of their trials.",
+        "Seconds; mean and SD over participants' means of their trials.",
     )
     measures = time_measures(cells)
     if not measures:
@@ -108,7 +108,7 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
     verdict = verdict if shown else "no difference between the conditions was shown"
     sentence = say(
         f"{name}, {verdict}: geometric means of {{}} s (standard) and {{}} s "
-        "(dynamic), ratio {}, 95 % CI [{}, {}], {}. Raw times: M = {} s (s.d. {}) and {} s (s.d. "
+        "(dynamic), ratio {}, 95 % CI [{}, {}], {}. Raw times: M = {} s (SD = {}) and {} s (SD = "
         "{}), {}.",
         logs.cite(m.key, "geometric_standard"),
         logs.cite(m.key, "geometric_dynamic"),

@@ -170,7 +170,7 @@ def _conditional(context: Context) -> Table:
             Column("cell", "cell"),
             Column("transparency", "transparency"),
             Column("third", "trials"),
-            Column("share", "share correct", "fixed3"),
+            Column("share", "share correct", "bound3"),
             Column("trials", "trials", "int"),
         ),
         rows,

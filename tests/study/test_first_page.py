@@ -19,9 +19,7 @@ from experiment.cli import main
 TASKS = ("count", "pattern", "unique", "count_in_building")
 # Names and levels, which are no results: tasks, predictions, confidence levels, the margin, the
 # number of questions of the depth test, and the two sides of a ratio.
-NO_RESULT = (
-    r"T[1-4]|P[1-3]|9[05] % CI|20 % of the standard mean|of 3 right|on a scale to 4|1 : | : 1"
-)
+NO_RESULT = r"T[1-4]|P[1-3]|9[05] % CI|20 % of the standard mean|of 3 right|on a scale to 4|1 / "
 
 
 class FirstPage(HTMLParser):

@@ -1,0 +1,111 @@
+"""What the report says of a prediction follows from its tables, in every case there is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analysis.comparison import Measure, add_holm, compare, compare_logs, decisive, no_difference
+from analysis.page.blocks import Prose
+from analysis.plan import Plan
+from analysis.sections.ordinal import friedman_table
+from analysis.sections.summary import _accurate, _by_task
+
+PLAN = Plan(0.05, (), (), 0.2, None, (), None, None)
+RNG = np.random.default_rng(6)
+BASE = RNG.normal(10.0, 1.0, 16)
+NOISE = RNG.normal(0.0, 0.1, 16)
+WIDE = RNG.normal(0.0, 9.0, 16)
+
+
+def text(block: Prose | tuple | list) -> str:
+    runs = block.runs if isinstance(block, Prose) else block
+    return "".join(run if isinstance(run, str) else run.text for run in runs)
+
+
+def errors(dynamic: np.ndarray, key: str = "error_count", label: str = "T1 count"):
+    return compare([Measure(key, label, "", 3, BASE, dynamic)], 0.2)
+
+
+@pytest.mark.parametrize(
+    ("dynamic", "verdict", "words"),
+    [
+        (BASE + 3 + NOISE, "contradicted", "less accurate in relative error, T1 count"),
+        (BASE - 3 + NOISE, "supported", "more accurate in relative error, T1 count"),
+        (BASE + NOISE - NOISE.mean(), "supported", "equivalent within the margin in"),
+        (BASE + WIDE - WIDE.mean(), "not contradicted, and not shown", "nor shown to be equiv"),
+    ],
+)
+def test_accuracy_is_judged_by_difference_and_equivalence(dynamic, verdict, words):
+    said = text(_accurate(PLAN, [errors(dynamic)], ""))
+    assert f"accuracy: {verdict}" in said and words in said
+
+
+def test_one_measure_that_suffers_contradicts_the_others():
+    """Cancelling errors can look equal where absolute ones have doubled."""
+    signed = errors(BASE + NOISE - NOISE.mean())
+    absolute = errors(BASE + 3 + NOISE, "absolute_error_count")
+    said = text(_accurate(PLAN, [signed, absolute], ""))
+    assert "accuracy: contradicted. It is less accurate in absolute relative error" in said
+    assert "equivalent within the margin in relative error, T1 count" in said
+
+
+@pytest.mark.parametrize(("shift", "word"), [(-0.5, "less"), (0.4, "more")])
+def test_shares_of_right_answers_are_better_when_larger(shift, word):
+    """T2 goes by its exact p; every other task by how far off its answers are."""
+    row = {"measure": "correct_pattern", "label": "T2", "difference": -shift, "p": 0.5,
+           "p_exact": 0.001, "p_holm": 0.004, "tost_p": 0.9, "method": "exact"}  # fmt: skip
+    other = {**row, "measure": "correct_count", "difference": shift}
+    table = friedman_table("friedman_correct", "", [row, other], True)
+    said = text(_accurate(PLAN, [table], ""))
+    assert f"{word} accurate in right answers in T2 (Holm-corrected p = .004)" in said
+    assert "T1" not in said
+
+
+def test_holm_decides_within_a_family():
+    """p = .03 for each of four tasks is no difference in any: Holm's p is .12."""
+    rng = np.random.default_rng(1)
+    gaps = rng.normal(size=16)
+    gaps = (gaps - gaps.mean()) / gaps.std(ddof=1)
+    times = [Measure(f"time_{i}", f"T{i}", "s", 2, BASE, BASE, "tasks", (gaps + 0.6, gaps * 0))
+             for i in range(4)]  # fmt: skip
+    logs = compare_logs(times, 0.2)
+    assert all(0.025 < r["p"] < 0.035 for r in logs.rows)
+    assert [decisive(r)[0] for r in logs.rows] == ["p_holm"] * 4
+    said = text(_by_task(logs, list(logs.rows), 0.05))
+    assert said.count("no difference shown") == 4 and "faster" not in said
+
+
+def test_a_slower_task_is_named():
+    quick, slow = ((np.log(BASE), np.log(BASE * by) + NOISE) for by in (0.5, 2.0))
+    times = [
+        Measure("time_a", "T1", "s", 2, BASE, BASE, "tasks", quick),
+        Measure("time_b", "T2", "s", 2, BASE, BASE, "tasks", slow),
+    ]
+    logs = compare_logs(times, 0.2)
+    said = text(_by_task(logs, list(logs.rows), 0.05))
+    assert "T1 faster" in said and "T2 slower" in said
+
+
+def test_no_difference_never_stands_alone():
+    """Wherever it is said, equivalence follows: shown, not shown, or why it cannot be."""
+    for dynamic, words in (
+        (BASE + NOISE - NOISE.mean(), "so the two are equivalent within that margin"),
+        (BASE + WIDE - WIDE.mean(), "so this is no evidence of equality either"),
+    ):
+        table = errors(dynamic)
+        assert words in text(no_difference(table, "error_count", 0.2, 0.05))
+        assert "(20 % of the standard mean)" in text(no_difference(table, "error_count", 0.2, 0.05))
+    zero = np.zeros(16)
+    table = compare([Measure("m", "m", "", 2, zero, zero)], 0.2)
+    assert "undefined: the standard mean" in text(no_difference(table, "m", 0.2, 0.05))
+
+
+def test_holm_over_exact_p_leaves_out_what_has_none():
+    measures = [replace(Measure(k, k, "", 2, BASE, BASE, "tasks")) for k in "abc"]
+    rows = [{"measure": "a", "p_exact": 0.01}, {"measure": "b", "p_exact": 0.04},
+            {"measure": "c", "p_exact": 0.03}]  # fmt: skip
+    add_holm(rows, measures, "p_exact")
+    assert [r["p_holm"] for r in rows] == pytest.approx([0.03, 0.06, 0.06])
