@@ -2,7 +2,8 @@
 
 Two objects whose boxes (or spheres) a plane separates have an order that holds at every pixel:
 the one on the eye's side is in front. The planes tried are those of the separating-axis test.
-Where none separates them, their centres decide, and the pair is said to be uncertain.
+Where none separates them, a plane between their hulls may (separation.py); else their centres
+decide, and the pair is said to be uncertain.
 """
 
 from __future__ import annotations
@@ -92,35 +93,42 @@ def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped
 
 @njit(cache=True)
 def decide(
-    order, group, extents, reach, centers, sides, radius, near, far, targets, hard, blend, by_center
-):  # type: ignore[no-untyped-def]
+    order, group, extents, reach, centers, sides, radius, near, far, targets, hard, blend, known,
+    by_center,
+):  # type: ignore[no-untyped-def]  # fmt: skip
     """relation (n, n) of each pair that matters, and which objects blend and are masked.
 
     `order` are the objects to look at, from far to near by their groups' centres, which alone
     decide if `by_center`; those in `blend` (n,) blend in any case. relation[i, j] is 1 where i is
-    drawn after j, −1 where before, 0 where it makes no difference; a pair without a separating
-    plane is `uncertain` (n, n).
+    drawn after j, −1 where before, 0 where it makes no difference; `known` (n, n) says so of pairs
+    whose boxes no plane separates, and what it leaves UNCERTAIN is `uncertain` (n, n).
     """
-    n = len(extents)
+    n, m = len(extents), len(order)
     relation = np.zeros((n, n), np.int8)
     uncertain = np.zeros((n, n), np.bool_)
     blended, masked = blend.copy(), np.zeros(n, np.bool_)
+    chosen = np.empty(m, np.int64)
     for both in range(2):  # first every object against the targets, then all that blend
-        for a in range(len(order)):
-            for b in range(a):
-                i, j = order[a], order[b]  # j is farther by its centre
+        count = 0  # of those that `chosen` holds: targets; then what blends
+        for a in range(m):
+            i = order[a]
+            mine = blended[i] if both else targets[i]
+            if both and not mine:
+                continue
+            for b in range(a if mine and not both else count):
+                j = order[b] if mine and not both else chosen[b]  # j is farther by its centre
                 i_over_j = targets[j] and not hard[i] and meet(extents, i, reach, j)
                 j_over_i = targets[i] and not hard[j] and meet(extents, j, reach, i)
                 if both:
-                    if relation[i, j] != 0 or not (blended[i] and blended[j]):
-                        continue
-                    if not meet(extents, i, extents, j):
+                    if relation[i, j] != 0 or not meet(extents, i, extents, j):
                         continue
                 elif not (i_over_j or j_over_i):
                     continue
                 found = IN_FRONT
                 if group[i] != group[j] and not by_center:
                     found = compare(centers, sides, radius, near, far, i, j)
+                    if found == UNCERTAIN:
+                        found = known[i, j]
                 doubt = found == UNCERTAIN
                 if doubt:
                     found = IN_FRONT
@@ -130,6 +138,9 @@ def decide(
                     blended[i] = masked[j] = True
                 if not both and j_over_i and (found == BEHIND or doubt):
                     blended[j] = masked[i] = True
+            if mine:
+                chosen[count] = i
+                count += 1
     return relation, uncertain, blended, masked
 
 

@@ -112,6 +112,8 @@ def plan(
     drawn = np.nonzero(boxes.inside | ("cull" in without))[0]
     if isinstance(technique, Standard):
         return _opaque(boxes, drawn, without)
+    if not (scene.targets & boxes.within).any() and not without:
+        return _opaque(boxes, drawn, without)
     reach = masks.reach(boxes.extents, technique, technique.width * scale, size)
     hard = impenetrable(scene, camera, technique)
     seen = _far_to_near(scene, camera, _reaching(scene, boxes, reach, size, without))
@@ -119,11 +121,9 @@ def plan(
     there[seen] = True
     centers = scene.centers - camera.eye
     geometry = (centers, scene.box_sides, scene.radii, boxes.near, boxes.far)
-    relation, uncertain, blended, masked = order.decide(
-        *(seen, scene.group_of, boxes.extents, reach, *geometry, scene.targets, hard),
-        there & ~hard & ("opaque" in without),
-        technique.order == "centers",
-    )
+    args = (seen, scene.group_of, boxes.extents, reach, *geometry, scene.targets, hard)
+    blend = there & ~hard & ("opaque" in without)
+    relation, uncertain, blended, masked = _decided(scene, camera, technique, args, blend)
     masked |= there & scene.targets & ("masks" in without)
     if technique.per_pixel_only:
         masked |= order.overlapped(
@@ -157,6 +157,17 @@ def plan(
         scene.triangle_counts,
         technique.doubt,
     )
+
+
+def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-def]
+    """order.decide, again if planes were found between pairs that it is uncertain of."""
+    by_center = technique.order == "centers"
+    planes = scene.separations
+    while True:
+        found = order.decide(*args, blend, planes.relation(camera.eye), by_center)
+        pairs = np.argwhere(np.triu(found[1] & ~planes.tried))
+        if not len(pairs) or not planes.learn(pairs, scene):
+            return found
 
 
 def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
@@ -223,6 +234,7 @@ def _with_levels(
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right."""
     extents, reach = base.boxes.extents, base.reach
+    seen = seen[blended[seen] | masked[seen]]
     of_object, of_mask, forced = order.levels(seen, extents, reach, relation, blended, masked)
     doubtful = order.doubtful(
         seen, extents, reach, relation, uncertain, blended, masked, forced, np.array(size, float)

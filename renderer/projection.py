@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
@@ -57,21 +58,46 @@ def screen_boxes(corners: NDArray[np.float64], camera: Camera, size: tuple[int, 
 
     The corners of a box come in the order of their bits: corner k is high in x if k & 4.
     """
-    points = to_camera(corners, camera)
-    depth = -points[..., 2]
-    ahead = depth >= camera.near
-    safe = points.copy()
-    safe[..., 2] = np.minimum(points[..., 2], -camera.near)
-    flat = to_pixels(safe, camera, size)
-    low = np.where(ahead[..., None], flat, np.inf).min(axis=1, initial=np.inf)
-    high = np.where(ahead[..., None], flat, -np.inf).max(axis=1, initial=-np.inf)
-    crosses = ahead.any(axis=1) & ~ahead.all(axis=1)
+    scale = 0.5 * size[1] / np.tan(camera.fov_y / 2)
+    lens = np.array([scale, size[0] / 2, size[1] / 2, camera.near])
+    extents, depths, crosses = _boxes(corners, camera.eye, camera.rotation, lens)
+    near, far = depths[:, 0], depths[:, 1]
+    low, high = extents[:, :2], extents[:, 2:]
     if crosses.any():
-        _add_cuts(low, high, np.nonzero(crosses)[0], points, depth, camera, size)
-    near, far = depth.min(axis=1, initial=np.inf), depth.max(axis=1, initial=-np.inf)
+        points = to_camera(corners, camera)
+        rows = np.nonzero(crosses)[0]
+        _add_cuts(low, high, rows, points, -points[..., 2], camera, size)
     within = (far > camera.near) & (near < camera.far)
     inside = within & (high > 0).all(axis=1) & (low < np.array(size)).all(axis=1)
-    return Boxes(np.concatenate([low, high], axis=1), near, far, crosses, within, inside)
+    return Boxes(extents, near, far, crosses, within, inside)
+
+
+@njit(cache=True)
+def _boxes(corners, eye, rotation, lens):  # type: ignore[no-untyped-def]
+    """(n, 4) extents of what lies beyond the near plane, (n, 2) depths, and whether it cuts."""
+    n = len(corners)
+    extents, depths = np.empty((n, 4)), np.empty((n, 2))
+    crosses = np.zeros(n, np.bool_)
+    for i in range(n):
+        extents[i, 0] = extents[i, 1] = depths[i, 0] = np.inf
+        extents[i, 2] = extents[i, 3] = depths[i, 1] = -np.inf
+        ahead = 0
+        for k in range(8):
+            x, y, z = 0.0, 0.0, 0.0
+            for c in range(3):
+                d = corners[i, k, c] - eye[c]
+                x += d * rotation[c, 0]
+                y += d * rotation[c, 1]
+                z -= d * rotation[c, 2]
+            depths[i, 0], depths[i, 1] = min(depths[i, 0], z), max(depths[i, 1], z)
+            if z < lens[3]:
+                continue
+            ahead += 1
+            x, y = lens[1] + lens[0] * x / z, lens[2] - lens[0] * y / z
+            extents[i, 0], extents[i, 1] = min(extents[i, 0], x), min(extents[i, 1], y)
+            extents[i, 2], extents[i, 3] = max(extents[i, 2], x), max(extents[i, 3], y)
+        crosses[i] = 0 < ahead < 8
+    return extents, depths, crosses
 
 
 def _add_cuts(

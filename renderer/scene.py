@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.geometry import Mesh
+
+if TYPE_CHECKING:
+    from renderer.separation import Separations
 
 Color = tuple[float, float, float]
 
@@ -122,3 +126,11 @@ class Scene:
     def triangle_counts(self) -> NDArray[np.int64]:
         """(n,) triangles of each object."""
         return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)
+
+    @cached_property
+    def separations(self) -> Separations:
+        """Planes between objects, found as frames ask for them."""
+        from renderer.separation import Separations
+
+        n = len(self.objects)
+        return Separations(np.eye(n, dtype=bool))
