@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from renderer.gpu.programs import program
 
 WIDTH = 2048  # texels; a row of cells is no wider unless one cell is
-MOST = 64  # of slices or masks: the arrays in shaders/exact.frag
+MOST = 64  # of slices or masks: the bits and arrays in shaders/exact.frag
 
 
 _CORNERS = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
@@ -35,6 +35,11 @@ class Wiper:
         array.render(moderngl.TRIANGLES)
         array.release()
         buffer.release()
+
+
+def height(count: int, size: tuple[int, int] | NDArray[np.int64]) -> int:
+    """The rows of texels that `count` cells of `size` take."""
+    return -(-count // max(1, WIDTH // int(size[0]))) * int(size[1])
 
 
 class Cells:

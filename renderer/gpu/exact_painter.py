@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from renderer import blocks, order
 from renderer.camera import Camera
-from renderer.gpu.cells import MOST, Cells
+from renderer.gpu.cells import MOST, Cells, height
 from renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS, Filled, PixelSorter
 from renderer.gpu.mask_painter import MaskPainter
 from renderer.gpu.programs import Shader, program
@@ -48,6 +48,7 @@ class ExactPainter:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
+        self._tallest = context.info["GL_MAX_TEXTURE_SIZE"]
         self._slice = {
             flag: program(context, "object.vert", "slice.frag", ["WITH_SURFACES"] * flag)
             for flag in (False, True)
@@ -125,17 +126,21 @@ class ExactPainter:
         """The parts, cut into bands that fit into memory, as many at a time as fit together."""
         rows = []
         for part in parts:
-            slices = int(_sets(job, part)[1].max(initial=0)) + 1
-            rows += [(band, slices) for band in bands(part, slices)]
+            targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
+            reach = np.ascontiguousarray(job.frame.reach[targets])
+            masks = order.apart(reach).max(initial=0) if len(targets) else 0
+            cells = int(max(_sets(job, part)[1].max(initial=0), masks)) + 1
+            rows += [(band, cells) for band in bands(part, cells, self._tallest)]
         batch: list[NDArray[np.int64]] = []
         used, size = 0, np.zeros(2, np.int64)
-        for part, slices in rows:
+        for part, cells in rows:
             grown = np.maximum(size, part[2:] - part[:2])
-            if batch and (used + slices) * grown.prod() > TEXELS:
+            high = height(used + cells, grown) > self._tallest
+            if batch and (high or (used + cells) * grown.prod() > TEXELS):
                 yield np.array(batch)
                 batch, used, grown = [], 0, part[2:] - part[:2]
             batch.append(part)
-            used, size = used + slices, grown
+            used, size = used + cells, grown
         if batch:
             yield np.array(batch)
 
@@ -154,7 +159,7 @@ class ExactPainter:
         # For each cell of masks: the cells of its targets, the part's first one and how many.
         owners: list[NDArray[np.int64]] = []
         bases: list[tuple[int, int]] = []
-        self._bits: list[tuple[NDArray[np.uint64], NDArray[np.uint64]]] = []
+        self._bits: list[tuple[NDArray[np.uint64], NDArray[np.uint64]] | None] = []
         for part in parts:
             corner = (int(part[0]), int(job.size[1] - part[3]))
             objects, which = _sets(job, part)
@@ -175,20 +180,18 @@ class ExactPainter:
                 (targets, entries, mask, corners[1], self._mask_base),
             ):
                 count = int(numbers.max(initial=-1)) + 1
-                if count > MOST:
-                    raise ValueError(
-                        f"exact picture: {count} objects or masks overlap at one place of the "
-                        f"picture, expected at most {MOST}"
-                    )
                 cells += [found[numbers == k] for k in range(count)]
                 where += [corner] * count
                 base.append(base[-1] + count)
+        whole |= None in self._bits  # there every cell is looked at everywhere
         wiped = [None if whole else np.concatenate(rows) for rows in emptied]
         draws = self._fill_slices(job, size, slices, corners[0], wiped[0])
         return draws + self._fill_masks(job, size, entries, corners[1], owners, bases, wiped[1])
 
     def _bits_of(self, job, objects, which, reach, mask):  # type: ignore[no-untyped-def]
-        """(h, w) of each block, which slices and which masks can show in it."""
+        """(h, w) of each block, which slices and which masks can show in it; None if too many."""
+        if max(which.max(initial=0), mask.max(initial=0)) >= MOST:
+            return None
         touched = self._masks.blocks
         boxes = job.frame.boxes.extents[objects] + _SLACK
         masks = blocks.covered(reach, mask, touched.shape)
@@ -361,10 +364,12 @@ def _overlapping(extents: NDArray[np.float64], part: NDArray[np.int64]) -> NDArr
     return low & (extents[:, 2:] >= part[:2]).all(axis=1)
 
 
-def bands(part: NDArray[np.int64], slices: int) -> list[NDArray[np.int64]]:
-    """A part (left, top, right, bottom) cut so that all slices of a band fit into memory."""
+def bands(part: NDArray[np.int64], cells: int, tallest: int) -> list[NDArray[np.int64]]:
+    """A part (left, top, right, bottom) cut so that all cells of a band fit into memory, and into
+    a texture of no more than `tallest` rows."""
     left, top, right, bottom = part.tolist()
-    step = max(1, TEXELS // max(1, (right - left) * slices))
+    step = TEXELS // max(1, (right - left) * cells)
+    step = max(1, min(step, tallest // height(cells, (right - left, 1))))
     cuts = range(top, bottom, step)
     return [np.array([left, y, right, min(y + step, bottom)]) for y in cuts]
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer import blocks
-from renderer.gpu.cells import Cells
+from renderer.gpu.cells import MOST, Cells
 from renderer.gpu.programs import Shader, program
 from renderer.techniques.dynamic import DynamicTransparency
 
@@ -41,7 +41,8 @@ class PixelSorter:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
-        self._programs: dict[tuple[str, bool], tuple[Shader, moderngl.VertexArray]] = {}
+        self._programs: dict[tuple[str, bool, bool], tuple[Shader, moderngl.VertexArray]] = {}
+        self._set_up: dict[tuple[str, bool, bool], Filled] = {}
         self._places = context.buffer(reserve=1 << 14, dynamic=True)
 
     def sort(
@@ -49,11 +50,17 @@ class PixelSorter:
         filled: Filled,
         part: NDArray[np.int64],
         number: int,
-        bits: tuple[NDArray[np.uint64], NDArray[np.uint64]],
+        bits: tuple[NDArray[np.uint64], NDArray[np.uint64]] | None,
         every: bool,
     ) -> int:
         """Draw a part, the batch's `number`th, into the bound framebuffer; `bits` are which slices
-        and masks can show in a block. With `every`, also where no mask is. Returns the draws."""
+        and masks can show in a block, None where they are too many for that. With `every`, also
+        where no mask is. Returns the draws."""
+        if bits is None:
+            shader, array = self._bound(filled, part, number, "OUTPUT_PICTURE", many=True)
+            shader.set(every=every)
+            array.render(moderngl.TRIANGLES, 3)
+            return 1
         found, which = blocks.runs(*bits, part)
         by_pixel = filled.technique.granularity == "pixel"
         masked = (which[:, 1] != 0) | (not by_pixel)
@@ -65,6 +72,7 @@ class PixelSorter:
                     self._places.release()
                     self._places = self._context.buffer(reserve=2 * rows.nbytes, dynamic=True)
                     self._programs.clear()
+                    self._set_up.clear()
                 shader, array = self._bound(filled, part, number, output)
                 self._places.orphan()
                 self._places.write(rows)
@@ -77,32 +85,35 @@ class PixelSorter:
         self, filled: Filled, part: NDArray[np.int64], number: int, output: str, first: int = 0
     ) -> None:
         """Fill the bound framebuffer with the shares from the `first`th on, or with light."""
-        shader, array = self._bound(filled, part, number, output)
-        counts = (filled.slice_base, filled.mask_base)
-        ones = [(1 << (base[number + 1] - base[number])) - 1 for base in counts]
-        which = tuple(v >> k & 0xFFFFFFFF for v in ones for k in (0, 32))
+        bases = (filled.slice_base, filled.mask_base)
+        counts = [base[number + 1] - base[number] for base in bases]
+        many = max(counts) > MOST
+        shader, array = self._bound(filled, part, number, output, many)
+        which = tuple(((1 << n) - 1) >> k & 0xFFFFFFFF for n in counts for k in (0, 32))
         shader.set(which=which, **{"from": first})
         array.render(moderngl.TRIANGLES, 3)
 
     def _bound(
-        self, filled: Filled, part: NDArray[np.int64], number: int, output: str
+        self, filled: Filled, part: NDArray[np.int64], number: int, output: str, many: bool = False
     ) -> tuple[Shader, moderngl.VertexArray]:
         surfaces = filled.technique.granularity == "surface"
-        key = (output, surfaces)
+        key = (output, surfaces, many)
         if key not in self._programs:
-            placed = output in ("OUTPUT_PICTURE", "OUTPUT_NEAREST")
+            placed = not many and output in ("OUTPUT_PICTURE", "OUTPUT_NEAREST")
             defines = [output] + ["WITH_SURFACES"] * surfaces + ["PLACED"] * placed
             vertex = "block.vert" if placed else "present.vert"
-            shader = program(self._context, vertex, "exact.frag", defines)
+            fragment = "exact_many.frag" if many else "exact.frag"
+            shader = program(self._context, vertex, fragment, defines)
             content = [(self._places, "2f 4u", "in_place", "in_which")] if placed else []
             self._programs[key] = (shader, self._context.vertex_array(shader.program, content))
         shader, array = self._programs[key]
-        if number == 0:
+        if self._set_up.get(key) is not filled:  # the first part of a batch to ask for this one
             self._set(filled, shader, output == "OUTPUT_LIGHT")
+            self._set_up[key] = filled
         a, b = filled.slice_base[number : number + 2]
-        c = filled.mask_base[number]
+        c, d = filled.mask_base[number : number + 2]
         origin = (int(part[0]), int(filled.size[1] - part[3]))
-        shader.set(slices=b - a, slice_base=a, mask_base=c, origin=origin)
+        shader.set(slices=b - a, slice_base=a, mask_base=c, mask_count=d - c, origin=origin)
         self._context.enable_only(moderngl.NOTHING)
         return shader, array
 
