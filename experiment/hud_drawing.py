@@ -88,9 +88,10 @@ class HudDrawing:
 
     def _button(self, button: Button) -> None:
         fill, ink = (ACCENT, PAPER) if button.chosen else (PAPER, INK)
-        round_, size = 0.008 * self.scale, 0.55 * button.rect.height
-        self.list.add_rect_filled(*self._corners(button.rect), _rgba(*fill), round_)
-        self.list.add_rect(*self._corners(button.rect), _rgba(*GREY), round_)
+        size = 0.55 * button.rect.height
+        # Square: round corners are most of the HUD's triangles, which a frame without a GPU pays.
+        self.list.add_rect_filled(*self._corners(button.rect), _rgba(*fill))
+        self.list.add_rect(*self._corners(button.rect), _rgba(*GREY))
         text = self.texts.get(button.text)
         size = min(size, size * 0.9 * button.rect.width / max(self._width(text, size), 1e-6))
         x = button.rect.x + (button.rect.width - self._width(text, size)) / 2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 import time
@@ -119,6 +120,9 @@ class Window:
     def begin_trial(self, task: str, training: bool) -> None:
         """Forget what was pressed before the trial."""
         self._events.clear()
+        # A search for cyclic garbage can take longer than a frame: now, and then after the trial.
+        gc.collect()
+        gc.disable()
 
     def events(self, view: View) -> list[Event]:
         """What happened until the next frame is due. Raises Leave when the window was closed."""
@@ -132,6 +136,7 @@ class Window:
     def ask(self, page: Page) -> Answers:
         """Show a page until it is answered; Esc asks whether to leave. Raises Leave."""
         self._window.set_exclusive_mouse(False)
+        gc.enable()
         form, self._form_shown = Form(page), inf
         self._form = form
         self._events.clear()
@@ -168,6 +173,7 @@ class Window:
 
     def close(self) -> None:
         """Close the window."""
+        gc.enable()
         self.stage.interface.close()
         self._window.remove_handlers(self)
         with suppress(*BROKEN):  # its context is lost: there is nothing left to give back

@@ -59,6 +59,10 @@ class FrameTarget:
         data = self.resolved.read(components=3, alignment=1, dtype="f1")
         return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1].copy()
 
+    def raw(self) -> bytes:
+        """The picture's numbers as the driver holds them: RGBA half floats, bottom row first."""
+        return self.resolved.read(components=4, alignment=1, dtype="f2")
+
     def read_ids(self) -> NDArray[np.int64]:
         """(h, w) object + 1, 0 where there is only background; row 0 on top."""
         width, height = self.size
