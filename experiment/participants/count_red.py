@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from experiment.participants.counting import seconds_to_count, slips
-from experiment.participants.glance import Glance, heading, noticed, uncrowded
+from experiment.participants.glance import WHOLE, Glance, heading, noticed, uncrowded
 from experiment.participants.hands import Hands
 from experiment.participants.person import Mood
 from tasks.events import Event
@@ -25,7 +25,7 @@ def count_red(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None
     hands = Hands(mood, glance.now)
     hands.wait(p.prepare)
     counted: set[int] = set()
-    tally, quiet, views = 0, 0.0, 0
+    tally, quiet, views, through = 0, 0, 0, False
     while True:
         red = red_things(mood, glance)
         new = new_ones(mood, red, counted, first=views == 0)
@@ -34,11 +34,15 @@ def count_red(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None
             hands.wait(p.recheck * len(red))
         hands.wait(seconds_to_count(seen.position[new], mood))
         tally += len(new) + slips(len(new), mood)
-        counted.update(new.tolist())
+        counted.update(red.tolist())  # what was taken for a counted one stays so
         views += 1
-        quiet = 0.0 if len(new) else quiet + 1
+        # One more among thirty is hardly news, and may be an old one taken for new.
+        quiet = 0 if len(new) > p.no_news * tally else quiet + 1
+        # Who has seen red things through others believes a view sooner.
+        through = through or bool((seen.weight[red] < WHOLE).any())
+        patience = p.patience * mood.care * (1 - p.trust_cloud * through)
         # A patience of 1.3 is one quiet view, and another three times out of ten.
-        if quiet + mood.rng.random() > p.patience * mood.care or views >= MOST_VIEWS:
+        if quiet + mood.rng.random() > patience or views >= MOST_VIEWS:
             break
         yaw, height = heading(glance.view)
         aim = TILT if views % 2 == 0 else -TILT

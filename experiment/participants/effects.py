@@ -23,7 +23,7 @@ EFFECTS = {
 }
 
 _COUNTING = ("count", "count_in_building")
-_WALKING = ("unique", "count_in_building")
+WALKING = ("unique", "count_in_building")
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def _needed(effect: str, task: str, trials_done: int) -> tuple[bool, str]:
             "counting over several views" if task == "count" else "no count goes from view to view"
         )
     if effect in ("depth_noise", "drift"):
-        return task in _WALKING, "places in the building" if task in _WALKING else "no walking"
+        return task in WALKING, "places in the building" if task in WALKING else "no walking"
     if effect == "crowding":
         flat = task in ("count", "pattern")
         return flat, "many small things on the view" if flat else "few things on the view at once"

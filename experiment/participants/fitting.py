@@ -39,10 +39,13 @@ FREE = {
     "patience": 3.0,  # thoroughness: views without news before a count is believed
     "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
     "trust": 1.6,  # caution: how far a view through walls is believed
+    "trust_cloud": 2.0,  # caution: patience saved by seeing things through others
     "sd_person": 4.0,
     "sd_task": 4.0,
     "sd_trial": 4.0,
     "sd_care": 4.0,
+    "sd_task_walking": 4.0,
+    "sd_trial_walking": 4.0,
 }
 STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
 PACES = 1  # evaluations that correct the pace alone
@@ -91,7 +94,7 @@ def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
     for (name, factor), value in zip(FREE.items(), x, strict=True):
         scale = exp(float(np.clip(value, -log(factor), log(factor))))
         changes[name] = getattr(profile, name) * scale
-    for share in ("diligence", "trust"):
+    for share in ("diligence", "trust", "trust_cloud"):
         changes[share] = min(changes[share], 1.0)
     return replace(profile, **changes)
 
@@ -104,7 +107,8 @@ def calibrate(
 ) -> tuple[Profile, float]:
     """The best profile found in about so many evaluations of `play`, and its misfit.
 
-    First the pace is corrected by how far the fitted means are off, then scipy's least squares
+    First the pace is corrected by how far the fitted means are off; where there are evaluations
+    for derivatives, scipy's least squares
     (trust region reflective) moves all of `FREE`, with derivatives over `STEP`.
     """
     best: list[Any] = [np.inf, start]
@@ -122,7 +126,11 @@ def calibrate(
         return simulated
 
     x = np.zeros(len(FREE))
-    for _ in range(min(PACES, evaluations - 1)):
+    if evaluations - PACES <= len(FREE):  # too few for derivatives: the pace alone
+        for _ in range(evaluations):
+            x[0] -= _too_slow(found(x))
+        return best[1], float(best[0])
+    for _ in range(PACES):
         x[0] -= _too_slow(found(x))
     _least_squares(lambda x: residuals(found(x)), x, evaluations - number)
     return best[1], float(best[0])
@@ -145,8 +153,6 @@ def _least_squares(
 ) -> None:
     from scipy.optimize import least_squares
 
-    if evaluations < 1:
-        return
     bounds = np.log(list(FREE.values()))
     # Each derivative takes as many evaluations as there are constants; scipy counts steps alone.
     steps = max(1, evaluations // (1 + len(FREE)))

@@ -69,6 +69,7 @@ def recognised(seen: Visibility, index: NDArray[np.int64], mood: Mood) -> NDArra
     return mood.rng.random(len(index)) < chance
 
 
+WHOLE = 0.9  # opacity below which a thing is seen to lie behind another [ours]
 CLEAR = 0.2  # contrast above which a thing is as clear as it gets [ours]
 
 

@@ -8,7 +8,7 @@ from math import exp
 import numpy as np
 from numpy.random import Generator
 
-from experiment.participants.effects import EffectUse, plan_effects
+from experiment.participants.effects import WALKING, EffectUse, plan_effects
 from experiment.participants.profile import Profile
 
 TASKS = ("count", "pattern", "unique", "count_in_building")
@@ -38,7 +38,7 @@ class Person:
         # Who is careful is slower as well: half of what makes a person careful costs pace.
         own = p.sd_person * draws[1]
         self.pace = {
-            task: p.pace * exp(own + p.sd_task * draw)
+            task: p.pace * exp(own + (p.sd_task_walking if task in WALKING else p.sd_task) * draw)
             for task, draw in zip(TASKS, draws[2:], strict=True)
         }
 
@@ -74,7 +74,8 @@ def mood_for(person: Person, task: str, now: float) -> Mood:
     pace = person.pace.get(task, p.pace)
     if effects["learning"].used:
         pace *= 1 + p.learning * exp(-p.learning_rate * done)
-    spread = p.sd_trial if effects["trial_noise"].used else 0.0
+    spread = p.sd_trial_walking if task in WALKING else p.sd_trial
+    spread *= effects["trial_noise"].used
     if effects["fatigue"].used:
         spread *= 1 + p.fatigue * (now - person.began) / 3600
     pace *= exp(spread * rng.standard_normal())

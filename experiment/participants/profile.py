@@ -64,7 +64,9 @@ class Profile:
     certainty: float = 0.90  # posterior probability at which a letter is believed
     letter_looks: int = 8  # after so many looks, the best guess is good enough
     letter_turning: float = 1.0  # seconds to turn a letter half round in the mind (Cooper 1975)
+    no_news: float = 0.05  # so small a share of new things does not keep one looking
     trust: float = 0.8  # in a view through walls, against one that nothing hides
+    trust_cloud: float = 0.4  # patience saved once things in a cloud were seen through others
     near_enough: float = 18.0  # how near one walks to see where something stands
 
     # Places. Distances in virtual worlds look short and uncertain (Loomis & Knapp 2003).
@@ -80,6 +82,9 @@ class Profile:
     sd_person: float = 0.35  # s.d. of the logarithm of a person's pace
     sd_task: float = 0.30  # and of the same person's pace at each task
     sd_trial: float = 0.25  # and from trial to trial
+    # Finding one's way: skill counts for less there than in the cloud, and luck for more [ours].
+    sd_task_walking: float = 0.20  # as sd_task, in the building
+    sd_trial_walking: float = 0.35  # as sd_trial, in the building
     sd_care: float = 0.30  # s.d. of the logarithm of a person's care
     pace: float = 1.0  # factor on all mental times
     care: float = 1.0  # factor on patience; slips and misses fall with it
@@ -113,14 +118,20 @@ class Profile:
             )
 
 
-_SHARES = ("slip", "trust", "forget", "mistake_old", "crowded", "diligence", "certainty")
+_SHARES = (
+    "slip", "trust", "trust_cloud", "no_news", "forget", "mistake_old", "crowded", "diligence",
+    "certainty",
+)  # fmt: skip
 _POSITIVE = (
     "notice_spread", "recognise", "recognise_spread", "bits_per_second", "tolerance", "gain",
     "speed", "orbit_step", "pace", "care", "view_angle", "notice", "depth_bias", "point", "key",
 )  # fmt: skip
+_SPREADS = (
+    "sd_person", "sd_task", "sd_trial", "sd_care", "sd_task_walking", "sd_trial_walking",
+)  # fmt: skip
 # Beyond these nobody is: e³ is twenty times another person, and half a circle is the largest turn.
 _LIMITS = {
-    **dict.fromkeys(("sd_person", "sd_task", "sd_trial", "sd_care"), (0, 3)),
+    **dict.fromkeys(_SPREADS, (0, 3)),
     **dict.fromkeys(("pace", "care"), (0, 20)),
     **dict.fromkeys(("orbit_step", "tolerance"), (0, pi)),
     **dict.fromkeys(("subitising_range", "letter_looks"), (1, 100)),

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from experiment.participants.counting import saccade
 from experiment.participants.glance import (
     CLEAR,
+    WHOLE,
     WINDOW_PIXELS,
     Glance,
     heading,
@@ -152,7 +153,7 @@ class Walker:
         places = self.glance.view.scene.transforms[things][:, [0, 2], 3]
         walls = self.known.layout.segments[self.known.walls]
         behind = crossed(self.eye, places, walls)
-        through = things[behind & (seen.weight[things] < 0.9)]
+        through = things[behind & (seen.weight[things] < WHOLE)]
         self.through += np.minimum(seen.contrast[through] / CLEAR, 1.0).tolist()
 
     def _inspect(self) -> None:
@@ -243,7 +244,7 @@ class Walker:
         mood, p = self.mood, self.mood.profile
         way = self.glance.view.scene.transforms[index][[0, 2], 3] - self.eye
         if mood.uses("depth_noise"):
-            through = p.through_noise if seen.weight[index] < 0.9 else 0.0
+            through = p.through_noise if seen.weight[index] < WHOLE else 0.0
             spread = hypot(p.depth_noise, through)
             # Near things are seen at their distance; far ones look nearer.
             bias = 1 - (1 - p.depth_bias) * min(1.0, hypot(*way) / 30)

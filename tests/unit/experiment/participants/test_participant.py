@@ -262,6 +262,28 @@ def test_people_differ_and_practice_helps():
     assert 0.27 < np.std(np.log(fast)) < 0.65
 
 
+@pytest.mark.parametrize("weight, sooner", [(1.0, False), (0.5, True)])
+def test_seeing_through_things_saves_views_of_a_cloud(weight, sooner):
+    """Patience is saved by what was seen to shine through something, and by nothing else."""
+    views = []
+    for trust in (0.0, 0.9):
+        task, state = TASKS["count"], begun("count", 1)
+        person = SimulatedParticipant(
+            np.random.default_rng(4), replace(PROFILES["average"], trust_cloud=trust), QUIET
+        )
+        person.begin_trial("count", 0.0)
+        now, looked = 0.0, 0
+        while task.outcome(state) is None:
+            view = task.view(state)
+            seen = sight(view, np.ones(200, bool))
+            seen = replace(seen, weight=weight * seen.weight)
+            for event in person.events(view, lambda s=seen: s, now, "count"):
+                state, now = task.on_event(state, event), event.time
+            looked += 1
+        views.append(looked)
+    assert (views[1] < views[0]) == sooner and views[1] <= views[0]
+
+
 def test_effects_are_planned_with_reasons():
     participant = SimulatedParticipant(np.random.default_rng(1), without=["crowding"])
     participant.begin_trial("count", 0.0)
