@@ -30,7 +30,8 @@ def page(
         f"<table><thead><tr><th>test</th><th>n for 80 %</th>{head}</tr></thead>"
         f"<tbody>{rows}</tbody></table>"
         '<p class="note">Cells: share of replications in which the test was significant, with its '
-        "95 % Clopper–Pearson interval; exact: the noncentral F, where differences are normal. "
+        "95 % Clopper–Pearson interval; exact: the noncentral F, where differences are normal, and for "
+        "Friedman's exact test of two levels the trinomial of better, worse and equal. "
         "Smallest n from which power stays at 80 %, by the closed form where there is one.</p>"
         f'<p class="note">Made by <code>{escape(command)}</code>. A plan, no evidence: no person '
         "took part.</p></body></html>\n"
@@ -63,9 +64,9 @@ def curves(points: Sequence[Power]) -> str:
         for k, name in enumerate(dict.fromkeys(p.effect for p in points)):
             own = [p for p in points if p.effect == name]
             n = [p.n for p in own]
-            color = f"C{k}"
+            color, dashes = f"C{k % 10}", "-" if k < 10 else "--"
             axes.fill_between(n, [p.low for p in own], [p.high for p in own], alpha=0.15, lw=0)
-            axes.plot(n, [p.found for p in own], color=color, marker=".", label=name)
+            axes.plot(n, [p.found for p in own], color=color, ls=dashes, marker=".", label=name)
         axes.axhline(ENOUGH, color="0.4", lw=0.8, ls="--")
         axes.set(xlabel="participants", ylabel="power", ylim=(0, 1.02))
         axes.spines[["top", "right"]].set_visible(False)
