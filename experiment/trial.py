@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+from math import acos, dist, inf
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from experiment.config import Study
 from experiment.design import Trial
@@ -78,8 +76,8 @@ class _Watch:
             self.missed += took > MISSED * self.period
         if self._view is not None and self._view.camera is not view.camera:
             old, new = self._view.camera, view.camera
-            self.path += float(np.linalg.norm(new.eye - old.eye))
-            self.turned += float(np.arccos(np.clip(new.forward @ old.forward, -1.0, 1.0)))
+            self.path += dist(new.eye.tolist(), old.eye.tolist())
+            self.turned += acos(min(1.0, max(-1.0, float(new.forward @ old.forward))))
         self._time, self._view = time, view
 
     def pause(self) -> None:

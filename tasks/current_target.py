@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import sin
 
 from renderer.camera import Camera
@@ -23,10 +24,14 @@ def target_picture(building: Building) -> Scene:
 
 
 def inset(picture: Scene, time: float) -> Inset:
-    """The picture at `time`: it fits the frame whichever way it is turned."""
+    """The picture at `time`."""
+    return Inset(picture, partial(_camera, picture, time), PLACE)
+
+
+def _camera(picture: Scene, time: float) -> Camera:
+    """Turned by then; the thing fits the frame whichever way it is turned."""
     mesh = picture.objects[0].mesh
     rotation = turned(TURN_RATE * time, PITCH)
     distance = 1.1 * mesh.radius / sin(FOV_Y / 2)
     eye = mesh.center + rotation[:, 2] * distance
-    camera = Camera(eye, rotation, FOV_Y, 0.05 * distance, 2 * distance)
-    return Inset(picture, camera, PLACE)
+    return Camera(eye, rotation, FOV_Y, 0.05 * distance, 2 * distance)

@@ -5,6 +5,7 @@ Positions and sizes are in view units (tasks/events.py): 1 is the height of the 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from renderer.camera import Camera
@@ -63,8 +64,13 @@ class Inset:
     """A small picture of a scene of its own, such as the current target, over the view."""
 
     scene: Scene
-    camera: Camera
+    look: Callable[[], Camera]
     rect: Rect
+
+    @property
+    def camera(self) -> Camera:
+        """Where the scene is seen from: worked out when somebody draws it."""
+        return self.look()
 
 
 @dataclass(frozen=True)

@@ -56,7 +56,7 @@ def noticed(seen: Visibility, mood: Mood) -> NDArray[np.int64]:
     """
     p = mood.profile
     index = np.nonzero(seen.pixels > 0)[0]
-    strength = seen.contrast[index] * np.sqrt(window_pixels(seen)[index])
+    strength = seen.contrast[index] * np.sqrt(seen.area[index] * WINDOW_PIXELS)
     chance = likely(strength, p.notice, p.notice_spread)
     return index[mood.rng.random(len(index)) < chance]
 
@@ -64,7 +64,7 @@ def noticed(seen: Visibility, mood: Mood) -> NDArray[np.int64]:
 def recognised(seen: Visibility, index: NDArray[np.int64], mood: Mood) -> NDArray[np.bool_]:
     """Of what is noticed, whose kind can be told: enough pixels that stand out."""
     p = mood.profile
-    clear = window_pixels(seen)[index] * np.minimum(seen.contrast[index] / CLEAR, 1.0)
+    clear = seen.area[index] * WINDOW_PIXELS * np.minimum(seen.contrast[index] / CLEAR, 1.0)
     chance = likely(clear, p.recognise, p.recognise_spread)
     return mood.rng.random(len(index)) < chance
 

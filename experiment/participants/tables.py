@@ -28,6 +28,8 @@ from tasks.controls import turned
 YAWS = 12  # of the orbit's lattice: every 30°
 PITCHES = (-1.25, -0.8, -TILT, 0.0, TILT, 0.8, FROM_ABOVE)
 
+MOST_WHOLE = 64  # looks of a table kept as arrays over all objects: some 10 KB each
+
 Key = tuple[int, ...]
 Draw = Callable[[Scene, Camera], Visibility]
 
@@ -94,7 +96,7 @@ class Table:
     objects: int
     rows: dict[Key, NDArray[np.float64]] = field(default_factory=dict)
     fresh: list[Key] = field(default_factory=list)  # looks kept since somebody last asked
-    _latest: tuple[Key, Visibility] | None = None
+    _whole: dict[Key, Visibility] = field(default_factory=dict)  # looks that were wanted lately
 
     def put(self, key: Key, seen: Visibility) -> None:
         """Keep a look: index, pixels, weight, x, y, contrast, area of whatever is visible."""
@@ -106,8 +108,8 @@ class Table:
 
     def get(self, key: Key) -> Visibility:
         """The look as it was kept, the same to the last bit."""
-        if self._latest is not None and self._latest[0] == key:
-            return self._latest[1]
+        if key in self._whole:
+            return self._whole[key]
         rows = self.rows[key]
         index = rows[0].astype(np.int64)
         dense = np.zeros((4, self.objects))
@@ -115,7 +117,9 @@ class Table:
         position = np.full((self.objects, 2), np.nan)
         position[index] = rows[3:5].T
         seen = Visibility(dense[0].astype(np.int64), dense[1], position, dense[2], dense[3])
-        self._latest = (key, seen)
+        if len(self._whole) >= MOST_WHOLE:
+            self._whole.clear()
+        self._whole[key] = seen
         return seen
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass
+from functools import lru_cache
 from math import hypot, pi
 
 import numpy as np
@@ -25,7 +26,6 @@ from experiment.participants.person import Mood
 from experiment.participants.places import (
     CELL,
     DIRECTIONS,
-    HALF_VIEW,
     STRIDES,
     Known,
     apart,
@@ -33,6 +33,7 @@ from experiment.participants.places import (
     crossed,
     layout,
 )
+from renderer.scene import Scene
 from renderer.visibility import Visibility
 from tasks.events import Event
 from tasks.hud import Inset
@@ -48,6 +49,7 @@ THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached 
 TURNS = apart(np.arange(1, DIRECTIONS) * STEP, 0.0)
 TURN_COST = 0.25 / STEP  # seconds a radian is thought to cost when choosing [ours]
 GOAL = 0.5  # a cell is a goal if it is unseen at least half as much as any [ours]
+MOST_KEPT = 2048  # arrays over cells that a building keeps
 LOOK = 1.0  # seconds that a look somewhere else is thought to cost when choosing [ours]
 
 
@@ -68,7 +70,7 @@ class Walker:
         self._glance = glance
         self._cell: int | None = None
         self.known = Known(layout(glance.view.scene))
-        self.asked = _asked(glance)
+        self._asked = _of_kind(glance.view.scene, _asked(glance))
         self.error = np.zeros(2)  # where one believes to be, less where one is
         self.recognised: set[int] = set()  # what has been made out, and is known again
         self.passed: set[int] = set()  # things of the asked kind made out in passing
@@ -87,7 +89,7 @@ class Walker:
     @property
     def eye(self) -> NDArray[np.float64]:
         """(2,) where one is, (x, z)."""
-        return self.glance.view.camera.eye[[0, 2]]
+        return self.glance.view.camera.eye[::2]
 
     @property
     def cell(self) -> int:
@@ -109,15 +111,17 @@ class Walker:
         self._see_through(seen, things)
         self._inspect()
         self._think(self.mood.profile.count, len(things))
-        asked = np.union1d(asked, np.array(sorted(self.passed), dtype=np.int64))
-        self.passed.clear()
+        if self.passed:
+            asked = np.union1d(asked, np.array(sorted(self.passed), dtype=np.int64))
+            self.passed.clear()
         return Found(asked, seen)
 
     def pass_by(self) -> None:
         """Look while on the move: at nothing that is known already."""
         seen = self.glance.look()
         index = noticed(seen, self.mood)
-        things, asked = self._make_out(seen, index[[i not in self.recognised for i in index]])
+        news = [i for i in index.tolist() if i not in self.recognised]
+        things, asked = self._make_out(seen, np.array(news, dtype=np.int64))
         self.passed.update(asked.tolist())
         self._think(0.0, len(things))
 
@@ -126,15 +130,14 @@ class Walker:
     ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Of what is noticed, the things; and those made out to be of the asked kind."""
         self.known.see_walls(seen.pixels > 0)
-        objects = self.glance.view.scene.objects
-        things = index[[objects[i].target for i in index]]
+        things = index[self.glance.view.scene.targets[index]]
         known = recognised(seen, things, self.mood)
         clear = things[known]
         self.recognised.update(clear.tolist())
         for made_out in clear.tolist():
             self.known.unclear.pop(made_out, None)
         self._wonder(seen, things[~known])
-        return things, clear[[objects[i].kind == self.asked for i in clear]]
+        return things, clear[self._asked[clear]]
 
     def _think(self, seconds: float, things: int) -> None:
         """Thinking about a look begins now and goes on while the feet and hands do."""
@@ -157,9 +160,9 @@ class Walker:
         self.through += np.minimum(seen.contrast[through] / CLEAR, 1.0).tolist()
 
     def _inspect(self) -> None:
-        distance, toward = self.known.layout.ways(self.cell)
-        inside = np.abs(apart(toward, self.yaw)) < HALF_VIEW
-        here = distance < THERE
+        plan = self.known.layout
+        inside = plan.ahead(self.cell, self.yaw)
+        here = plan.ways(self.cell)[0] < THERE
         self.known.inspect(np.where(inside, self.quality(), here))
         self.known.unclear = {i: c for i, c in self.known.unclear.items() if not here[c]}
 
@@ -173,12 +176,23 @@ class Walker:
 
     def quality(self) -> NDArray[np.float64]:
         """(n,) how surely a thing in each cell would be recognised from where one stands."""
-        p = self.mood.profile
-        distance = np.maximum(self.known.layout.ways(self.cell)[0], 1.0)
         hidden = self.known.hidden(self.cell)
-        clearness = np.where(hidden, self._through_clearness(), 1.0)
+        through = self.mood.profile.trust * self._sure(self._through_clearness())
+        return np.where(hidden, through, self._sure(1.0))
+
+    def _sure(self, clearness: float) -> NDArray[np.float64]:
+        """(n,) the same for things everywhere as clear as that; looked up where nobody differs."""
+        p, kept = self.mood.profile, self.known.layout.sure
+        key = (self.cell, clearness, p.recognise, p.recognise_spread)
+        if key in kept:
+            return kept[key]
+        distance = np.maximum(self.known.layout.ways(self.cell)[0], 1.0)
         sure = likely(FILLED / distance**2 * clearness, p.recognise, p.recognise_spread)
-        return np.where(hidden, p.trust * sure, sure)
+        if clearness in (0.0, 1.0):
+            if len(kept) >= MOST_KEPT:
+                kept.clear()  # calibration tries profile after profile
+            kept[key] = sure
+        return sure
 
     def _through_clearness(self) -> float:
         """How clear a thing behind a wall would be: nothing shines through until one did."""
@@ -193,14 +207,16 @@ class Walker:
         """
         distance, toward = self.known.layout.ways(self.cell)
         worth = self.known.gain(self.quality())
-        inside = np.abs(apart(toward - self.yaw, TURNS[:, None])) < HALF_VIEW
+        inside = self.known.layout.ahead(self.cell, self.yaw + TURNS)
         gains = (inside @ worth) / (LOOK + TURN_COST * np.abs(TURNS))
         side = int(np.argmax(gains))
         best, choice = float(gains[side]), (float(TURNS[side]), None)
         seconds = distance / self.hands.speed + 3 * LOOK
         # Only what is unseen is worth going to: there, one will at least have seen that.
         unseen = self.known.unseen
-        rates = np.where(unseen > GOAL * unseen.max(), _nearby(self.known) / seconds, 0.0)
+        rates = np.where(
+            unseen > GOAL * unseen.max(), _nearby(unseen, self.known.layout.size) / seconds, 0.0
+        )
         there = int(np.argmax(rates))
         if rates[there] > best:
             return float(apart(toward[there], self.yaw)), self.known.layout.centers[there]
@@ -258,15 +274,26 @@ def _asked(glance: Glance) -> str:
     return inset.scene.objects[0].kind
 
 
-def _nearby(known: Known) -> NDArray[np.float64]:
+@lru_cache(maxsize=64)
+def _of_kind(scene: Scene, kind: str) -> NDArray[np.bool_]:
+    """(n,) which objects are of a kind."""
+    return np.array([o.kind == kind for o in scene.objects], dtype=bool)
+
+
+@lru_cache(maxsize=8)
+def _within_reach(size: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """(size,) first cell of a line within `REACH` of each, and the one after the last."""
+    cells = np.arange(size)
+    return np.maximum(cells - REACH, 0), np.minimum(cells + REACH + 1, size)
+
+
+def _nearby(unseen: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """(n,) unseen cells within `REACH` of each cell, by sums along both axes."""
-    size = known.layout.size
-    total = known.unseen.reshape(size, size)
+    low, high = _within_reach(size)
+    total = unseen.reshape(size, size)
     for axis in (0, 1):
         sums = np.zeros((size + 1, size))
         np.cumsum(total if axis == 0 else total.T, axis=0, out=sums[1:])
-        low = np.maximum(np.arange(size) - REACH, 0)
-        high = np.minimum(np.arange(size) + REACH + 1, size)
         total = sums[high] - sums[low]
         total = total if axis == 0 else total.T
     return total.ravel()

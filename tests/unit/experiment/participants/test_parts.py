@@ -261,7 +261,7 @@ def test_what_is_unseen_nearby_is_summed_over_a_square():
         for i in range(16)
         for j in range(16)
     ]
-    assert_allclose(_nearby(known), expected, rtol=1e-12)
+    assert_allclose(_nearby(known.unseen, known.layout.size), expected, rtol=1e-12)
 
 
 def test_looks_from_one_place_do_not_add_up_and_from_two_they_do():
