@@ -16,6 +16,7 @@ from analysis.figures.style import (
     Spec,
     categories,
     layer,
+    layers,
     number,
     picked,
     zero_line,
@@ -69,11 +70,11 @@ def _bars(measures: Sequence[Measure], halves: Sequence[Number], axis: str, word
     return {
         "width": 60 + 66 * len(measures),
         "height": HEIGHT,
-        "layer": [
+        "layer": layers(
             layer("rect", bars, {**box, "y": number("mean", axis), "y2": {"field": "zero"}}),
             layer("rule", ends, {"x": {"field": "x", **x}, **_span("y", axis)}, color=INK,
                   strokeWidth=2),
-        ],
+        ),
     }  # fmt: skip
 
 
@@ -98,14 +99,14 @@ def _differences(measures: Sequence[Measure], tests: Table) -> list[Spec]:
         means.append({"x": i + 0.28, "y": mean, "tip": tip})
     x = {"x": {"field": "x", **categories([m.label for m in measures])}}
     y = {"y": number("y")}
-    return [
+    return layers(
         zero_line("y"),
         layer("point", dots, {**x, **y}, color=FAINT, filled=True, size=14),
         layer("rule", ends, {**x, **_span("y")}, color=INK, strokeWidth=2),
         layer(
             "point", means, {**x, **y}, color=INK, filled=True, shape="diamond", size=70, opacity=1
         ),
-    ]
+    )
 
 
 def ratings_figure(
@@ -141,10 +142,10 @@ def _ratings(scenario: str, measures: Sequence[Measure], tests: Table) -> Spec:
         "title": scenario,
         "width": 270,
         "height": HEIGHT,
-        "layer": [
+        "layer": layers(
             layer("rect", bars, {**box, "y": y, "y2": {"field": "zero"}}),
             layer("rule", ends, {"x": {"field": "x", **x}, **span}, color=INK, clip=True),
-        ],
+        ),
     }
 
 
@@ -169,11 +170,11 @@ def effect_sizes(key: str, title: str, tests: Table) -> Figure:
     spec = {
         "width": 520,
         "height": 26 * len(rows),
-        "layer": [
+        "layer": layers(
             zero_line("x", axis),
             layer("rule", lines, {**y, **_span("x", axis)}, color=INK, strokeWidth=2),
             layer("point", rows, {**y, "x": dz}, color=DYNAMIC, filled=True, size=60, opacity=1),
-        ],
+        ),
     }
     said = "; ".join(str(row["tip"]) for row in rows)
     return Figure(key, title, f"Dots with intervals. {said}.", spec)

@@ -49,6 +49,11 @@ def layer(mark: str, rows: Sequence[Spec], encoding: Spec, **options: Any) -> Sp
     }
 
 
+def layers(*parts: Spec) -> list[Spec]:
+    """Those that have something to draw: Vega warns of a scale without data."""
+    return [part for part in parts if part["data"]["values"]]
+
+
 def zero_line(channel: str, title: str | None = None) -> Spec:
     """A line at 0 across the plot; `channel` is x or y."""
     return layer("rule", [{"zero": 0}], {channel: number("zero", title)}, color=FAINT)

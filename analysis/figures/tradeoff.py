@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.figures.style import FAINT, LEVEL_COLOUR, LEVELS, Spec, layer, number, picked
+from analysis.figures.style import FAINT, LEVEL_COLOUR, LEVELS, Spec, layer, layers, number, picked
 from analysis.load.schema import TASK_CODES
 from analysis.page.blocks import Figure
 from analysis.page.numbers import significant
@@ -60,13 +60,13 @@ def _panel(c: Change) -> Spec:
         "title": f"{TASK_CODES[c.task]} {c.task.replace('_', ' ')}",
         "width": SIDE,
         "height": SIDE,
-        "layer": [
+        "layer": layers(
             layer("rule", lines, {**place, "x2": {"field": "x2"}, "y2": {"field": "y2"}},
                   color=FAINT),
             layer("point", starts, {**place, **colour}, filled=True, size=24, opacity=1),
             layer("point", heads, {**place, **colour, **turned}, filled=True, size=60,
                   shape="triangle-right", opacity=1),
-        ],
+        ),
     }  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from analysis.figures.style import LEVEL_COLOUR, LEVELS, layer, number
+from analysis.figures.style import LEVEL_COLOUR, LEVELS, layer, layers, number
 from analysis.page.blocks import Figure
 from analysis.page.numbers import significant
 
@@ -40,9 +40,9 @@ def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
     spec = {
         "width": 320,
         "height": 170,
-        "layer": [
+        "layer": layers(
             layer("line", lines, encoding, strokeWidth=1.5),
             layer("point", rows, encoding, filled=True, size=50, opacity=1),
-        ],
+        ),
     }
     return Figure(key, "Time by position in the task set", alt, spec)

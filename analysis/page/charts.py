@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -78,6 +79,7 @@ def _in_page(spec: dict[str, Any], svg: str) -> str:
     )
 
 
+@cache  # two seconds of work, always with the same result
 def library() -> str:
     """Vega, Vega-Lite and vega-embed as one script that needs no network."""
     return str(vl_convert.javascript_bundle()).replace("</script", "<\\/script")

@@ -7,8 +7,10 @@ NaN where we need it (t = −2.13, nc = 15), so the noncentral t is integrated h
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import special
 
 from analysis.stats.undefined import Interval, Undefined, no_interval
@@ -67,11 +69,17 @@ def noncentral_t_cdf(t: float, df: float, nc: float) -> float:
     Trapezoid over ln s, centred where its density peaks: the integrand is smooth and dies at both
     ends, so the rule converges geometrically (1e-12 and better at this spacing).
     """
+    reach, weights = _spread_of_t(t, df)
+    return float(weights @ special.ndtr(reach - nc))
+
+
+@lru_cache(maxsize=4)  # searches for a noncentrality ask again and again for the same t and df
+def _spread_of_t(t: float, df: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """t·s at the nodes of ln s, and the nodes' shares of the density of ln s."""
     # ln s has density ∝ exp(df·(x − e^{2x}/2)), its curvature at 0 is 2·df: width 1/√(2 df)
     x = _NODES / np.sqrt(2 * df)
-    log_density = df * (x - np.exp(2 * x) / 2 + 0.5)
-    weights = np.exp(log_density)
-    return float(np.sum(weights * special.ndtr(t * np.exp(x) - nc)) / np.sum(weights))
+    weights = np.exp(df * (x - np.exp(2 * x) / 2 + 0.5))
+    return t * np.exp(x), weights / np.sum(weights)
 
 
 def noncentral_f_cdf(f: float, df1: float, df2: float, nc: float) -> float:
