@@ -30,7 +30,7 @@ def page(
         f"<table><thead><tr><th>test</th><th>n for 80 %</th>{head}</tr></thead>"
         f"<tbody>{rows}</tbody></table>"
         '<p class="note">Cells: share of replications in which the test was significant, with its '
-        "95 % Clopper–Pearson interval; exact: the noncentral F, where differences are normal, and for "
+        "95 % Clopper–Pearson interval; exact: the noncentral F, where differences are normal; for "
         "Friedman's exact test of two levels the trinomial of better, worse and equal. "
         "Smallest n from which power stays at 80 %, by the closed form where there is one.</p>"
         f'<p class="note">Made by <code>{escape(command)}</code>. A plan, no evidence: no person '
