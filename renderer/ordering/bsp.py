@@ -89,8 +89,8 @@ class _Rule:
         sample, balance = (SAMPLE, BALANCE) if self.name == "sampled" else (0, 0.0)
         f = fragments
         best, tested = choose(
-            active, bounds, draws, sample, balance, f.start, f.count, f.source, f.rows, f.planes,
-            f.plane_of, f.slack,
+            active, bounds, draws, sample, balance, f.shape, f.rows, f.planes, f.plane_of,
+            f.slack,
         )  # fmt: skip
         # `fewest` has seen every polygon already; `sampled` has the splitter's row still to test.
         self.relations += tested
@@ -109,7 +109,7 @@ class _Level:
 
 def _grow(fragments: Fragments, rule: _Rule) -> list[_Level]:
     """All nodes of a depth at once: no recursion, and few calls however many nodes there are."""
-    active = np.flatnonzero(fragments.solid)
+    active = np.flatnonzero(fragments.solid).astype(np.int32)
     bounds = np.array([0, len(active)])
     levels = []
     while len(active):
@@ -146,19 +146,22 @@ def _assemble(
     own = np.concatenate([flat, *(level.own for level in levels)])
     own_counts = np.concatenate([[len(flat)], *counts]).astype(np.int64)
     node_of = np.repeat(np.arange(len(own_counts)), own_counts)
-    own = own[np.lexsort((own, fragments.source[own], node_of))]
+    # By node, and within one in input order: few nodes hold more than one fragment.
+    crowded = np.flatnonzero((own_counts > 1)[node_of])
+    some = own[crowded]
+    own[crowded] = some[np.lexsort((some, fragments.source[some], node_of[crowded]))]
     drawn = drawable(fragments.polygons(own), fragments.source[own], fragments.planes)
     items = drawn.bounds[np.concatenate([[0], np.cumsum(own_counts)])]
     planes = _node_planes(fragments, [level.splitters for level in levels])
     facing = EVERYTHING
     if closed:
-        ways = _ways(fragments, own, planes[np.repeat(np.arange(len(own_counts)), own_counts)])
+        ways = _ways(fragments, own, planes[node_of])
         facing = np.repeat(ways, np.diff(drawn.bounds))
     cut_parents = fragments.parent[: fragments.used[1]]
     stats = Stats(
         inputs=int((fragments.parent[: fragments.used[1]] < 0).sum()),
         outputs=len(own),
-        splits=len(np.unique(cut_parents[cut_parents >= 0])),
+        splits=int(np.count_nonzero(_marked(cut_parents))),
         relations=int(relations),
         depth=len(levels),
         nodes={"switch": len(own_counts) - 1},
@@ -175,6 +178,13 @@ def _ways(fragments: Fragments, own: Integers, planes: Floats) -> NDArray[np.uin
     ways = np.where(along > 0, ALONG, AGAINST).astype(np.uint8)
     ways[~fragments.solid[fragments.source[own]]] = EITHER
     return ways
+
+
+def _marked(parents: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(fragments,) whether each was cut."""
+    cut = np.zeros(len(parents), bool)
+    cut[parents[parents >= 0]] = True
+    return cut
 
 
 def _node_planes(fragments: Fragments, splitters: list[Integers]) -> Floats:

@@ -5,19 +5,18 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from renderer.ordering.predicates import filtered_side
+from renderer.ordering.cutting import COUNT, PLANE, SOURCE, START
+from renderer.ordering.predicates import loop_heights, loop_limit
 
 
 @numba.njit(cache=True)
-def choose(
-    active, bounds, draws, sample, balance, start, count, source, rows, planes, plane_of, slack
-):
+def choose(active, bounds, draws, sample, balance, shape, rows, planes, plane_of, slack):
     """The best of some random candidates in each group of fragments.
 
     Group g is active[bounds[g] : bounds[g + 1]]; `draws` (groups, k) are uniform numbers, one for
     each candidate, drawn without replacement. A candidate costs its cuts plus `balance` times the
-    difference between its sides, counted on `sample` fragments of the group (0: on all). Returns
-    the positions in `active` and the number of relations tested.
+    difference between its sides, counted on `sample` fragments of the group, the same for all
+    candidates (0: on all). Returns the positions in `active` and the number of relations tested.
     """
     groups = len(bounds) - 1
     k = draws.shape[1]
@@ -41,19 +40,13 @@ def choose(
                 if chosen[earlier] == pick:
                     pick = top
             chosen[j] = pick
-            splitter = source[active[low + pick]]
+            splitter = shape[active[low + pick], SOURCE]
             cuts, lean = 0, 0
             for i in range(tests):
-                at = low + (pick + 1 + i * n // tests) % n
-                side = _rough_side(
-                    active[at], splitter, start, count, source, rows, planes, plane_of, slack
-                )
-                if side == 3:
-                    cuts += 1
-                elif side == 1:
-                    lean += 1
-                elif side == 2:
-                    lean -= 1
+                f = active[low + i * n // tests]
+                side = _rough_side(f, splitter, shape, rows, planes, plane_of, slack)
+                cuts += int(side == 3)
+                lean += int(side == 1) - int(side == 2)
             tested += min(tests, n - 1)
             cost = cuts + balance * abs(lean)
             if cost < least:
@@ -63,20 +56,14 @@ def choose(
 
 
 @numba.njit(inline="always")
-def _rough_side(f, s, start, count, source, rows, planes, plane_of, slack):
-    """0 on, 1 front, 2 back, 3 both; corners the filter leaves open count as on the plane."""
-    code = 0
-    if plane_of[source[f]] == plane_of[s]:
-        return code
-    for v in range(start[f], start[f] + count[f]):
-        side = filtered_side(planes[s], rows[v, 0], rows[v, 1], rows[v, 2], slack[s])
-        if side == 1:
-            code |= 1
-        elif side == -1:
-            code |= 2
-        if code == 3:
-            break
-    return code
+def _rough_side(f, s, shape, rows, planes, plane_of, slack):
+    """0 on, 1 front, 2 back, 3 both; corners too near to tell count as on the plane."""
+    if shape[f, PLANE] == plane_of[s]:
+        return 0
+    first = shape[f, START]
+    low, high, far = loop_heights(planes[s], rows, first, first + shape[f, COUNT])
+    limit = loop_limit(planes[s], far, slack[s])
+    return int(high > limit) | (int(low < -limit) << 1)
 
 
 @numba.njit(cache=True)
@@ -88,7 +75,7 @@ def deal(active, bounds, code, pieces, piece_of, piece_side):
     """
     groups = len(bounds) - 1
     sizes = np.zeros((groups, 3), np.int64)
-    group_of = np.empty(len(active), np.int64)
+    group_of = np.empty(len(active), np.int32)
     for g in range(groups):
         for i in range(bounds[g], bounds[g + 1]):
             group_of[i] = g
@@ -110,8 +97,8 @@ def deal(active, bounds, code, pieces, piece_of, piece_side):
                 children[g, side - 1] = made
                 next_bounds[made + 1] = next_bounds[made] + sizes[g, side]
                 made += 1
-    own = np.empty(own_bounds[groups], np.int64)
-    following = np.empty(next_bounds[made], np.int64)
+    own = np.empty(own_bounds[groups], np.int32)
+    following = np.empty(next_bounds[made], np.int32)
     for i in range(len(active)):
         g, c = group_of[i], code[i]
         if c == 0:

@@ -12,8 +12,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from renderer.ordering.cutting import point_slack
-from renderer.ordering.predicates import filtered_side
+from renderer.ordering.cutting import COUNT, START, corner_side
 
 COPLANAR, IN_FRONT, BEHIND, CUT = 0, 1, 2, 3
 # A relation nobody asked for yet; one that only exact arithmetic can tell; a row without cuts.
@@ -21,7 +20,7 @@ UNKNOWN, OPEN, CLEAN = -1, -2, -1
 
 
 @numba.njit(inline="always")
-def _exact_side(corners, plane, x, y, z):
+def _exact_side(corners, x, y, z):
     """Sides that need no arithmetic: the plane's own corners, and planes across an axis."""
     for k in range(3):
         if x == corners[k, 0] and y == corners[k, 1] and z == corners[k, 2]:
@@ -39,23 +38,18 @@ def _exact_side(corners, plane, x, y, z):
 def look(codes, r, f, shape, planes, corners, slack, row_of, tested):
     """Relation of fragment f to plane r: from the table, or tested and kept. May be OPEN.
 
-    `shape` holds the fragments' start, count, rows and fresh (see `fragments.Fragments`).
+    `shape` holds the fragments' shape, rows and fresh (see `fragments.Fragments`).
     """
     code = codes[r, f]
     if code != UNKNOWN:
         return code
     code = 0
     if row_of[f] != r:
-        start, count, rows, fresh = shape
-        plane = planes[r]
-        for v in range(start[f], start[f] + count[f]):
-            x, y, z = rows[v, 0], rows[v, 1], rows[v, 2]
-            reach = slack[r]
-            if fresh[v]:
-                reach = max(reach, point_slack(x, y, z))
-            side = filtered_side(plane, x, y, z, reach)
+        loops, rows, fresh = shape
+        for v in range(loops[f, START], loops[f, START] + loops[f, COUNT]):
+            side = corner_side(planes, slack, r, rows, fresh, v)
             if side == 2:
-                side = _exact_side(corners[r], plane, x, y, z)
+                side = _exact_side(corners[r], rows[v, 0], rows[v, 1], rows[v, 2])
             if side == 1:
                 code |= 1
             elif side == -1:

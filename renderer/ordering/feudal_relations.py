@@ -144,7 +144,7 @@ class Relations:
 
     def _geometry(self) -> tuple:
         f = self.fragments
-        shape = (f.start, f.count, f.rows, f.fresh)
+        shape = (f.shape, f.rows, f.fresh)
         return shape, f.planes, f.corners, f.slack, self.row_of, self.count
 
     def _decide(self, rows: Integers, polygons: Integers) -> None:

@@ -26,13 +26,15 @@ class Polygons:
     the corners starts[i] to starts[i + 1]; `starts` (m + 1,) int64. `attributes` (n, k) float64
     belong to corners and are interpolated along cut edges: colours, texture coordinates, normals.
     `objects` (m,) int64 says which object a polygon is part of. A hole is joined to the outline
-    by a pair of bridging edges.
+    by a pair of bridging edges. `normals` is the first of three attributes that are the corner's
+    unit normal, which cuts keep as long as one; -1: there are none.
     """
 
     vertices: Floats
     starts: Integers
     attributes: Floats
     objects: Integers
+    normals: int = -1
 
     def __len__(self) -> int:
         return len(self.starts) - 1
@@ -52,7 +54,9 @@ class Polygons:
         counts = self.counts[indices]
         starts = np.concatenate([[0], np.cumsum(counts)])
         rows = np.repeat(self.starts[indices] - starts[:-1], counts) + np.arange(starts[-1])
-        return Polygons(self.vertices[rows], starts, self.attributes[rows], self.objects[indices])
+        return Polygons(
+            self.vertices[rows], starts, self.attributes[rows], self.objects[indices], self.normals
+        )
 
 
 def polygons_from(
@@ -110,6 +114,7 @@ def join(parts: Sequence[Polygons]) -> Polygons:
         np.concatenate([*starts, shift[-1:]]).astype(np.int64),
         np.concatenate([p.attributes for p in parts]),
         np.concatenate(labels),
+        parts[0].normals,
     )
 
 

@@ -4,8 +4,9 @@ A plane is kept as three corners of its *source* polygon, never as coefficients 
 fragments have rounded corners, and their own planes wander off (csg.js issue 11; a first version
 of our BSP never ended on 8,000 triangles for that reason).
 
-The determinant is evaluated in floating point with Shewchuk's error bound ("Adaptive precision
-floating-point arithmetic and fast robust geometric predicates", 1997, ccw bound A of orient3d).
+The determinant is evaluated in floating point, with the error bound of the first stage (A) of
+ORIENT3D: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+predicates", Discrete & Computational Geometry 18 (1997); `o3derrboundA` in its predicates.c.
 Where the bound leaves the sign open, libigl's adaptive `orient3d` decides.
 """
 
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 
 from renderer.ordering.polygons import Floats, Integers, Polygons, newell
 
-# (7 + 56 eps) eps with eps = 2^-53: the bound of the first stage, relative to the permanent.
+# (7 + 56 eps) eps with eps = 2^-53: ORIENT3D's bound A, relative to the permanent.
 ERROR_BOUND = (7.0 + 56.0 * 2.0**-53) * 2.0**-53
 # What cut points and turned polygons lose to rounding, relative to their coordinates.
 ROUNDING = 8 * 2.0**-52
@@ -75,6 +76,30 @@ def filtered_side(plane: Floats, x: float, y: float, z: float, slack: float) -> 
     if slack > 0.0 and height + bound <= reach:
         return 0
     return 2
+
+
+@numba.njit(inline="always")
+def loop_heights(plane: Floats, rows: Floats, first: int, end: int) -> tuple[float, float, float]:
+    """Least and greatest determinant of the rows first to end, and their largest coordinate."""
+    low, high, far = np.inf, -np.inf, 0.0
+    for v in range(first, end):
+        x, y, z = rows[v, 0], rows[v, 1], rows[v, 2]
+        height = distance_row(plane, x, y, z)
+        low, high = min(low, height), max(high, height)
+        far = max(far, abs(x), abs(y), abs(z))
+    return low, high, far
+
+
+@numba.njit(inline="always")
+def loop_limit(plane: Floats, far: float, slack: float) -> float:
+    """Beyond this determinant a corner is off the plane, cut points with their rounding too.
+
+    A coarser bound than `filtered_side`'s, the same for all corners within `far` of the origin:
+    what it leaves open is for the finer one.
+    """
+    away = far + max(abs(plane[0]), abs(plane[1]), abs(plane[2]))
+    permanent = plane[6] + plane[7] + plane[8]
+    return away * (ERROR_BOUND * permanent + ROUNDING * plane[9]) + slack * plane[9]
 
 
 def exact_sides(corners: Floats, points: Floats) -> NDArray[np.int8]:

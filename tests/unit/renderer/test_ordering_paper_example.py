@@ -67,7 +67,8 @@ class PrintedRelations(Relations):
     def _geometry(self):
         """Corners that are no numbers: every relation is left to `_decide`."""
         nowhere = np.full((15, 10), np.nan)
-        shape = (np.arange(15), np.ones(15, np.int64), nowhere[:, :3].copy(), np.zeros(15, bool))
+        loops = np.column_stack([np.arange(15), np.ones(15)] * 2).astype(np.int32)
+        shape = (loops, nowhere[:, :3].copy(), np.zeros(15, bool))
         return shape, nowhere, np.zeros((15, 3, 3)), np.zeros(15), self.row_of, self.count
 
     def _decide(self, rows, polygons):
