@@ -23,7 +23,7 @@ from experiment.recorder import FileRecorder, Who
 from experiment.session import World
 from experiment.texts import Texts
 from experiment.trial import TrialRun
-from experiment.window import Window
+from experiment.window import _KEYS, Window
 from tasks.base import View
 from tasks.catalog import TASKS
 
@@ -59,10 +59,9 @@ class Hand:
             self.window.on_mouse_drag(300, 300, 5 * way, way, LEFT, 0)
         elif self.cpu > 0:
             self.cpu = -(time.process_time() - self.cpu)
-            from pyglet.window import key
-
-            for symbol in (key._1, key.RETURN):
-                self.window.on_key_press(symbol, 0)
+            symbols = {ours: theirs for theirs, ours in _KEYS.items()}
+            for name in ("1", "enter"):
+                self.window.on_key_press(symbols[name], 0)
 
 
 def measured(transparency: str, seconds: float) -> dict[str, float]:

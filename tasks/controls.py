@@ -19,6 +19,13 @@ ARROWS = frozenset({"left", "right", "up", "down"})
 MARGIN = 1.02  # how much farther the camera stands than the tightest fit
 
 
+def of_view(event: Event, pressed: bool) -> Event:
+    """The event as the view takes it: a drag that began on a button (`pressed`) turns nothing."""
+    if pressed and isinstance(event, PointerMove) and event.dragging:
+        return replace(event, dragging=False)
+    return event
+
+
 @dataclass(frozen=True)
 class Held:
     """Which arrow keys are down, and until when their motion has been worked out."""

@@ -9,7 +9,7 @@ from numpy.random import Generator
 from renderer.scene import Scene
 from tasks.abstract_scene import abstract_scene
 from tasks.base import Outcome, View
-from tasks.controls import Orbit, orbit
+from tasks.controls import Orbit, of_view, orbit
 from tasks.entry import NumberEntry
 from tasks.events import Event
 from tasks.hud import Label
@@ -49,9 +49,8 @@ class Count:
     def on_event(self, state: CountState, event: Event) -> CountState:
         """The state after `event`."""
         entry = state.entry.on_event(event)
-        if entry.takes(event):
-            event = replace(event, dragging=False)
-        return replace(state, orbit=state.orbit.on_event(event), entry=entry)
+        turned = state.orbit.on_event(of_view(event, entry.pressed))
+        return replace(state, orbit=turned, entry=entry)
 
     def view(self, state: CountState) -> View:
         """What to show for `state`."""

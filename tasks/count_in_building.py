@@ -6,26 +6,27 @@ from dataclasses import dataclass
 
 from numpy.random import Generator
 
-from renderer.scene import Scene
 from tasks.base import Outcome, View
 from tasks.building import Building, count_building
-from tasks.controls import Walk, walk
 from tasks.count import number_outcome
-from tasks.current_target import inset, target_picture
 from tasks.entry import NumberEntry
-from tasks.events import Event, PointerPress, PointerRelease
+from tasks.events import Event, KeyPress
 from tasks.hud import Label
 from tasks.parameters import BuildingParameters
+from tasks.visit import Visit, visit
 
 
 @dataclass(frozen=True, eq=False)
 class CountInBuildingState:
     """A trial between two events."""
 
-    building: Building
-    walk: Walk
+    visit: Visit
     entry: NumberEntry
-    picture: Scene
+
+    @property
+    def building(self) -> Building:
+        """Where the trial is played."""
+        return self.visit.building
 
 
 class CountInBuilding:
@@ -47,29 +48,17 @@ class CountInBuilding:
     ) -> CountInBuildingState:
         """The first state of a trial."""
         building = self.make_scene(rng, parameters) if scene is None else scene
-        return CountInBuildingState(
-            building,
-            walk(parameters, building.start),
-            NumberEntry(aspect),
-            target_picture(building),
-        )
+        return CountInBuildingState(visit(building, parameters), NumberEntry(aspect))
 
     def on_event(self, state: CountInBuildingState, event: Event) -> CountInBuildingState:
-        """The state after `event`. The pointer is captured: it turns, and clicks nothing."""
-        pointer = isinstance(event, PointerPress | PointerRelease)
-        entry = state.entry if pointer else state.entry.on_event(event)
-        return CountInBuildingState(
-            state.building, state.walk.on_event(event), entry, state.picture
-        )
+        """The state after `event`: digits are typed, for the pointer turns the walker."""
+        entry = state.entry.on_event(event) if isinstance(event, KeyPress) else state.entry
+        return CountInBuildingState(state.visit.on_event(event), entry)
 
     def view(self, state: CountInBuildingState) -> View:
         """What to show for `state`."""
-        hud = (
-            Label("count_in_building.question", (0.26, 0.02)),
-            inset(state.picture, state.walk.held.time or 0.0),
-            state.entry.field(),
-        )
-        return View(state.building.scene, state.walk.camera(), hud, captured=True)
+        question = Label("count_in_building.question", (0.26, 0.02))
+        return state.visit.view(question, state.entry.field())
 
     def outcome(self, state: CountInBuildingState) -> Outcome | None:
         """The scored answer once confirmed: `count_error` is answer − truth."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease
+from tasks.events import Event, KeyPress, PointerPress, PointerRelease
 from tasks.hud import Button, Element, Entry, Rect
 
 KEYS = ("7", "8", "9", "4", "5", "6", "1", "2", "3", "backspace", "0", "enter")
@@ -46,10 +46,6 @@ class NumberEntry:
         if len(key) == 1 and key in "0123456789" and len(self.text) < MOST_DIGITS:
             return replace(self, text=(self.text + key).lstrip("0") or "0")
         return self
-
-    def takes(self, event: Event) -> bool:
-        """Whether a pointer event belongs to the buttons and must not turn the view."""
-        return isinstance(event, PointerMove) and event.dragging and self.pressed
 
     def buttons(self) -> tuple[tuple[str, Rect], ...]:
         """Each key's name and place: three columns in the lower right corner of the view."""

@@ -9,8 +9,8 @@ from numpy.random import Generator
 from renderer.scene import Scene
 from tasks.abstract_scene import abstract_scene
 from tasks.base import Outcome, View
-from tasks.controls import Orbit, orbit
-from tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease
+from tasks.controls import Orbit, of_view, orbit
+from tasks.events import Event, KeyPress, PointerPress, PointerRelease
 from tasks.hud import Button, Element, Label, Rect
 from tasks.letters import LETTERS
 from tasks.parameters import AbstractParameters
@@ -70,9 +70,7 @@ class Pattern:
             state = replace(state, pressed=False)
         elif isinstance(event, KeyPress):
             state = _chosen(state, event.key)
-        elif isinstance(event, PointerMove) and event.dragging and state.pressed:
-            event = replace(event, dragging=False)
-        return replace(state, orbit=state.orbit.on_event(event))
+        return replace(state, orbit=state.orbit.on_event(of_view(event, state.pressed)))
 
     def view(self, state: PatternState) -> View:
         """What to show for `state`."""

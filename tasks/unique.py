@@ -7,27 +7,28 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.random import Generator
 
-from renderer.scene import Scene
 from tasks.base import Outcome, View
 from tasks.building import Building, unique_building
-from tasks.controls import Walk, walk
-from tasks.current_target import inset, target_picture
 from tasks.events import Event, KeyPress
 from tasks.floor import room_at
 from tasks.hud import Label
 from tasks.parameters import BuildingParameters
 from tasks.plan_mark import PlanMark
+from tasks.visit import Visit, visit
 
 
 @dataclass(frozen=True, eq=False)
 class UniqueState:
     """A trial between two events; `found` once the participant has ended the search."""
 
-    building: Building
-    walk: Walk
+    visit: Visit
     plan: PlanMark
-    picture: Scene
     found: bool = False
+
+    @property
+    def building(self) -> Building:
+        """Where the trial is played."""
+        return self.visit.building
 
 
 class Unique:
@@ -49,35 +50,22 @@ class Unique:
     ) -> UniqueState:
         """The first state of a trial."""
         building = self.make_scene(rng, parameters) if scene is None else scene
-        return UniqueState(
-            building,
-            walk(parameters, building.start),
-            PlanMark(aspect, parameters.side),
-            target_picture(building),
-        )
+        return UniqueState(visit(building, parameters), PlanMark(aspect, parameters.side))
 
     def on_event(self, state: UniqueState, event: Event) -> UniqueState:
         """The state after `event`."""
         if state.found:
             return replace(state, plan=state.plan.on_event(event))
         found = isinstance(event, KeyPress) and event.key in ("space", "enter")
-        walked = state.walk.on_event(event)
-        return UniqueState(state.building, walked, state.plan, state.picture, found)
+        return UniqueState(state.visit.on_event(event), state.plan, found)
 
     def view(self, state: UniqueState) -> View:
         """What to show for `state`: the building, then its plan over it."""
-        camera = state.walk.camera()
-        picture = inset(state.picture, state.walk.held.time or 0.0)
         if not state.found:
-            search = (Label("unique.search", (0.26, 0.02)), picture)
-            return View(state.building.scene, camera, search, captured=True)
-        middle = (state.plan.aspect / 2, 0.03)
-        hud = (
-            Label("unique.mark", middle, align="center"),
-            picture,
-            *state.plan.elements(state.building),
-        )
-        return View(state.building.scene, camera, hud)
+            return state.visit.view(Label("unique.search", (0.26, 0.02)))
+        mark = Label("unique.mark", (state.plan.aspect / 2, 0.03), align="center")
+        plan = state.plan.elements(state.building)
+        return state.visit.view(mark, *plan, captured=False)
 
     def outcome(self, state: UniqueState) -> Outcome | None:
         """Once confirmed: `distance` from the mark, and as `correct`, whether the room is right."""
