@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import masks, order
+from renderer import blocks, masks, order
 from renderer.camera import Camera
 from renderer.projection import Boxes, screen_boxes
 from renderer.scene import Scene
@@ -247,7 +247,7 @@ def _with_levels(
         for k in range(-1, last + 1)
     ]
     parts = merged_parts(doubtful, size)
-    if _area(parts) <= doubt * size[0] * size[1]:
+    if _union(doubtful, size) <= doubt * size[0] * size[1]:
         parts = parts[:0]
     if "parts" in base.without and len(parts):
         parts = np.array([[0, 0, *size]])
@@ -293,6 +293,14 @@ def _held(
 
 def _area(parts: NDArray[np.int64]) -> int:
     return int((parts[:, 2:] - parts[:, :2]).prod(axis=1).sum())
+
+
+def _union(boxes: NDArray[np.float64], size: tuple[int, int]) -> int:
+    """Pixels that (k, 4) boxes cover together, to two pixels at their borders."""
+    fine = boxes * (blocks.BLOCK / 2)
+    shape = (size[1] // 2 + 1, size[0] // 2 + 1)
+    none = np.zeros(len(boxes), np.int64)
+    return int((blocks.covered(fine, none, shape) != 0).sum()) * 4
 
 
 def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:

@@ -59,9 +59,12 @@ class ExactPainter:
         self._entries: Cells | None = None
         self._textures: dict[str, moderngl.Texture] = {}
 
-    def draw(self, job: ExactJob, target: moderngl.Framebuffer) -> tuple[int, int]:
-        """Draw the plan's exact parts over the frame. Returns passes and draw calls."""
-        passes, draws = self._prepare(job)
+    def draw(
+        self, job: ExactJob, target: moderngl.Framebuffer, made: MaskPainter | None = None
+    ) -> tuple[int, int]:
+        """Draw the plan's exact parts over the frame, with the masks already `made` for it if
+        there are any. Returns passes and draw calls."""
+        passes, draws = self._prepare(job, made)
         whole = job.frame.exact
         self._set_parts(job, None)
         if job.technique.granularity != "pixel":
@@ -101,13 +104,16 @@ class ExactPainter:
             texture.release()
         return found
 
-    def _prepare(self, job: ExactJob) -> tuple[int, int]:
+    def _prepare(self, job: ExactJob, made: MaskPainter | None = None) -> tuple[int, int]:
         """Mask geometry and the pictures of distances."""
         caps = job.technique.min_transmittance > 0
         if caps not in self._painters:
             defines = ["CELLS"] + ["WITH_CAPS"] * caps
             self._painters[caps] = MaskPainter(self._context, defines)
         self._masks = self._painters[caps]
+        if made is not None:
+            self._masks.adopt(made)
+            return 0, 0
         covers = self._masks.prepare(
             job.table, job.frame, job.camera, job.technique, job.width, job.size
         )
@@ -222,25 +228,26 @@ class ExactPainter:
             self._entries, size, len(parts), "f4", False, False, wiped, components
         )
         self._context.enable_only(moderngl.NOTHING)
-        shader, slices = self._masks.mask, self._slices
+        painter, slices = self._masks, self._slices
         depths, extents = _window_depth(job), job.frame.boxes.extents + _SLACK
-        self._masks.begin()
+        painter.begin()
         slices.depth.use(DEPTHS)
         slices.color.use(COLORS)
         self._textures["parts"].use(PARTS)
-        shader.set(depths=DEPTHS, colors=COLORS, parts=PARTS, tau=job.technique.min_transmittance)
-        shader.set(cell=size, row_end=slices.columns * size[0])
-        shader.set(per_pixel=components == 2, additive=job.technique.model == "additive")
+        painter.set(depths=DEPTHS, colors=COLORS, parts=PARTS)
+        painter.set(cell=size, row_end=slices.columns * size[0])
+        painter.set(per_pixel=components == 2, additive=job.technique.model == "additive")
         for k, targets in enumerate(parts):
             self._entries.select(k, corners[k], job.size)
             x, y = self._entries.framebuffer.scissor[:2]
-            shader.set(shift=(corners[k][0] - x, corners[k][1] - y))
-            shader.set(first_way=_way(slices, bases[k][0], corners[k]), slices=bases[k][1])
+            painter.set(shift=(corners[k][0] - x, corners[k][1] - y))
+            painter.set(first_way=_way(slices, bases[k][0], corners[k]), slices=bases[k][1])
             for t, owner in zip(targets.tolist(), owners[k].tolist(), strict=True):
-                place = extents[t] if owner >= 0 else (0.0, 0.0, 0.0, 0.0)
+                place = extents[t].tolist() if owner >= 0 else (0.0, 0.0, 0.0, 0.0)
+                shader = painter.shader_of(t)
                 shader.set(beside=float(depths[t]), target=t, extents=tuple(place))
                 shader.set(way=_way(slices, max(owner, 0), corners[k]))
-                self._masks.draw_one(t)
+                painter.draw_one(t)
         self._entries.framebuffer.scissor = None
         return sum(len(targets) for targets in parts)
 

@@ -82,7 +82,8 @@ class Layer:
             self._masks.begin(counts)
             self._blend_levels(frame, runs[2:], technique, target, after_level)
         if len(frame.exact) and after_level is None:
-            self._draw_exact(self._job(table, frame, camera, technique, scale, size), target)
+            job = self._job(table, frame, camera, technique, scale, size)
+            self._draw_exact(job, target, self._masks if frame.levels else None)
         return FrameStats(
             self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
         )
@@ -102,8 +103,8 @@ class Layer:
         width = technique.width * scale
         return ExactJob(table, frame, camera, technique, width, size, self._matrix)
 
-    def _draw_exact(self, job: ExactJob, target: FrameTarget) -> None:
-        passes, draws = self._painter().draw(job, target.framebuffer)
+    def _draw_exact(self, job: ExactJob, target: FrameTarget, made: MaskPainter | None) -> None:
+        passes, draws = self._painter().draw(job, target.framebuffer, made)
         self._passes += passes
         self._draws += draws
 

@@ -30,16 +30,17 @@ class MaskGeometry:
     """The masks of a frame.
 
     vertices (k, 7) float32, see shaders/mask.vert; first (m,) and count (m,) for each of the m
-    `targets`; `looped` and `covered` are those that need a picture of distances: closed ones by
-    the loops of their outline, the others drawn whole. `tile` (n objects, 4) is where their
-    picture lies in the texture: left, bottom, right, top; `shift` (n objects, 2) leads there from
-    the window's pixels (y up); `height` is the texture's.
+    `targets`, which from number `pictured` on are looked up; `looped` and `covered` are those that
+    need a picture of distances: closed ones by the loops of their outline, the others drawn whole.
+    `tile` (n objects, 4) is where their picture lies in the texture: left, bottom, right, top;
+    `shift` (n objects, 2) leads there from the window's pixels (y up); `height` is the texture's.
     """
 
     vertices: NDArray[np.float32]
     targets: NDArray[np.int64]
     first: NDArray[np.int64]
     count: NDArray[np.int64]
+    pictured: int
     looped: NDArray[np.int64]
     covered: NDArray[np.int64]
     tile: NDArray[np.int64]
@@ -56,10 +57,14 @@ def mask_geometry(
     size: tuple[int, int],
 ) -> MaskGeometry:
     """The masks of a frame's targets, `width` pixels wide."""
-    hulled = _hulled(table, frame, technique)
+    # In the order of the levels, so that the masks of a level lie side by side.
+    levels = [level.masks for level in frame.levels]
+    masked = np.concatenate(levels) if levels else frame.masked
+    convex, closed = _kinds(table, masked)
+    hulled = _hulled(frame, masked, technique, convex & closed)
     ellipses = technique.mask in ("circle", "ellipse", "oriented-ellipse")
     shaped = np.ones_like(hulled) if ellipses else hulled
-    plain, pictured = frame.masked[shaped], frame.masked[~shaped]
+    plain, pictured = masked[shaped], masked[~shaped]
     if ellipses:
         vertices, firsts = _ellipses(table, plain, frame, camera, technique.mask, width, size)
     else:
@@ -68,14 +73,14 @@ def mask_geometry(
     empty = (tile[pictured, 2] <= tile[pictured, 0]) | (tile[pictured, 3] <= tile[pictured, 1])
     flat = _rectangles(pictured, np.cumsum(~empty) - 1, frame, shift, size)
     base = len(vertices) + 6 * np.arange(len(pictured))
-    closed = [table.meshes[table.slot[t]].topology.closed for t in pictured.tolist()]
-    loops = np.array(closed, dtype=bool) & ~frame.boxes.crosses[pictured]
+    loops = closed[~shaped] & ~frame.boxes.crosses[pictured]
     loops &= technique.mask == "outline"
     return MaskGeometry(
         vertices=np.concatenate([vertices, flat.reshape(-1, VERTEX)]).astype(np.float32),
         targets=np.concatenate([plain, pictured]),
         first=np.concatenate([firsts[:-1], base]),
         count=np.concatenate([np.diff(firsts), np.where(empty, 0, 6)]),
+        pictured=len(plain),
         looped=pictured[loops & ~empty],
         covered=pictured[~loops & ~empty],
         tile=tile,
@@ -111,19 +116,30 @@ def _rectangles(pictured, grid, frame, shift, size):  # type: ignore[no-untyped-
     return rows
 
 
+def _kinds(
+    table: SceneTable, masked: NDArray[np.int64]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """(m,) which targets' meshes are convex, and which are closed."""
+    slots = table.slot[masked]
+    convex, closed = np.zeros((2, len(table.meshes)), dtype=bool)
+    for slot in np.unique(slots).tolist():
+        mesh = table.meshes[slot]
+        convex[slot], closed[slot] = mesh.mesh.convex, mesh.topology.closed
+    return convex[slots], closed[slots]
+
+
 def _hulled(
-    table: SceneTable, frame: FramePlan, technique: DynamicTransparency
+    frame: FramePlan,
+    masked: NDArray[np.int64],
+    technique: DynamicTransparency,
+    solid: NDArray[np.bool_],
 ) -> NDArray[np.bool_]:
     """(m,) which masked targets show a hull: all if asked for, else closed convex uncut ones."""
     if technique.mask == "hull":
-        return np.ones(len(frame.masked), dtype=bool)
-    if technique.mask == "ring":
-        return np.zeros(len(frame.masked), dtype=bool)
-    if "hulls" in frame.without:
-        return np.zeros(len(frame.masked), dtype=bool)
-    shapes = [table.meshes[table.slot[t]] for t in frame.masked.tolist()]
-    convex = [m.mesh.convex and m.topology.closed for m in shapes]
-    return np.array(convex, dtype=bool) & ~frame.boxes.crosses[frame.masked]
+        return np.ones(len(masked), dtype=bool)
+    if technique.mask == "ring" or "hulls" in frame.without:
+        return np.zeros(len(masked), dtype=bool)
+    return solid & ~frame.boxes.crosses[masked]
 
 
 def _outline_points(
@@ -140,10 +156,22 @@ def _outline_points(
 
 
 def _hulls(table, targets, frame, camera, width, size):  # type: ignore[no-untyped-def]
-    clouds = [_outline_points(table, t, frame, camera, size) for t in targets.tolist()]
-    clouds = [c if len(c) else np.full((1, 2), -1e6) for c in clouds]
-    starts = np.cumsum([0] + [len(c) for c in clouds])
-    pixels = np.concatenate([*clouds, np.zeros((0, 2))])
+    clouds: list[NDArray[np.float64] | None] = [None] * len(targets)
+    cut = frame.boxes.crosses[targets]
+    for slot in np.unique(table.slot[targets]).tolist():
+        mine = np.nonzero((table.slot[targets] == slot) & ~cut)[0]
+        points = table.meshes[slot].topology.points
+        matrix = table.scene.transforms[targets[mine]]
+        turn = camera.rotation.T @ matrix[:, :3, :3]
+        move = (matrix[:, :3, 3] - camera.eye) @ camera.rotation
+        seen = points @ turn.transpose(0, 2, 1) + move[:, None]
+        for k, cloud in zip(mine.tolist(), projection.to_pixels(seen, camera, size), strict=True):
+            clouds[k] = cloud
+    for k in np.nonzero(cut)[0].tolist():
+        cloud = _outline_points(table, int(targets[k]), frame, camera, size)
+        clouds[k] = cloud if len(cloud) else np.full((1, 2), -1e6)
+    starts = np.cumsum([0] + [len(c) for c in clouds])  # type: ignore[arg-type]
+    pixels = np.concatenate([*clouds, np.zeros((0, 2))])  # type: ignore[list-item]
     vertices, firsts = masks.hulls_with_skirts(pixels, starts, width)
     return np.pad(vertices, ((0, 0), (0, VERTEX - vertices.shape[1]))), firsts
 

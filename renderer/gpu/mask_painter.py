@@ -21,18 +21,18 @@ _FORMAT = ("2f 2f 1f 2f", "in_place", "in_offset", "in_kind", "in_extra")
 _UNITS = {"distances": 2, "rings": 3, "counts": 4}
 
 
+_PREPARED = ("_distances", "_technique", "_width", "_size", "_first", "_count", "_pictured")
+
+
 class MaskPainter:
     """Masks of one frame at a time; `defines` choose what shaders/mask.frag gives."""
 
     def __init__(self, context: moderngl.Context, defines: Sequence[str] = ()) -> None:
-        self._context, self._cells = context, "CELLS" in defines
-        self.mask = program(context, "mask.vert", "mask.frag", defines)
+        self._context, self._defines = context, tuple(defines)
         self._distances = DistancePainter(context)
         self._vertices = context.buffer(reserve=1 << 16, dynamic=True)
-        self._array = self._bound()
-
-    def _bound(self) -> moderngl.VertexArray:
-        return self._context.vertex_array(self.mask.program, [(self._vertices, *_FORMAT)])
+        self._variants: dict[tuple[str, ...], Shader] = {}
+        self._arrays: dict[tuple[str, ...], moderngl.VertexArray] = {}
 
     @property
     def cover(self) -> Shader:
@@ -53,16 +53,26 @@ class MaskPainter:
         self.geometry: MaskGeometry = made
         self._technique, self._width, self._size = technique, width, size
         self._boxes = np.clip(frame.reach, 0, [*size, *size]) / BLOCK
-        rows = zip(made.targets.tolist(), made.first.tolist(), made.count.tolist(), strict=True)
-        self._runs = {t: (first, count) for t, first, count in rows}
+        self._first = np.zeros(len(frame.reach), np.int64)
+        self._count, self._pictured = self._first.copy(), np.zeros(len(frame.reach), dtype=bool)
+        self._first[made.targets], self._count[made.targets] = made.first, made.count
+        self._pictured[made.targets[made.pictured :]] = True
         if made.vertices.nbytes > self._vertices.size:
             self._vertices.release()
             self._vertices = self._context.buffer(reserve=2 * made.vertices.nbytes, dynamic=True)
-            self._array = self._bound()
+            self._arrays.clear()
         if len(made.vertices):
             self._vertices.orphan()
             self._vertices.write(made.vertices)
         return [np.array([t]) for t in made.covered.tolist()]
+
+    def adopt(self, other: MaskPainter) -> None:
+        """Take over what another has prepared and drawn for the same frame."""
+        for name in ("geometry", "blocks", *_PREPARED):
+            setattr(self, name, getattr(other, name))
+        if self._vertices is not other._vertices:
+            self._vertices = other._vertices
+            self._arrays.clear()
 
     def draw_distances(self, table: SceneTable, runs: list[list[Run]], camera: Camera) -> int:
         """Draw what the masks without a hull look up. Returns the draw calls made."""
@@ -72,9 +82,8 @@ class MaskPainter:
             left, top = np.floor(self._boxes[t, :2]).astype(int).tolist()
             right, bottom = np.ceil(self._boxes[t, 2:]).astype(int).tolist()
             self.blocks[top:bottom, left:right] = True
-        marked = self.blocks if self._cells else None
         return self._distances.draw(
-            table, made, runs, camera, self._technique, self._width, self._size, marked
+            table, made, runs, camera, self._technique, self._width, self._size, self.blocks
         )
 
     def begin(
@@ -82,33 +91,81 @@ class MaskPainter:
     ) -> None:
         """Set up the masks of this frame; `counts` are layers in front of the targets."""
         technique, height = self._technique, self._size[1]
-        self.mask.set(
+        for name, unit in _UNITS.items():
+            texture = counts if name == "counts" else self._distances.texture(name)
+            if texture is not None:
+                texture.use(unit)
+        used = {
+            "RINGS": technique.mask == "ring",
+            "SEARCHLIGHT": technique.mode == "active",
+            "COUNTED": counts is not None,
+        }
+        common = (*self._defines, *(name for name, wanted in used.items() if wanted))
+        self._keys = {False: common, True: (*common, "PICTURED")}
+        self.set(
             size=self._size,
             width=self._width,
             shift=shift,
             alpha_target=technique.alpha_target,
             alpha_edge=technique.alpha_edge,
-            tau=0.0 if counts is None else technique.min_transmittance,
-            ring_size=technique.ring_size if technique.mask == "ring" else 0,
+            tau=technique.min_transmittance,
+            ring_size=technique.ring_size,
             searchlight=searchlight(technique, height),
             **_UNITS,
         )
-        for name, unit in _UNITS.items():
-            texture = counts if name == "counts" else self._distances.texture(name)
-            if texture is not None:
-                texture.use(unit)
 
-    def draw(self, targets: NDArray[np.int64]) -> int:
-        """Multiply the masks of these targets into the bound frame's alpha. Returns the draws."""
-        for t in targets.tolist():
-            self.draw_one(t)
-        return len(targets)
+    def set(self, **values: object) -> None:
+        """Set uniforms of the programs that this frame's masks use."""
+        plain = self.geometry.pictured > 0
+        pictured = self.geometry.pictured < len(self.geometry.targets)
+        for kind, wanted in ((False, plain), (True, pictured)):
+            if wanted:
+                self._shader(self._keys[kind]).set(**values)
+
+    def shader_of(self, target: int) -> Shader:
+        """The program that draws a target's mask."""
+        return self._shader(self._keys[bool(self._pictured[target])])
+
+    def _shader(self, key: tuple[str, ...]) -> Shader:
+        if key not in self._variants:
+            self._variants[key] = program(self._context, "mask.vert", "mask.frag", key)
+        return self._variants[key]
 
     def draw_one(self, target: int) -> None:
         """Draw one target's mask."""
-        first, count = self._runs[target]
+        count = int(self._count[target])
         if count:
-            self._array.render(moderngl.TRIANGLES, count, first)
+            array = self._array(self._keys[bool(self._pictured[target])])
+            array.render(moderngl.TRIANGLES, count, int(self._first[target]))
+
+    def draw(self, targets: NDArray[np.int64]) -> int:
+        """Draw these targets' masks into the bound frame, those side by side in the buffer at
+        once. Returns the draw calls."""
+        draws = 0
+        for kind in (False, True):
+            mine = targets[(self._pictured[targets] == kind) & (self._count[targets] > 0)]
+            if not len(mine):
+                continue
+            first = np.sort(self._first[mine])
+            last = np.sort(self._first[mine] + self._count[mine])
+            cuts = np.nonzero(first[1:] != last[:-1])[0] + 1
+            for a, b in zip([0, *cuts.tolist()], [*cuts.tolist(), len(first)], strict=True):
+                begin, end = int(first[a]), int(last[b - 1])
+                self._array(self._keys[kind]).render(moderngl.TRIANGLES, end - begin, begin)
+                draws += 1
+        return draws
+
+    def _array(self, key: tuple[str, ...]) -> moderngl.VertexArray:
+        if key not in self._arrays:
+            shader = self._shader(key)
+            used = [a if a in shader.members else None for a in _FORMAT[1:]]
+            layout = " ".join(
+                part if name else f"{4 * int(part[0])}x"
+                for part, name in zip(_FORMAT[0].split(), used, strict=True)
+            )
+            content = [(self._vertices, layout, *[a for a in used if a])]
+            self._arrays[key] = self._context.vertex_array(shader.program, content)
+        return self._arrays[key]
 
 
 def searchlight(technique: DynamicTransparency, height: int) -> tuple[float, float, float, float]:

@@ -1,4 +1,6 @@
 // Provides a target's alpha mask, to be multiplied into the frame's alpha (004 §V-D).
+// What only some masks need is left out of the others' programs, for a software rasteriser executes
+// every branch: PICTURED (looked up, else by offset), RINGS, SEARCHLIGHT, COUNTED.
 // With CELLS instead a mask's entry for the exact picture: opacity, depth, the cap on the opacity
 // of what lies in front, and 1 where the mask is at its core. A depth of 0: no mask.
 uniform sampler2D distances;  // Euclidean, in pixels, −1 on the target, in tiles
@@ -39,6 +41,7 @@ layout(location = 0) out vec4 picture;
 layout(location = 1) out float id;
 #endif
 
+#ifdef RINGS
 float ring(ivec2 pixel) {
     int n = ring_size;
     vec2 cell = clamp((vec2(pixel) + 0.5) * n / size - 0.5, 0.0, n - 1.0);
@@ -50,12 +53,16 @@ float ring(ivec2 pixel) {
     return mix(mix(a, b, t.x), mix(d, e, t.x), t.y);
 }
 
+#endif
+
+#ifdef SEARCHLIGHT
 float light(ivec2 pixel) {
-    if (searchlight.z < 0.0) return 1.0;
     float beyond = length(vec2(pixel) + 0.5 - searchlight.xy) - searchlight.z;
     if (searchlight.w == 0.0) return beyond <= 0.0 ? 1.0 : 0.0;
     return clamp(1.0 - beyond / searchlight.w, 0.0, 1.0);
 }
+
+#endif
 
 #ifdef WITH_CAPS
 // The highest opacity of the penetrable fragments in front of the target.
@@ -79,19 +86,24 @@ float cap(ivec2 pixel, float place) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy) + shift;
+#ifdef PICTURED
+    float d = texelFetch(distances, pixel + ivec2(extra), 0).r;
+#else
     float d = length(offset);
     if (kind == -2) {
         float r = length(offset / extra);
         d = r > 1.0 ? d * (1.0 - 1.0 / r) : 0.0;
-    } else if (kind >= 0) {
-        d = texelFetch(distances, pixel + ivec2(extra), 0).r;
     }
-    float alpha = alpha_target;
-    if (d > 0.0) {
-        if (ring_size > 0) alpha = ring(pixel);
-        else alpha = width > 0.0 ? min(alpha_edge + (1.0 - alpha_edge) * d / width, 1.0) : 1.0;
-    }
+#endif
+#ifdef RINGS
+    float outside = ring(pixel);
+#else
+    float outside = width > 0.0 ? min(alpha_edge + (1.0 - alpha_edge) * d / width, 1.0) : 1.0;
+#endif
+    float alpha = d > 0.0 ? outside : alpha_target;
+#ifdef SEARCHLIGHT
     alpha = 1.0 - light(pixel) * (1.0 - alpha);
+#endif
 #ifdef CELLS
     vec2 place = vec2(pixel.x, size.y - 1.0 - pixel.y) + 0.5;
     bool near = all(greaterThan(place, extents.xy)) && all(lessThan(place, extents.zw));
@@ -103,10 +115,10 @@ void main() {
 #endif
     picture = vec4(alpha, own < 1.0 ? own : beside, most, d > 0.0 ? 0.0 : 1.0);
 #else
-    if (tau > 0.0 && d <= 0.0) {
-        float count = texelFetch(counts, pixel, 0).r;
-        if (count > 0.0) alpha = min(alpha, 1.0 - pow(tau, 1.0 / count));
-    }
+#ifdef COUNTED
+    float count = texelFetch(counts, pixel, 0).r;
+    if (d <= 0.0 && count > 0.0) alpha = min(alpha, 1.0 - pow(tau, 1.0 / count));
+#endif
     picture = vec4(0.0, 0.0, 0.0, alpha);
 #endif
 #ifdef WITH_IDS
