@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numba
 import numpy as np
 from numpy.typing import NDArray
@@ -10,16 +12,19 @@ from scipy.sparse.csgraph import connected_components
 
 from renderer.ordering.polygons import Floats, Integers
 
+# (p,) how much of the view the first and the second objects (p,) of pairs share.
+Shared = Callable[[Integers, Integers], Floats]
 # Circles of more objects than this are not untied one relation at a time.
 LARGE = 64
 
 
 def draw_order(
-    relations: NDArray[np.int8], corners: Floats, point: Floats
+    relations: NDArray[np.int8], corners: Floats, point: Floats, shared: Shared
 ) -> tuple[Integers, Integers, tuple[tuple[int, ...], ...], tuple[tuple[int, int], ...]]:
     """Objects from back to front, their layers, the circles, and the relations given up.
 
-    `relations` (b, b): 1 where i is in front of j, 2 where j is in front of i (i < j).
+    `relations` (b, b): 1 where i is in front of j, 2 where j is in front of i (i < j). `shared`
+    gives how much of the view pairs share.
     """
     cycles: list[tuple[int, ...]] = []
     broken: list[tuple[int, int]] = []
@@ -32,7 +37,7 @@ def draw_order(
         for circle in _circles(relations, left):
             if first:
                 cycles.append(circle)
-            for back, front in _given_up(relations, circle, corners, point):
+            for back, front in _given_up(relations, circle, corners, point, shared):
                 relations[min(back, front), max(back, front)] = 0
                 broken.append((back, front))
 
@@ -89,9 +94,10 @@ def _circles(relations: NDArray[np.int8], left: NDArray[np.bool_]) -> list[tuple
 
 
 def _given_up(
-    relations: NDArray[np.int8], circle: tuple[int, ...], corners: Floats, point: Floats
-) -> list[tuple[int, int]]:
-    """(behind, front) of what a circle must lose: the pair that shares least of the picture.
+    relations: NDArray[np.int8], circle: tuple[int, ...], corners: Floats, point: Floats,
+    shared: Shared,
+) -> list[tuple[int, int]]:  # fmt: skip
+    """(behind, front) of what a circle must lose: the pair that shares least of the view.
 
     A large circle loses all that the order of its nearest corners contradicts.
     """
@@ -100,23 +106,9 @@ def _given_up(
     back = np.where(relations[i, j] == 1, j, i)
     front = i + j - back
     if len(circle) <= LARGE:
-        least = int(np.argmin(_shared(corners, i, j, point)))
+        least = int(np.argmin(shared(i, j)))
         return [(int(back[least]), int(front[least]))]
     away = corners - point[:3]
     near = (away**2).sum(axis=2).min(axis=1) if point[3] else (-corners @ point[:3]).min(axis=1)
     wrong = (near[front] > near[back]) | ((near[front] == near[back]) & (front > back))
     return list(zip(back[wrong].tolist(), front[wrong].tolist(), strict=True))
-
-
-def _shared(corners: Floats, i: Integers, j: Integers, point: Floats) -> Floats:
-    """(p,) area that pairs' upright rectangles share in the picture (they hold the boxes)."""
-    way = corners.mean(axis=(0, 1)) - point[:3] if point[3] else -point[:3]
-    way = way / max(float(np.linalg.norm(way)), 1e-300)
-    side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
-    side /= max(float(np.linalg.norm(side)), 1e-300)
-    away = corners - point[:3] * point[3]
-    depth = np.maximum(away @ way, 1e-9) if point[3] else np.ones(corners.shape[:2])
-    flat = away @ np.stack([side, np.cross(way, side)], axis=1) / depth[..., None]
-    low, high = flat.min(axis=1), flat.max(axis=1)
-    extent = np.minimum(high[i], high[j]) - np.maximum(low[i], low[j])
-    return np.maximum(extent, 0.0).prod(axis=1)

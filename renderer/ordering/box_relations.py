@@ -23,9 +23,9 @@ def relate(centers, axes, halves, corners, point, table, sizes, exact):
     frame = _picture(centers, point)
     extent = np.empty((n, 8))
     for i in range(n):
-        code = _face_code(centers[i], axes[i], halves[i], point)
+        code = face_code(centers[i], axes[i], halves[i], point)
         length[i] = sizes[code]
-        _contour(corners[i], table[code], length[i], point, rays[i], edges[i])
+        contour(corners[i], table[code], length[i], point, rays[i], edges[i])
         _extent(rays[i], length[i], point[3], frame, extent[i])
     tested = 0
     for i in range(n):
@@ -48,7 +48,7 @@ def relate(centers, axes, halves, corners, point, table, sizes, exact):
 
 
 @numba.njit
-def _face_code(center, axes, halves, point):
+def face_code(center, axes, halves, point):
     """Six bits: which faces the eye sees."""
     code = 0
     for axis in range(3):
@@ -64,7 +64,7 @@ def _face_code(center, axes, halves, point):
 
 
 @numba.njit
-def _contour(corners, loop, length, point, rays, edges):
+def contour(corners, loop, length, point, rays, edges):
     """Rays from the eye to the contour's corners, and normals of the planes through its edges.
 
     For a view vector the rays are the corners themselves, shifted along it: the planes contain

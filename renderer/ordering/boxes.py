@@ -13,8 +13,9 @@ the eye to a point on the far side crosses the plane before it gets there.
 
 Exact, with `rule="plane"`, for objects that are convex (their far faces are drawn first, then the
 near ones) and whose boxes don't intersect. Boxes may be in front of each other in a circle,
-whatever the rule: no order is right then. The circle is reported, and broken at the least overlap.
-Intersecting boxes, which the paper excludes, are reported and ordered by the nearest corner.
+whatever the rule: no order is right then. The circle is reported, and broken where two contours
+overlap least. Intersecting boxes, which the paper excludes, are reported and ordered by the nearest
+corner.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from numpy.typing import NDArray
 
 from renderer.ordering.box_geometry import Boxes, contour_table, fit
 from renderer.ordering.box_graph import draw_order
+from renderer.ordering.box_overlap import shared_views
 from renderer.ordering.box_relations import FIRST, INTERSECTING, SECOND, relate
 from renderer.ordering.polygons import Floats, Integers, Polygons, check
 from renderer.ordering.predicates import plane_corners, plane_rows
@@ -82,9 +84,18 @@ class PreparedBoxes:
         for i, j in crossed:
             near = [np.linalg.norm(self._corners[k] - point[:3], axis=1).min() for k in (i, j)]
             relations[i, j] = FIRST if near[0] < near[1] else SECOND
-        objects, layers, cycles, broken = draw_order(relations, self._corners, point)
+        objects, layers, cycles, broken = draw_order(
+            relations, self._corners, point, lambda i, j: self._shared(i, j, point)
+        )
         pairs = tuple((int(i), int(j)) for i, j in crossed)
         return BoxOrder(objects, layers, cycles, broken, pairs, int(tested))
+
+    def _shared(self, first: Integers, second: Integers, point: Floats) -> Floats:
+        boxes = self.boxes
+        return shared_views(
+            boxes.centers, boxes.axes, boxes.halves, self._corners, point, self._table,
+            self._sizes, first, second,
+        )  # fmt: skip
 
     def order(self, eye: Floats | None = None, view: Floats | None = None) -> NDArray[np.int32]:
         """Triangle indices from back to front: object by object, far faces first."""

@@ -8,6 +8,7 @@ from scipy.spatial import ConvexHull
 
 from renderer.ordering import boxes
 from renderer.ordering.box_geometry import Boxes, contour_table, fit
+from renderer.ordering.box_overlap import shared_views
 from renderer.ordering.polygons import Polygons, polygons_from
 
 NOTHING = Polygons(np.empty((0, 3)), np.zeros(1, np.int64), np.empty((0, 0)), np.empty(0, np.int64))
@@ -120,22 +121,90 @@ def turn(angle):
     return np.array([[c, s, 0], [-s, c, 0], [0, 0, 1.0]])
 
 
-def test_a_circle_is_reported_and_broken_at_the_least_overlap():
-    """Three bars, each over the next; one pair crosses over a narrower stretch."""
-    axes = [turn(2 * np.pi * k / 3) for k in range(3)]
-    tilt = np.array([[1, 0, 0.0], [0, 1, 0], [0, 0, 1]])
+PAIRS = [(0, 1), (0, 2), (1, 2)]
+
+
+def circle(widths):
+    """Three bars, each over the next, of half widths of their own."""
+    axes = [turn(2 * np.pi * k / 3 + 0.2) for k in range(3)]
+    tilt = np.eye(3)
     tilt[0, 2] = 0.35
     tilt[0] /= np.linalg.norm(tilt[0])
     tilt[2] = np.cross(tilt[0], tilt[1])
-    made = Boxes(
+    return Boxes(
         np.array([a.T @ np.array([0.0, 0.9, 0.0]) for a in axes]),
         np.array([tilt @ a for a in axes]),
-        np.tile([2.2, 0.25, 0.02], (3, 1)),
+        np.array([[2.2, width, 0.02] for width in widths]),
     )
-    arranged = boxes.prepare(faces_of(made), made).arrange(eye=np.array([0.0, 0.0, 12.0]))
+
+
+def shared_rays(made, camera, rng, rays=40_000):
+    """How many of many rays meet both of 0 and 1, 0 and 2, 1 and 2 (slabs)."""
+    spots = np.column_stack([rng.uniform(-2.5, 2.5, (rays, 2)), np.zeros(rays)])
+    if "eye" in camera:
+        start, way = camera["eye"][None], spots - camera["eye"]
+    else:
+        start, way = spots - 30 * camera["view"], camera["view"][None]
+    local = np.einsum("bij,rbj->rbi", made.axes, start[:, None] - made.centers)
+    local_way = np.einsum("bij,rj->rbi", made.axes, way)
+    low, high = ((side * made.halves - local) / local_way for side in (-1, 1))
+    near, far = np.minimum(low, high).max(axis=2), np.maximum(low, high).min(axis=2)
+    met = (near < far) & (near > 0)
+    return [int((met[:, i] & met[:, j]).sum()) for i, j in PAIRS]
+
+
+@pytest.mark.parametrize("camera", [{"eye": [0.3, 0.2, 12.0]}, {"view": [0.01, 0.02, -1.0]}])
+@pytest.mark.parametrize("wide", range(3))
+def test_a_circle_is_reported_and_broken_at_the_least_overlap(wide, camera):
+    """The pair that fewest rays meet both of: not where upright rectangles overlap least, which
+    say little of bars that lie aslant."""
+    camera = {name: np.array(value) for name, value in camera.items()}
+    widths = np.array([0.12, 0.12, 0.12])
+    widths[wide] = 0.3
+    made = circle(widths)
+    arranged = boxes.prepare(faces_of(made), made).arrange(**camera)
     assert arranged.cycles == ((0, 1, 2),)
-    assert len(arranged.broken) == 1
     assert sorted(arranged.objects) == [0, 1, 2]
+    (pair,) = arranged.broken
+    shared = shared_rays(made, camera, np.random.default_rng(4))
+    least = PAIRS[int(np.argmin(shared))]
+    assert tuple(sorted(pair)) == least
+    assert wide not in least
+
+
+def test_what_two_squares_share_is_their_overlap_in_closed_form():
+    """A rectangle of half sides a and b at distance d fills 4 asin(ab / sqrt((a²+d²)(b²+d²)))."""
+    flat = [0.7, 0.7, 1e-9]
+    made = Boxes(
+        np.array([[0.2, 0.0, -3.0], [-0.2, 0.0, -3.0], [0.0, 0.0, -3.0], [5.0, 0.0, -3.0]]),
+        np.array([np.eye(3), np.eye(3), turn(np.pi / 4), np.eye(3)]),
+        np.array([flat, flat, flat, flat]),
+    )
+    table, sizes = contour_table()
+    first, second = np.array([0, 2, 0]), np.array([1, 2, 3])
+
+    def shared(point):
+        corners = np.ascontiguousarray(made.corners())
+        return shared_views(
+            made.centers, made.axes, made.halves, corners, point, table, sizes, first, second
+        )
+
+    a, b, d = 0.5, 0.7, 3.0
+    angle = 4 * np.arcsin(a * b / np.sqrt((a**2 + d**2) * (b**2 + d**2)))
+    square = 4 * np.arcsin(0.49 / (0.49 + d**2))
+    # The boxes are 2e-9 thick: that much nearer, and so much larger, at most.
+    assert shared(np.array([0.0, 0, 0, 1])) == pytest.approx([angle, square, 0.0], abs=1e-8)
+    assert shared(np.array([0.0, 0, 2, 0])) == pytest.approx([4 * a * b, 1.96, 0.0], abs=1e-8)
+
+
+def test_a_box_around_the_eye_shares_all_of_another():
+    made = Boxes(np.array([[0.0, 0, 0], [0.0, 0, -3]]), np.array([np.eye(3)] * 2), np.ones((2, 3)))
+    table, sizes = contour_table()
+    rest = (np.ascontiguousarray(made.corners()), np.array([0.0, 0, 0, 1]), table, sizes)
+    pairs = np.array([[0, 1, 0], [1, 1, 0]])
+    shared = shared_views(made.centers, made.axes, made.halves, *rest, *pairs)
+    face = 4 * np.arcsin(1 / (1 + 2.0**2))
+    assert shared == pytest.approx([face, face, 4 * np.pi])
 
 
 def test_intersecting_boxes_are_reported():
