@@ -112,15 +112,22 @@ class Renderer:
         Masks are as wide, against the picture, as in the frame. The picture drawn last stays.
         """
         n = len(scene.objects)
-        if isinstance(technique, DynamicTransparency) and technique.per_pixel_only:
+        frame = self._looked(scene, camera, technique, size)
+        if len(frame.exact) and isinstance(technique, DynamicTransparency):
+            # What a frame sorts by pixel is in none of its layers.
             small, layer = self._looking(size)
             scale = size[1] / self.size[1]
-            frame = plan(scene, camera, technique, size, self.without, scale)
             layer.draw(self._table(scene), frame, camera, technique, small, scale)
             shares = self.shares(scene, camera, technique, size)
             return visibility_of_shares(shares, small.read(), n)
-        layers = self.layers(scene, camera, technique, size)
+        layers = self._layers(scene, camera, technique, size, frame)
         return visibility(layers, self._looking(size)[0].read(), n)
+
+    def _looked(
+        self, scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]
+    ) -> FramePlan:
+        """The plan of the frame, found at `size`."""
+        return plan(scene, camera, technique, size, self.without, size[1] / self.size[1])
 
     def shares(
         self, scene: Scene, camera: Camera, technique: DynamicTransparency, size: tuple[int, int]
@@ -128,14 +135,20 @@ class Renderer:
         """What each pixel shows when it is sorted by itself: from the front, objects + 1 (h, w),
         0 for none, and their shares of the pixel (h, w)."""
         layer, scale = self._looking(size)[1], size[1] / self.size[1]
-        frame = plan(scene, camera, technique, size, self.without, scale)
+        frame = self._looked(scene, camera, technique, size)
         return layer.exact_layers(self._table(scene), frame, camera, technique, size, scale)
 
     def layers(
         self, scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]
     ) -> list[tuple[NDArray[np.int64], NDArray[np.floating]]]:
-        """What `look` sees: from back to front, object + 1 (h, w) where the layer drew anything,
-        else 0, and the opacity (h, w) with which it did."""
+        """What `look` sees where nothing is sorted by pixel: from back to front, object + 1 (h, w)
+        where the layer drew anything, else 0, and the opacity (h, w) with which it did."""
+        frame = plan(
+            *(scene, camera, technique, size, self.without | {"held"}, size[1] / self.size[1])
+        )
+        return self._layers(scene, camera, technique, size, frame)
+
+    def _layers(self, scene, camera, technique, size, frame):  # type: ignore[no-untyped-def]
         small, layer = self._looking(size)
         found: list[tuple[NDArray[np.int64], NDArray[np.floating]]] = []
         last = np.zeros(size[::-1], dtype=np.int64)
@@ -147,7 +160,6 @@ class Renderer:
             last = ids
 
         scale = size[1] / self.size[1]
-        frame = plan(scene, camera, technique, size, self.without | {"held"}, scale)
         layer.draw(self._table(scene), frame, camera, technique, small, scale, keep)
         return found
 
