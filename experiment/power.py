@@ -28,7 +28,9 @@ ENOUGH = 0.8
 class Effect(Protocol):
     """Where participants come from: n of them, (replications, n, 2) values standard, dynamic."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """What is tested."""
 
     def draw(self, rng: Generator, replications: int, n: int) -> Array:
         """Values of n participants, again and again."""

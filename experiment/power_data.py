@@ -11,13 +11,13 @@ from analysis.cells import Cells
 from analysis.errors import DataError
 from analysis.load.study import load_study
 from experiment.errors import InputError
-from experiment.power import Effect, SampledEffect
+from experiment.power import SampledEffect
 from experiment.power_ranks import RankEffect
 
 LEVELS = ("standard", "dynamic")
 
 
-def sampled(folder: Path, source: str = "simulated") -> list[Effect]:
+def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect | RankEffect]:
     """Times, errors, right answers, distances and ratings of a folder's participants.
 
     Each with the test that the analysis makes of it. Raises InputError.
@@ -30,7 +30,9 @@ def sampled(folder: Path, source: str = "simulated") -> list[Effect]:
     if tuple(measures.design(trials)["transparency"]) != LEVELS:
         raise InputError(f"--effect = {folder}: expected trials of both transparency levels")
     times = measures.time_by_task(trials)
-    effects: list[Effect] = [_effect("time, overall", measures.over_tasks(times))]
+    effects: list[SampledEffect | RankEffect] = [
+        _effect("time, overall", measures.over_tasks(times))
+    ]
     effects += [_effect(f"time {task}", times, task) for task in times.factors["task"]]
     errors = measures.relative_error(trials)
     effects += [_effect(f"relative error {task}", errors, task) for task in errors.factors["task"]]
