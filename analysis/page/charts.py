@@ -82,4 +82,6 @@ def _in_page(spec: dict[str, Any], svg: str) -> str:
 @cache  # two seconds of work, always with the same result
 def library() -> str:
     """Vega, Vega-Lite and vega-embed as one script that needs no network."""
-    return str(vl_convert.javascript_bundle()).replace("</script", "<\\/script")
+    return str(vl_convert.javascript_bundle("window.vegaEmbed = vegaEmbed;")).replace(
+        "</script", "<\\/script"
+    )

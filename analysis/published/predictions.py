@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from analysis.comparison import apa_f
-from analysis.page.blocks import Cited, Column, Fold, Prose, Section, Table, say
+from analysis.page.blocks import Block, Cited, Column, Fold, Prose, Section, Table, say
 from analysis.published.consistency import Finding
 from analysis.published.numbers import Published
 from analysis.sections.summary import places
@@ -97,8 +97,8 @@ def predictions_section(
         _depth(published, printed),
     )
     fold = Fold("Printed numbers without an F", (printed,))
-    blocks = (*answers, *places(answers), fold)
-    return Section("predictions", "The paper's predictions", blocks)
+    every: tuple[Block, ...] = (*answers, *places(answers), fold)
+    return Section("predictions", "The paper's predictions", every)
 
 
 def _printed(published: Published) -> Table:

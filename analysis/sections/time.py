@@ -103,7 +103,7 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
     if not is_defined(row["p"]):
         return say(f"{name}: {{}}.", logs.cite(m.key, "p"))
     faster = "faster" if row["ratio"] < 1 else "slower"
-    shown = decisive(row)[1] < alpha
+    shown = float(str(decisive(row)[1])) < alpha
     verdict = f"participants were {faster} with dynamic transparency"
     verdict = verdict if shown else "no difference between the conditions was shown"
     sentence = say(
