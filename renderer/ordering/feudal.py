@@ -7,6 +7,11 @@ there is none, a plane cuts. The order is exact for every eye, up to the roundin
 and comes as *classes* whose members hide nothing of each other: they may be drawn in any order,
 or at once (polygons that lie on one another in one plane excepted: they meet in their input order).
 
+The paper has the static version's list never longer than the dynamic one's. So it is where both
+list the same group: there the dynamic version makes a class of every plane, and the static one
+puts several into one. Where their switches differ the pieces do too, and nothing keeps it so: it
+can be longer then for some eyes (tests/unit/renderer/test_feudal_lists.py has both).
+
 Assumes polygons that stand still. The table takes n² bytes and at least as many tests in the
 static version: made for hundreds to a few thousand polygons; beyond, use `bsp`.
 """
@@ -27,9 +32,6 @@ from renderer.ordering.polygons import Floats, Integers, Polygons
 from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
 
 VERSIONS = ("static", "dynamic")
-# What the balance of a splitting plane is worth in cuts, by default: 1 gives fewer pieces than the
-# paper's 0 on all scenes with many cuts (leaves, cow, soup, house), more on the vise.
-BALANCE = 1.0
 # Above this the table of relations would take more than 400 MB.
 LARGEST = 20_000
 
@@ -59,7 +61,7 @@ def prepare(
     closed: bool = False,
     rng: np.random.Generator | None = None,
     tolerance: float = 0.0,
-    balance: float = BALANCE,
+    balance: float = 0.0,
     lookahead: int = 0,
 ) -> PreparedFeudal:
     """Build the tree.
@@ -68,9 +70,10 @@ def prepare(
     volumes; translucent ones show their far walls and are prepared open. `rng` shuffles the input
     of the dynamic version; without one a fixed stream does. A splitting plane is the one with the
     fewest cuts less `balance` times the binary logarithm of its smaller side's polygons, and the
-    most balanced of these; 0 is the paper's rule. With `lookahead`, several candidates are tried
-    out (see `feudal_lookahead`), which takes seconds for hundreds of polygons and pays where one
-    object is drawn for long.
+    most balanced of these; 0 is the paper's rule, more cuts less where many polygons intersect.
+    With `lookahead`, so many candidates of several such rules are tried out at every cut (see
+    `feudal_lookahead`): it takes seconds for hundreds of polygons, and pays where one object is
+    drawn for long.
 
     Raises ValueError for polygons that `polygons.check` refuses, for an unknown version, for a
     negative balance or lookahead, and for more than 20,000 polygons.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -150,6 +152,41 @@ def test_attributes_are_interpolated_where_an_edge_is_cut():
     places, found = made.drawable.polygons.vertices[cut], made.drawable.polygons.attributes[cut, 0]
     assert np.allclose(found, 2 * places[:, 0] + 4 * places[:, 1])
     assert set(np.round(found, 12)) == {1.0, 3.0}
+
+
+@pytest.mark.parametrize("method", [bsp, feudal])
+def test_vertex_normals_stay_as_long_as_one_where_an_edge_is_cut(method):
+    """Halfway between two unit normals lies their mean, made as long as one again."""
+    knife = [[0.5, -9.0, -9], [0.5, 9, -9], [0.5, 0, 9]]
+    normals = np.array([[0.0, 0, 1], [0.6, 0, 0.8], [0.0, 0.6, 0.8]])
+    values = [np.zeros((3, 4)), np.column_stack([[1.0, 2.0, 3.0], normals])]
+    values[0][:, 3] = 1.0
+    loose = polygons_from([knife, TRIANGLE], values)
+    polygons = replace(loose, normals=1)
+    drawn = method.prepare(polygons).drawable.polygons
+    assert drawn.normals == 1
+    points, found = drawn.vertices, drawn.attributes
+    of_triangle = points[:, 2] == 0
+    cut = of_triangle & (points[:, 0] == 0.5)
+    assert cut.sum() >= 4
+    expected = np.column_stack([1 - points.sum(axis=1), points[:, :2]]) @ normals
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    assert np.allclose(found[of_triangle, 1:], expected[of_triangle], atol=1e-15)
+    assert not np.allclose(np.linalg.norm(method.prepare(loose).drawable.polygons.attributes
+                                          [cut, 1:], axis=1), 1.0, atol=1e-3)  # fmt: skip
+    # What is no normal is interpolated, and left alone.
+    assert np.allclose(found[cut, 0], 1 + points[cut, 0] + 2 * points[cut, 1])
+
+
+def test_normals_that_cancel_where_an_edge_is_cut_are_the_plane_s():
+    knife = [[0.5, -9.0, -9], [0.5, 9, -9], [0.5, 0, 9]]
+    facing = np.array([[1.0, 0, 0], [-1.0, 0, 0], [-1.0, 0, 0]])
+    triangle = [[0.0, 0, 0], [1, 0, 0], [1, 1, 0]]
+    made = replace(polygons_from([knife, triangle], [facing, facing]), normals=0)
+    drawn = bsp.prepare(made, "first").drawable.polygons
+    cut = (drawn.vertices[:, 0] == 0.5) & (drawn.vertices[:, 2] == 0)
+    assert cut.any()
+    assert np.array_equal(np.unique(drawn.attributes[cut], axis=0), [[0.0, 0.0, 1.0]])
 
 
 def test_a_triangle_falls_in_the_two_ways_of_paper_001():
