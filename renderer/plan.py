@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks, masks, order
+from renderer import blocks, clusters, masks, order
 from renderer.camera import Camera
 from renderer.projection import Boxes, screen_boxes
 from renderer.scene import Scene
@@ -63,8 +63,9 @@ class FramePlan:
     parts of the picture (left, top, right, bottom) to sort by pixel; objects that are `held` show
     nowhere else and are drawn by that alone. `wide` are blended objects
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
-    else. `boxes` are the extents of all objects. `reasons` (n,) say why each object is drawn as it
-    is, `behind` (n,) which target it is that makes it blend (−1: none).
+    else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
+    are in levels. `boxes` are the extents of all objects. `reasons` (n,) say why each object is
+    drawn as it is, `behind` (n,) which target it is that makes it blend (−1: none).
     """
 
     opaque: Indices
@@ -79,6 +80,7 @@ class FramePlan:
     without: frozenset[str] = field(default_factory=frozenset)
     wide: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
     holes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 4), np.int64))
+    clusters: tuple[Indices, ...] = ()
     held: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @property
@@ -156,6 +158,7 @@ def plan(
         size,
         scene.triangle_counts,
         technique.doubt,
+        _fit(scene, technique),
     )
 
 
@@ -179,6 +182,13 @@ def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
         np.full(len(reasons), -1),
         frozenset(without),
     )
+
+
+def _fit(scene: Scene, technique: DynamicTransparency) -> NDArray[np.bool_]:
+    """(n,) which objects may be drawn polygon by polygon. Layers are counted by object alone."""
+    if technique.order != "polygons" or technique.min_transmittance > 0:
+        return np.zeros(len(scene.objects), dtype=bool)
+    return clusters.fitting(scene)
 
 
 def _reaching(
@@ -231,9 +241,15 @@ def _with_levels(
     size: tuple[int, int],
     triangles: Indices,
     doubt: float,
+    fit: NDArray[np.bool_],
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right."""
-    extents, reach = base.boxes.extents, base.reach
+    reach, opaque = base.reach, ~blended
+    united = clusters.unite(
+        base.boxes.extents, relation, uncertain, blended, fit & ~masked, triangles
+    )
+    extents, relation = united.extents, united.relation
+    uncertain, blended = united.uncertain, united.blended
     seen = seen[blended[seen] | masked[seen]]
     of_object, of_mask, forced = order.levels(seen, extents, reach, relation, blended, masked)
     doubtful = order.doubtful(
@@ -258,11 +274,12 @@ def _with_levels(
         return _held(base, merged_parts(reach[masked], size), triangles, size)
     return replace(
         base,
-        opaque=np.nonzero(keep & ~blended)[0],
+        opaque=np.nonzero(keep & opaque)[0],
         levels=tuple(levels),
         exact=parts,
-        wide=_wide(base, np.nonzero(blended)[0], holes, triangles, size),
+        wide=_wide(base, np.nonzero(blended & ~united.clustered)[0], holes, triangles, size),
         holes=holes,
+        clusters=united.members,
     )
 
 

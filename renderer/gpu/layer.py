@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
@@ -16,8 +17,11 @@ from renderer.gpu.meshes import MeshStore
 from renderer.gpu.programs import Shader, program
 from renderer.gpu.scene_table import Run, SceneTable
 from renderer.gpu.targets import FrameTarget
-from renderer.plan import FramePlan, Technique
+from renderer.plan import FramePlan, Level, Technique
 from renderer.techniques.dynamic import DynamicTransparency
+
+if TYPE_CHECKING:
+    from renderer.gpu.cluster_painter import ClusterPainter
 
 OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
@@ -51,6 +55,7 @@ class Layer:
         self._masks = MaskPainter(context, defines)
         self._counter: LayerCounter | None = None
         self._exact: ExactPainter | None = None
+        self._clusters: ClusterPainter | None = None
 
     def draw(
         self,
@@ -80,7 +85,7 @@ class Layer:
             after_level()
         if frame.levels and isinstance(technique, DynamicTransparency):
             self._masks.begin(counts)
-            self._blend_levels(frame, runs[2:], technique, target, after_level)
+            self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
         if len(frame.exact) and after_level is None:
             job = self._job(table, frame, camera, technique, scale, size)
             self._draw_exact(job, target, self._masks if frame.levels else None)
@@ -113,8 +118,12 @@ class Layer:
         pass and of each level, and the picture of counts if one is needed."""
         wide = np.isin(np.arange(len(frame.reasons)), frame.wide)
         parts = [frame.opaque, frame.wide]
+        leaders = [members[0] for members in frame.clusters]
         for level in frame.levels:
-            parts += [level.objects[~wide[level.objects]], level.objects[wide[level.objects]]]
+            alone = level.objects
+            if leaders:
+                alone = alone[~np.isin(alone, leaders)]
+            parts += [alone[~wide[alone]], alone[wide[alone]]]
         if not frame.levels:
             sequence, runs = table.sequence(parts, camera)
             self._bind(table, sequence)
@@ -147,6 +156,7 @@ class Layer:
         return self._counter.counts
 
     def _bind(self, table: SceneTable, sequence: moderngl.Texture) -> None:
+        self._bound = table, sequence
         table.table.use(0)
         sequence.use(1)
 
@@ -193,8 +203,28 @@ class Layer:
         context.depth_func = "<="
         context.enable(moderngl.CULL_FACE)
 
+    def _draw_clusters(
+        self, table: SceneTable, camera: Camera, frame: FramePlan, level: Level
+    ) -> None:
+        """The level's clusters, polygon by polygon."""
+        for members in frame.clusters:
+            if members[0] not in level.objects:
+                continue
+            if self._clusters is None:
+                # Most frames have none, and its kernels take a second to load.
+                from renderer.gpu.cluster_painter import ClusterPainter
+
+                self._clusters = ClusterPainter(self._context)
+            self._context.enable(moderngl.BLEND)
+            self._context.blend_func = OBJECT
+            self._draws += self._clusters.draw(table.scene, members, camera, self._object)
+            self._passes += 1
+            self._bind(*self._bound)
+
     def _blend_levels(
         self,
+        table: SceneTable,
+        camera: Camera,
         frame: FramePlan,
         runs: list[list[Run]],
         technique: DynamicTransparency,
@@ -210,6 +240,7 @@ class Layer:
                 self._pass(self._depth, solid, NOTHING)
                 self._pass(self._object, part, OBJECT)
                 target.framebuffer.scissor = None
+            self._draw_clusters(table, camera, frame, level)
             if after_level is not None and len(level.objects):
                 after_level()
             if len(level.masks):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.contours import HalfEdges, half_edges
 from renderer.geometry import Mesh
@@ -45,6 +46,15 @@ class GpuMesh:
             self._edges = half_edges(self.topology)
         return self._edges
 
+    def reorder(self, triangles: NDArray[np.int32]) -> None:
+        """The same triangles (m, 3) in another order."""
+        self._indices.write(np.ascontiguousarray(triangles, dtype="i4").tobytes())
+
+    def release(self) -> None:
+        """Give the GPU's memory back."""
+        for thing in (*self._arrays.values(), self._vertices, self._indices):
+            thing.release()
+
     def draw(self, context: moderngl.Context, shader: Shader, first: int, count: int) -> None:
         """Draw `count` instances, from row `first` of the sequence on."""
         key = shader.program.glo
@@ -70,3 +80,8 @@ class MeshStore:
         if key not in self._meshes:
             self._meshes[key] = GpuMesh(self._context, mesh, mirrored)
         return self._meshes[key]
+
+    def release(self) -> None:
+        """Give the GPU's memory back."""
+        for mesh in self._meshes.values():
+            mesh.release()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Set
+from dataclasses import replace
 
 import moderngl
 import numpy as np
@@ -127,6 +128,7 @@ class Renderer:
         self, scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]
     ) -> FramePlan:
         """The plan of the frame, found at `size`."""
+        technique = _by_object(technique)
         return plan(scene, camera, technique, size, self.without, size[1] / self.size[1])
 
     def shares(
@@ -143,9 +145,8 @@ class Renderer:
     ) -> list[tuple[NDArray[np.int64], NDArray[np.floating]]]:
         """What `look` sees where nothing is sorted by pixel: from back to front, object + 1 (h, w)
         where the layer drew anything, else 0, and the opacity (h, w) with which it did."""
-        frame = plan(
-            *(scene, camera, technique, size, self.without | {"held"}, size[1] / self.size[1])
-        )
+        technique, scale = _by_object(technique), size[1] / self.size[1]
+        frame = plan(scene, camera, technique, size, self.without | {"held"}, scale)
         return self._layers(scene, camera, technique, size, frame)
 
     def _layers(self, scene, camera, technique, size, frame):  # type: ignore[no-untyped-def]
@@ -201,6 +202,13 @@ class Renderer:
                 self._tables.pop(next(iter(self._tables))).release()
             self._tables[key] = SceneTable(self.context, self._store, scene)
         return self._tables[key]
+
+
+def _by_object(technique: Technique) -> Technique:
+    """Polygons have no numbers of their objects: what they show is looked for by pixel."""
+    if isinstance(technique, DynamicTransparency) and technique.order == "polygons":
+        return replace(technique, order="planes")
+    return technique
 
 
 def _checked(size: tuple[int, int]) -> tuple[int, int]:

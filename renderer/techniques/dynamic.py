@@ -11,7 +11,7 @@ MODES = ("passive", "active")
 GRANULARITIES = ("pixel", "surface", "object", "region")
 COMBINES = ("product", "min")
 MODELS = ("multiplicative", "additive")
-ORDERS = ("planes", "centers")
+ORDERS = ("planes", "polygons", "centers")
 
 _OWNER = "dynamic transparency"
 
@@ -40,9 +40,10 @@ class DynamicTransparency:
     leave less than this share of the light through. `model` says how transparency adds up along a
     line of sight (§III-A). Objects are drawn in the order that planes between their boxes say, and
     what no plane separates is sorted by pixel if it makes up more than the share `doubt` of the
-    picture, else by its centres; with `order` "centers", everything is drawn by the view depth of
-    the groups' centres, as in the paper (§V-B). With `exact`, every pixel is sorted by itself:
-    slower, no approximation.
+    picture, else by its centres. With `order` "polygons", convex objects that reach into one
+    another are cut along each other and drawn polygon by polygon, quicker as long as they stand
+    still. With "centers", everything is drawn by the view depth of the groups' centres, as in the
+    paper (§V-B). With `exact`, every pixel is sorted by itself: slower, no approximation.
     """
 
     alpha_target: float = 0.3

@@ -24,7 +24,7 @@ from renderer.techniques.dynamic import DynamicTransparency
         ("combine", "max", "one of 'product', 'min'"),
         ("model", "subtractive", "one of 'multiplicative', 'additive'"),
         ("ring_size", 1, "a whole number 2 to"),
-        ("order", "alphabet", "one of 'planes', 'centers'"),
+        ("order", "alphabet", "one of 'planes', 'polygons', 'centers'"),
         ("doubt", 2, "a number from 0 to 1"),
     ],
 )
