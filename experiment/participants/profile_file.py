@@ -73,5 +73,8 @@ def _toml(value: Any) -> str:
         escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
         return f'"{escaped}"'
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_toml(v) for v in value) + "]"
+        line = "[" + ", ".join(_toml(v) for v in value) + "]"
+        return (
+            line if len(line) < 80 else "[\n" + "".join(f"    {_toml(v)},\n" for v in value) + "]"
+        )
     return repr(value)
