@@ -30,6 +30,12 @@ def start_of(sidecar: Mapping[str, Any], header: str) -> str:
     return link(plain, header)
 
 
+def seal_of(end: Mapping[str, Any]) -> str:
+    """The end file's hash of itself, but for `seal`: nothing else holds how a session ended."""
+    plain = {key: value for key, value in end.items() if key != "seal"}
+    return link("", json.dumps(plain, sort_keys=True, ensure_ascii=False))
+
+
 def file_hash(path: Path) -> str:
     """SHA-256 of a file's bytes."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
@@ -104,6 +110,8 @@ def _verify_end(folder: Path, table: Path, last: str) -> Iterator[str]:
     if not path.is_file():
         return
     end = _json(path)
+    if end.get("seal") != seal_of(end):
+        yield f"{path.name}: changed"
     if end.get("chain") != last:
         yield f"{table.name}: rows at the end removed or added, or {path.name} changed"
     for name, digest in end.get("files", {}).items():

@@ -16,7 +16,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from experiment.chain import end_of, file_hash, latest_table, start_of
+from experiment.chain import end_of, file_hash, latest_table, seal_of, start_of
 from experiment.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
 from experiment.dataset import describe_dataset
 from experiment.design import Trial
@@ -185,10 +185,11 @@ class FileRecorder:
             for path in sorted(mine)
             if path.name not in self._chained
         }
-        content = {"ended": self._now(), "status": status, "trials": self._rows}
+        how = {"ended": self._now(), "status": status, "trials": self._rows}
+        content = {**how, "chain": self._trials.chain, "files": files}
         path = self._file("end.json")
         try:
-            write_new(path, _json({**content, "chain": self._trials.chain, "files": files}))
+            write_new(path, _json({**content, "seal": seal_of(content)}))
         except OSError as error:
             raise refused(error, path) from None
 

@@ -5,7 +5,8 @@ value in the row before followed by the row's own text up to (without) the comma
 The sidecar's `chain.start` stands before the first row; it is itself made from the sidecar and the
 table's header. Each row holds the hashes of its trial's traces. The session's end file, if the
 session was closed, holds the last value and the hashes of the session's other files; the sidecar of
-a session that goes on holds the last value of the one before (CONVENTIONS.md).
+a session that goes on holds the last value of the one before. The end
+file's `seal` is the hash of the rest of it (CONVENTIONS.md).
 
 Data may be handed on without their traces: a session whose traces folder is gone is verified
 without them and says so. A single trace that is missing was removed.
@@ -56,6 +57,12 @@ def start_of(sidecar: Mapping[str, Any], header: str) -> str:
     chain = {key: value for key, value in sidecar["chain"].items() if key != "start"}
     plain = json.dumps({**sidecar, "chain": chain}, sort_keys=True, ensure_ascii=False)
     return link(plain, header)
+
+
+def seal_of(end: Mapping[str, Any]) -> str:
+    """The end file's hash of itself, but for `seal`."""
+    plain = {key: value for key, value in end.items() if key != "seal"}
+    return link("", json.dumps(plain, sort_keys=True, ensure_ascii=False))
 
 
 def verify_all(
@@ -147,6 +154,10 @@ def _verify_end(name: str, last: str, folder: Path, traced: bool) -> tuple[str, 
         files = {str(name): str(digest) for name, digest in dict(end["files"]).items()}
     except (ValueError, KeyError, TypeError, RecursionError):
         raise DataError(f"{path.relative_to(folder)}: expected a session's end, as JSON") from None
+    if "seal" not in end:
+        raise DataError(f"{path.relative_to(folder)}: seal = missing: expected the file's own hash")
+    if end["seal"] != seal_of(end):
+        raise DataError(f"{path.relative_to(folder)}: changed after the session")
     if end.get("chain") != last:
         raise DataError(f"{name}: rows at its end were removed or added, or {path.name} changed")
     traces = 0

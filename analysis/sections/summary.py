@@ -69,6 +69,8 @@ def _by_task(logs: Table, tasks: Sequence[Any], alpha: float) -> list[str | Cite
         runs += ["; " if i else "", f"{row['label']} {words}, ratio "]
         runs += [logs.cite(str(row["measure"]), "ratio"), ", p "]
         runs += ["" if p.text.startswith("<") else "= ", p]
+        if words == "no difference shown":
+            runs += _p(logs, row, "tost_p")
     return [*runs, "."]
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from experiment.chain import link, start_of
+from experiment.chain import link, seal_of, start_of
 from experiment.columns import QUESTIONNAIRE, TRIALS, Column
 from experiment.config import Study
 from experiment.dataset import describe_dataset
@@ -71,7 +71,7 @@ def render(about: Mapping[str, Any], study: Study, slots: Slots, played: Sequenc
             if "questionnaire" in name
         },
     }
-    return Chunk(tuple(slots), {**texts, f"{stem}_end.json": _json(end)})
+    return Chunk(tuple(slots), {**texts, f"{stem}_end.json": _json({**end, "seal": seal_of(end)})})
 
 
 def _plain(rows: Sequence[Mapping[str, Any]], columns: tuple[Column, ...]) -> str:

@@ -10,7 +10,7 @@ import pytest
 
 from analysis import exclude, plan
 from analysis.load import schema
-from analysis.load.chain import link, start_of
+from analysis.load.chain import link, seal_of, start_of
 from experiment import chain, config
 from experiment.columns import TABLES
 
@@ -35,6 +35,8 @@ def test_the_chain_is_the_same_chain(tmp_path: Path) -> None:
     sidecar = {"study": "s", "a": [1, "ü"], "chain": {"follows": "x", "start": "ignored"}}
     again = json.loads(json.dumps(sidecar))
     assert start_of(again, "row_id,chain") == chain.start_of(sidecar, "row_id,chain")
+    end = {"status": "complete", "seal": "ignored", "files": {"ü": "0"}, "chain": "y"}
+    assert seal_of(end) == chain.seal_of(end)
     assert link("before", "row, text ü") == chain.link("before", "row, text ü")
 
 

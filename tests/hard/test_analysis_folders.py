@@ -13,7 +13,7 @@ import pytest
 from made_data import Made, make_folder
 
 from analysis.errors import SHOWN, DataError
-from analysis.load.chain import link, start_of
+from analysis.load.chain import link, seal_of, start_of
 from analysis.load.study import load_study
 from analysis.page.markdown import as_markdown
 from analysis.report import Options, make_report
@@ -220,7 +220,8 @@ def chain(folder: Path) -> Path:
     training.write_text("t,event\n")
     files = {str(p.relative_to(path.parent)): sha256(p) for p in (folder / ANSWERS, training)}
     end = path.with_name(path.name.replace("_trials_data.csv", "_end.json"))
-    end.write_text(json.dumps({"chain": before, "files": files}))
+    about = {"status": "complete", "chain": before, "files": files}
+    end.write_text(json.dumps({**about, "seal": seal_of(about)}))
     return end
 
 
@@ -267,7 +268,7 @@ def test_a_changed_byte_in_any_recorded_file_is_found_and_named(folder):
     chain(folder)
     load_study(folder)
     for path in sorted((folder / TRIALS).parent.rglob("*")):
-        if not path.is_file() or path.name.endswith("_end.json"):
+        if not path.is_file():
             continue
         whole = path.read_bytes()
         # the last letter or digit: still a table, still JSON, and no longer what was written
@@ -275,7 +276,7 @@ def test_a_changed_byte_in_any_recorded_file_is_found_and_named(folder):
         path.write_bytes(
             whole[:at] + (b"1" if whole[at : at + 1] != b"1" else b"2") + whole[at + 1 :]
         )
-        named = path if path.suffix == ".csv" else path.with_suffix(".csv")
+        named = path.with_suffix(".csv") if path.name.endswith("_data.json") else path
         refused(folder, f"{named.relative_to(folder)}: .*changed")
         path.write_bytes(whole)
     load_study(folder)

@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 import pytest
 
 from experiment import cli
+from experiment.chain import seal_of
 from experiment.config import find, load
 from experiment.errors import InputError
 from experiment.ledger import Ledger
@@ -104,7 +105,8 @@ def test_a_session_whose_end_the_ledger_missed_is_completed(sessions, tmp_path, 
     sessions("--next", how="left")
     (end,) = (tmp_path / "data" / "human" / "P01").glob("*_end.json")
     said = json.loads(end.read_text("utf-8"))
-    end.write_text(json.dumps({**said, "status": "complete"}), "utf-8")  # a crash right after this
+    said["status"] = "complete"
+    end.write_text(json.dumps({**said, "seal": seal_of(said)}), "utf-8")  # a crash right after this
     assert cli.main(["status", str(tmp_path)]) == 0
     assert "P01: complete on disk, live in the ledger" in capsys.readouterr().out
     assert entries(tmp_path) == [("P01", 1, "complete")]
