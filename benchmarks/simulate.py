@@ -1,14 +1,15 @@
 """What simulating a study costs, and how near simulated people come to the published ones.
 
-`seethrough bench simulate` prints the whole table; `python -m benchmarks.simulate --tables FILE`
-parts of it, from tables that are kept. Tables are made first and timed apart.
+`seethrough bench simulate` prints the whole table; `--only data,many` parts of it. Visibility
+tables are made first, in a folder of their own, and timed apart; `python -m benchmarks.simulate
+--tables FILE` keeps them for the next time.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import resource
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -16,15 +17,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from benchmarks import eyes
 from experiment.config import load
-from experiment.participants import batch
+from experiment.participants import batch, data_run
 from experiment.participants.calibration import FITTED, HELD_OUT, measured, published
 from experiment.participants.profile import Profile
 from experiment.participants.profile_file import find
+from experiment.workers import ordered_map
 
 STUDY = "published"
+PROFILE = "calibrated"
+POOL = 200
 WORKERS = 2
 MANY = 10_000
+CHUNK = 4  # participants a worker plays at a time where seconds are measured
 
 Figure = dict[str, Any]
 
@@ -40,6 +46,11 @@ def figure(
     }  # fmt: skip
 
 
+def told(name: str, value: float, unit: str) -> Figure:
+    """A row without a goal."""
+    return {**figure(name, value, unit, 0, 0), "must": None, "aim": None, "met": None}
+
+
 def timed(work: Callable[[], Any]) -> tuple[float, Any]:
     """Seconds that `work` took, and what it gave."""
     start = time.perf_counter()
@@ -47,127 +58,134 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
     return time.perf_counter() - start, result
 
 
-def visual() -> list[Figure]:
+def visual() -> Iterator[Figure]:
     """The published study through the real session, on this machine."""
     from experiment.commands.simulate import simulate
 
     study = load(STUDY)
     with tempfile.TemporaryDirectory() as folder:
         seconds, _ = timed(lambda: simulate(study, 16, 1, Path(folder) / "data"))
-    return [figure("16 participants, visual", seconds / 60, "min", 10, 3)]
+    yield figure("16 participants, visual", seconds / 60, "min", 10, 3)
 
 
-def _rows(job: batch.Batch, count: int, workers: int) -> list[dict[str, Any]]:
+def make_tables(job: batch.Batch) -> Iterator[Figure]:
+    """Tables of every abstract viewpoint, and of the buildings as 16 people walk through them."""
+    assert job.tables is not None
+    if not job.tables.exists():
+        seconds, _ = timed(lambda: data_run.make_tables(job, 16))
+        yield told("tables", seconds / 60, "min")
+
+
+def _prepare(job: batch.Batch) -> None:
+    """A worker that has its tables and has made every world of the pool, before clocks run."""
+    batch.prepare(job)
+    batch.make_worlds()
+
+
+def _rows(job: batch.Batch, count: int, workers: int, chunk: int = CHUNK) -> list[dict[str, Any]]:
     slots = range(1, count + 1)
-    return [row for rows in batch.play(job, slots, workers) for row in rows]
+    chunks = [tuple(slots[i : i + chunk]) for i in range(0, count, chunk)]
+    _say(f"{count} participants on {workers} workers")
+    results = ordered_map(batch.play_chunk, chunks, workers, _prepare, (job,))
+    return [row for rows in results for row in rows]
 
 
-def make_tables(job: batch.Batch) -> float:
-    """Seconds to fill the tables: every abstract viewpoint, and the buildings as 16 people walk."""
+def data(job: batch.Batch) -> Iterator[Figure]:
+    """The published study from tables, on one worker and on two.
 
-    def work() -> None:
-        batch.fill(job)
-        batch.play_chunk(range(1, batch.CHUNK + 1))
-        batch.keep_tables()
-
-    return timed(work)[0]
-
-
-def data(job: batch.Batch) -> list[Figure]:
-    """The published study from tables, and what a second worker brings.
-
-    Workers are started and have read the tables before the clock runs: the first chunk is theirs.
+    What the start of the processes costs is in both runs of a pair, and cancels.
     """
-    spread = replace(job, draws=True)
-    batch.CHUNK, before = 4, batch.CHUNK
-    try:
-        one, _ = timed(lambda: _rows(spread, 16, 1))
-        more, _ = timed(lambda: _rows(spread, 128, 1))
-        two, _ = timed(lambda: _rows(spread, 16, WORKERS))
-        more_two, _ = timed(lambda: _rows(spread, 128, WORKERS))
-    finally:
-        batch.CHUNK = before
-    # The start of the processes and the reading of the tables cancel in the differences.
-    ratio = (more - one) / (more_two - two)
-    return [
-        figure("16 participants, data mode", (more_two - two) / 7, "s", 3, 1),
-        figure("two workers against one", ratio, "×", 1.7, 1.9, more=True),
-    ]
+    _rows(job, 128, 1)  # whatever these people look at is drawn before clocks run
+    batch.keep_tables()
+    seconds = {}
+    for workers in (1, WORKERS):
+        few, _ = timed(lambda w=workers: _rows(job, 16, w))  # type: ignore[misc]
+        more, _ = timed(lambda w=workers: _rows(job, 128, w))  # type: ignore[misc]
+        seconds[workers] = (more - few) / 7
+    yield told("16 participants, data mode, one worker", seconds[1], "s")
+    yield figure("16 participants, data mode", seconds[WORKERS], "s", 3, 1)
+    ratio = seconds[1] / seconds[WORKERS]
+    yield figure("two workers against one", ratio, "×", 1.7, 1.9, more=True)
 
 
-def many(job: batch.Batch, count: int) -> list[Figure]:
-    """Many participants in data mode: time, and the memory of the largest process."""
-
-    def work() -> int:
-        return sum(len(rows) for rows in batch.play(job, range(1, count + 1), WORKERS))
-
-    seconds, _ = timed(work)
+def many(job: batch.Batch, count: int = MANY) -> Iterator[Figure]:
+    """Many participants as `simulate` plays them, files and all; memory of the largest process."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "data"
+        seconds, _ = timed(lambda: data_run.run(job, out, count, WORKERS))
     kinds = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
     memory = max(resource.getrusage(kind).ru_maxrss for kind in kinds) / 2**20
-    return [
-        figure(f"{count} participants, data mode", seconds / 60, "min", 30, 5),
-        figure(f"memory at {count} participants", memory, "GiB", 1, 1),
-    ]
+    yield figure(f"{count} participants, data mode", seconds / 60, "min", 30, 5)
+    yield figure(f"memory at {count} participants", memory, "GiB", 1, 1)
 
 
-def calibration(job: batch.Batch, profile: Profile, count: int = 64) -> list[Figure]:
+def calibration(job: batch.Batch, profile: Profile, count: int = 64) -> Iterator[Figure]:
     """How far simulated times lie from the published ones, fitted and held-out half."""
-    found = measured(_rows(replace(job, profile=profile), count, 1))
-    figures = []
+    found = measured(_rows(replace(job, profile=profile), count, WORKERS))
     for half, tasks in (("fitted", FITTED), ("held out", HELD_OUT)):
         means = max(_off(found[t].means, published()[t].means) for t in tasks)
         sds = max(_off(found[t].sds, published()[t].sds) for t in tasks)
         r = max(abs(found[t].r - published()[t].r) for t in tasks)
-        figures += [
-            figure(f"time means off, {half}", means, "share", 0.15, 0.05),
-            figure(f"time s.d. off, {half}", sds, "share", 0.30, 0.15),
-            figure(f"time r off, {half}", r, "", 0.2, 0.1),
-        ]
-    return figures
+        yield figure(f"time means off, {half}", means, "share", 0.15, 0.05)
+        yield figure(f"time s.d. off, {half}", sds, "share", 0.30, 0.15)
+        yield figure(f"time r off, {half}", r, "", 0.2, 0.1)
 
 
 def _off(ours: Sequence[float], theirs: Sequence[float]) -> float:
     return max(abs(a / b - 1) for a, b in zip(ours, theirs, strict=True))
 
 
-def figures() -> Iterator[Figure]:
-    """The whole table, tables made anew in a folder of its own."""
-    yield from visual()
+def _eyes() -> Iterator[Figure]:
+    """What accuracy costs in time: coarser eyes against the finest."""
+    for row in eyes.run(4):
+        more = {key: row[key] for key in ("time_error", "count_error")}
+        yield {**told(f"eyes: {row['scene']}", row["value"], row["unit"]), **more}
+
+
+PARTS = ("visual", "data", "many", "calibration", "eyes")
+
+
+def figures(
+    only: Sequence[str] = PARTS, tables: Path | None = None, count: int = MANY
+) -> Iterator[Figure]:
+    """The rows of these parts; tables are made anew in a folder of its own, unless given."""
     with tempfile.TemporaryDirectory() as folder:
-        job = batch.Batch(STUDY, 1, 200, Path(folder) / "tables.npz")
-        make_tables(job)
-        yield from data(job)
-        yield from many(job, MANY)
-        yield from calibration(job, find("calibrated"))
+        job = batch.Batch(STUDY, 1, POOL, tables or Path(folder) / "tables.npz")
+        parts: dict[str, Callable[[], Iterator[Figure]]] = {
+            "visual": visual,
+            "data": lambda: data(job),
+            "many": lambda: many(job, count),
+            "calibration": lambda: calibration(job, find(PROFILE)),
+            "eyes": _eyes,
+        }
+        for name in only:
+            _say(name)
+            if name in ("data", "many", "calibration"):
+                yield from make_tables(job)
+            yield from parts[name]()
+
+
+def chart(rows: Sequence[Figure], path: Path) -> None:
+    """Error of the measures against time, a point for each way to look."""
+    named = [{**row, "scene": row["figure"].removeprefix("eyes: ")} for row in rows]
+    eyes.draw([row for row in named if "time_error" in row], path)
+
+
+def _say(what: str) -> None:
+    print(f"bench simulate: {what}", file=sys.stderr, flush=True)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the benchmark."""
+    """Parts of the benchmark from tables that are kept."""
+    from experiment.commands.bench import line
+
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--json", type=Path, metavar="FILE")
     parser.add_argument("--tables", type=Path, required=True, help="made if it is not there")
-    parser.add_argument("--pool", type=int, default=200, help="scenes a task")
-    parser.add_argument("--profile", default="average", help="for the calibration's figures")
     parser.add_argument("--many", type=int, default=MANY, help="participants of the large run")
-    parser.add_argument("--only", default="visual,data,many,calibration")
+    parser.add_argument("--only", default=",".join(PARTS))
     chosen = parser.parse_args(arguments)
-    job = batch.Batch(STUDY, 1, chosen.pool, chosen.tables)
-    if not chosen.tables.exists():
-        print(f"tables made in {make_tables(job):.0f} s")
-    parts: dict[str, Callable[[], list[Figure]]] = {
-        "visual": visual,
-        "data": lambda: data(job),
-        "many": lambda: many(job, chosen.many),
-        "calibration": lambda: calibration(job, find(chosen.profile)),
-    }
-    figures = [row for name in chosen.only.split(",") for row in parts[name]()]
-    for row in figures:
-        met = "met" if row["met"] else "not met"
-        print(
-            f"{row['figure']:36s}{row['value']:10.3f} {row['unit']:6s} must {row['must']:g}, {met}"
-        )
-    if chosen.json:
-        chosen.json.write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
+    for row in figures(chosen.only.split(","), chosen.tables, chosen.many):
+        print(line(row), flush=True)
     return 0
 
 

@@ -27,6 +27,7 @@ BENCHES = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("bench", choices=BENCHES, help="what to measure")
+    parser.add_argument("--only", metavar="PART,…", help="some parts of the table (simulate)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table to a file")
     parser.add_argument(
         "--markdown", type=Path, metavar="FILE", help="put the table into a page, as Markdown"
@@ -35,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--figure",
         type=Path,
         metavar="FILE",
-        help="draw it, as .svg or .png (accuracy, ordering_accuracy)",
+        help="draw it, as .svg or .png (accuracy, ordering_accuracy, simulate)",
     )
 
 
@@ -54,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
     if args.figure is not None and not hasattr(module, "chart"):
         raise InputError(f"--figure = {args.figure}: bench {args.bench} draws none")
     rows = []
-    for row in module.figures():
+    for row in module.figures(*_only(args.only, module)):
         rows.append(row)
         print(line(row), flush=True)
     if hasattr(module, "summary"):
@@ -66,6 +67,16 @@ def run(args: argparse.Namespace) -> int:
     if args.figure is not None:
         module.chart(rows, args.figure)
     return 0
+
+
+def _only(text: str | None, module: Any) -> list[list[str]]:
+    """The parts asked for, as arguments of `figures`."""
+    if text is None:
+        return []
+    known, parts = getattr(module, "PARTS", ()), text.split(",")
+    if not set(parts) <= set(known):
+        raise InputError(f"--only = {text}: expected some of {', '.join(known) or 'no parts'}")
+    return [parts]
 
 
 def line(row: dict[str, Any]) -> str:

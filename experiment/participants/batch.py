@@ -124,6 +124,15 @@ def fill(batch: Batch, progress: Any = None) -> int:
     return int(pool.looks)
 
 
+def make_worlds() -> None:
+    """Make every world of this process's pool now, instead of when somebody first plays in it."""
+    batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    aspect = study.display.width / study.display.height
+    for trial in abstract_trials(study):
+        for which in range(batch.pool):
+            pool.world(trial, which, aspect)
+
+
 def abstract_trials(study: Study) -> list[Trial]:
     """One trial of each abstract task at each transparency level."""
     trials = {}

@@ -1,0 +1,52 @@
+"""`seethrough bench simulate`: parts by name, and the figure of what accuracy costs in time."""
+
+import pytest
+
+from benchmarks import simulate
+from experiment import cli
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        ("bench simulate --only speed", "--only = speed: expected some of visual, data, many"),
+        ("bench statistics --only data", "--only = data: expected some of no parts"),
+    ],
+)
+def test_parts_that_are_not_there_are_one_line(capsys, words, message):
+    assert cli.main(words.split()) == 2
+    told = capsys.readouterr().err
+    assert message in told and told.count("\n") == 1
+
+
+def test_only_the_parts_asked_for_are_measured(monkeypatch, capsys):
+    ways = [
+        {"scene": f"visual, {k} px", "value": k, "unit": "ms", "time_error": e, "count_error": 0.0}
+        for k, e in ((300, 0.0), (150, -0.02))
+    ]
+    monkeypatch.setattr(simulate.eyes, "run", lambda repeats: ways)
+    assert cli.main(["bench", "simulate", "--only", "eyes"]) == 0
+    printed = capsys.readouterr()
+    assert [line.split("  ")[0] for line in printed.out.splitlines()] == [
+        "eyes: visual, 300 px",
+        "eyes: visual, 150 px",
+    ]
+    assert printed.err == "bench simulate: eyes\n"  # what is being measured
+
+
+def test_the_figure_has_a_point_for_each_way_to_look(tmp_path):
+    rows = [
+        {**simulate.told(f"eyes: way {k}", 10.0 * k, "ms"), "time_error": 0.01 * k}
+        for k in (1, 2, 3)
+    ]
+    path = tmp_path / "eyes.svg"
+    simulate.chart([*rows, simulate.told("tables", 2.0, "min")], path)
+    text = path.read_text(encoding="utf-8")
+    assert all(f"way {k}" in text for k in (1, 2, 3)) and "tables" not in text
+
+
+def test_more_is_better_for_a_ratio_and_less_for_a_time():
+    assert simulate.figure("a", 1.8, "×", 1.7, 1.9, more=True)["met"]
+    assert not simulate.figure("a", 1.6, "×", 1.7, 1.9, more=True)["met"]
+    assert simulate.figure("a", 2.9, "s", 3, 1)["met"]
+    assert not simulate.figure("a", 3.1, "s", 3, 1)["met"]
