@@ -56,7 +56,10 @@ def plan_effects(task: str, trials_done: int, without: frozenset[str]) -> dict[s
 
 
 def _needed(effect: str, task: str, trials_done: int) -> tuple[bool, str]:
-    if effect in ("subitising", "slips"):
+    if effect == "subitising":
+        many = task == "count"
+        return many, "many things at a glance" if many else "no groups are counted at a glance"
+    if effect == "slips":
         return task in _COUNTING, "counting" if task in _COUNTING else "nothing is counted"
     if effect == "view_changes":
         return (task == "count"), (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from experiment.participants.effects import EFFECTS
+from experiment.participants.effects import EFFECTS, plan_effects
 from experiment.participants.hands import Hands
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.profile import PROFILES, Profile, profile
@@ -58,7 +58,7 @@ def play(name, seed=1, shown=lambda scene: np.ones(len(scene.objects), bool), mo
     """One trial: (outcome, seconds, events, participant)."""
     task = TASKS[name]
     state = begun(name, seed)
-    participant = SimulatedParticipant(np.random.default_rng(seed + 100), **more)
+    participant = SimulatedParticipant(np.random.default_rng([seed, 100]), **more)
     participant.begin_trial(name, 0.0)
     now, events = 0.0, []
     while task.outcome(state) is None and len(events) < most:
@@ -294,6 +294,41 @@ def test_effects_are_planned_with_reasons():
     assert uses["drift"].reason == "no walking"
     participant.begin_trial("unique", 9.0)
     assert participant.effects["drift"].used and not participant.effects["slips"].used
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_leaving_out_an_effect_changes_the_trials_that_call_for_it_and_no_others(name):
+    """With everything visible: the same luck, event for event, where it is not called for."""
+    whole = play(name, 2)[2]
+    uses = plan_effects(name, 0, frozenset())
+    for effect in EFFECTS:
+        # Nobody is tired at the start; slips are rare, and crowds too, with few things.
+        if effect in ("fatigue", "slips", "crowding", "view_changes") and uses[effect].used:
+            continue
+        assert (play(name, 2, without=[effect])[2] != whole) == uses[effect].used, effect
+
+
+@pytest.mark.parametrize(
+    "effect, common",
+    [("slips", {"slip": 0.3}), ("crowding", {"crowded": 1.0, "crowding": 0.1}),
+     ("view_changes", {"forget": 0.3})],
+)  # fmt: skip
+def test_rare_effects_change_counts_where_they_are_made_common(effect, common):
+    often = replace(PROFILES["average"], **common)
+    whole = play("count", 2, profile=often)[2]
+    assert play("count", 2, profile=often, without=[effect])[2] != whole
+
+
+def test_who_is_tired_varies_more():
+    paces = {}
+    for hour in (0.0, 3600.0):
+        for without in ((), ("fatigue",)):
+            person = SimulatedParticipant(np.random.default_rng(3), without=without)
+            person.begin_trial("count", 0.0)
+            person.begin_trial("count", hour)
+            paces[hour, without] = person._mood.pace
+    assert paces[0.0, ()] == paces[0.0, ("fatigue",)] == paces[3600.0, ("fatigue",)]
+    assert paces[3600.0, ()] != paces[0.0, ()]
 
 
 @pytest.mark.parametrize(

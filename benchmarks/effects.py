@@ -1,0 +1,171 @@
+"""What each effect of a simulated participant does: when it applies, and what its absence costs.
+
+`seethrough bench effects` plays the published study with and without each effect, the same people
+on the same trials; `python -m benchmarks.effects --tables FILE --participants N` does it from
+tables that are kept and prints the table of the guide.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from experiment.config import load
+from experiment.design import SIMULATED, generator, session_for
+from experiment.participants.data_mode import play_trial
+from experiment.participants.effects import EFFECTS, plan_effects
+from experiment.participants.participant import STRATEGIES, SimulatedParticipant
+from experiment.participants.pool import LazyDraw, Pool
+from experiment.participants.profile import Profile
+from experiment.participants.profile_file import find
+
+STUDY, POOL, PEOPLE, SEED = "published", 40, 16, 1
+PROFILE = "calibrated"
+Row = dict[str, Any]
+
+# Accuracy of each task: what is averaged over its trials, and its unit.
+MEASURES = {
+    "count": ("T1 count off", "things"),
+    "pattern": ("T2 wrong", "share"),
+    "unique": ("T3 distance", "units"),
+    "count_in_building": ("T4 count off", "things"),
+}
+
+
+def trials(
+    pool: Pool, people: int, profile: Profile, tasks: Sequence[str], without: Iterable[str] = ()
+) -> list[Row]:
+    """Who, which task, how long and how far off: trials of so many people at `tasks`."""
+    rows = []
+    for slot in range(1, people + 1):
+        person = SimulatedParticipant(
+            generator(SEED, (SIMULATED, slot)), profile, frozenset(without)
+        )
+        for task_set in session_for(slot, pool.study.design.factors()):
+            if task_set.trials[0].task not in tasks:
+                continue
+            for trial in (*task_set.training, *task_set.trials):
+                record, _ = play_trial(person, pool, trial)
+                if trial in task_set.trials:
+                    off = _off(record.outcome)
+                    rows.append({"slot": slot, "task": trial.task, "time": record.time, "off": off})
+    return rows
+
+
+def _off(outcome: Any) -> float:
+    if outcome.distance is not None:
+        return float(outcome.distance)
+    if outcome.count_error is not None:
+        return float(abs(outcome.count_error))
+    return float(not outcome.correct)
+
+
+def change(full: Sequence[Row], less: Sequence[Row], task: str, what: str) -> tuple[float, float]:
+    """Mean change of `what` without the effect, paired by person, and its 95 % half-width."""
+    from scipy import stats
+
+    means = [_per_person(rows, task, what) for rows in (full, less)]
+    if what == "time":
+        means = [np.log(m) for m in means]
+    apart = means[1] - means[0]
+    error = apart.std(ddof=1) / len(apart) ** 0.5
+    return float(apart.mean()), float(stats.t.ppf(0.975, len(apart) - 1) * error)
+
+
+def _per_person(rows: Sequence[Row], task: str, what: str) -> np.ndarray:
+    people = sorted({r["slot"] for r in rows})
+    return np.array(
+        [np.mean([r[what] for r in rows if r["slot"] == p and r["task"] == task]) for p in people]
+    )
+
+
+def used(effect: str) -> list[str]:
+    """The tasks whose trials call for the effect."""
+    return [t for t in STRATEGIES if plan_effects(t, 0, frozenset())[effect].used]
+
+
+def runs(
+    pool: Pool, people: int, profile: Profile, of: Sequence[str] = tuple(STRATEGIES)
+) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """(effect, task → (change of what is off, its half-width, change of time, its half-width)).
+
+    Only tasks that call for an effect are played without it; the first is how far off all are.
+    """
+    full = trials(pool, people, profile, of)
+    yield "", {t: _per_person(full, t, "off").mean() for t in of}
+    for effect in EFFECTS:
+        tasks = [t for t in used(effect) if t in of]
+        less = trials(pool, people, profile, tasks, (effect,))
+        yield (
+            effect,
+            {t: (*change(full, less, t, "off"), *change(full, less, t, "time")) for t in tasks},
+        )
+
+
+def figures() -> Iterator[Row]:
+    """Changes without each effect, as the bench command prints them."""
+    pool = _pool(POOL)
+    for effect, changes in runs(pool, PEOPLE, find(PROFILE)):
+        for task, values in changes.items():
+            name, unit = MEASURES[task]
+            value = float(values[0]) if effect else float(values)
+            label = f"without {effect}: {name}" if effect else f"all effects: {name}"
+            yield {"figure": label, "scene": STUDY, "value": round(value, 4), "unit": unit,
+                   "must": None, "aim": None, "met": None}  # fmt: skip
+
+
+def _pool(size: int) -> Pool:
+    study = load(STUDY)
+    return Pool(study, size, LazyDraw(study, study.display.width / study.display.height))
+
+
+def markdown(
+    pool: Pool, people: int, profile: Profile, of: Sequence[str] = tuple(STRATEGIES)
+) -> Iterator[str]:
+    """The guide's table, line by line."""
+    names = [f"{MEASURES[t][0]}, {MEASURES[t][1]}" for t in of]
+    yield f"| left out | what it is | {' | '.join(names)} |"
+    yield "|" + " --- |" * (2 + len(names))
+    for effect, changes in runs(pool, people, profile, of):
+        if not effect:
+            yield f"| nothing | | {' | '.join(f'{changes[t]:.3g}' for t in of)} |"
+        elif changes:
+            cells = " | ".join(_cell(changes.get(t)) for t in of)
+            yield f"| {effect} | {EFFECTS[effect]} | {cells} |"
+
+
+def _cell(values: Sequence[float] | None) -> str:
+    if values is None:
+        return "not used"
+    off, half, time, _ = values
+    return f"{off:+.2g} ± {half:.2g}; time {np.expm1(time):+.0%}"
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--tables", type=Path, help="read, and kept with what is drawn")
+    parser.add_argument("--participants", type=int, default=PEOPLE)
+    parser.add_argument("--pool", type=int, default=POOL, help="scenes a task")
+    parser.add_argument("--profile", default=PROFILE, help=f"default: {PROFILE}")
+    parser.add_argument("--tasks", default=",".join(STRATEGIES), metavar="T,…")
+    chosen = parser.parse_args(arguments)
+    profile, tasks = find(chosen.profile), chosen.tasks.split(",")
+    pool = _pool(chosen.pool)
+    with tempfile.TemporaryDirectory() as folder:
+        tables = chosen.tables or Path(folder) / "tables.npz"
+        if tables.exists():
+            pool.load(tables)
+        for line in markdown(pool, chosen.participants, profile, tasks):
+            print(line, flush=True)
+        pool.save(tables)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
