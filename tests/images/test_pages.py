@@ -1,0 +1,140 @@
+"""Pages as they are drawn: filled in by mouse alone, by keyboard alone, on screens of any size."""
+
+import numpy as np
+import pytest
+from scipy import ndimage
+
+from experiment import blocks
+from experiment.page_drawing import Form
+from experiment.pages import Page, Paragraph, TextField
+from experiment.stage import Stage
+from experiment.texts import Texts
+
+BUTTON = (41, 102, 179)
+FRAME = 1 / 60
+
+
+class Screen:
+    """A stage and what is on it."""
+
+    def __init__(self, context, size):
+        self.size = size
+        self.stage = Stage(context, size, Texts("en"))
+        self.target = context.framebuffer([context.texture(size, 4)])
+        self.pressed = False
+
+    def draw(self, form, frames=3):
+        """Some frames: ImGui settles its layout over two, and takes one event a frame."""
+        for _ in range(frames):
+            self.pressed |= self.stage.draw_form(form, self.target, FRAME)
+        data = np.frombuffer(self.target.read(components=3, alignment=1), np.uint8)
+        return data.reshape(self.size[1], self.size[0], 3)[::-1]
+
+    def click(self, form, row, column):
+        io = self.stage.interface.io
+        io.add_mouse_pos_event(column, row)
+        io.add_mouse_button_event(0, True)
+        self.draw(form)
+        io.add_mouse_button_event(0, False)
+        io.add_mouse_pos_event(0, 0)
+        self.draw(form)
+
+    def key(self, form, name):
+        for down in (True, False):
+            self.stage.interface.key(name, down)
+            self.draw(form)
+
+
+@pytest.fixture
+def screen(context):
+    made = Screen(context, (800, 600))
+    yield made
+    made.stage.interface.close()
+
+
+def fields(picture, least=100):
+    """(row, column) of the middle of each white field: open circles, text fields."""
+    labels, count = ndimage.label((picture == 255).all(axis=2))
+    sizes = ndimage.sum_labels(np.ones_like(labels), labels, range(1, count + 1))
+    chosen = [n for n, size in enumerate(sizes, start=1) if size >= least]
+    return ndimage.center_of_mass(labels > 0, labels, chosen)
+
+
+def button(picture):
+    blue = (np.abs(picture.astype(int) - BUTTON) < 4).all(axis=2)
+    blue[-10:] = False  # the progress line
+    rows, columns = np.nonzero(blue)
+    return (np.median(rows), np.median(columns)) if len(rows) else None
+
+
+def test_scales_by_mouse_alone(screen):
+    form = Form(blocks.ratings("dynamic", "abstract"))
+    circles = fields(screen.draw(form))
+    assert len(circles) == 15
+    for scale, step in enumerate((4, 0, 2)):
+        screen.click(form, *circles[5 * scale + step])
+    assert not screen.pressed
+    screen.click(form, *button(screen.draw(form)))
+    assert screen.pressed
+    assert form.answers == {"efficiency": "4", "ease": "0", "enjoy": "2", "button": "0"}
+
+
+def test_scales_by_keyboard_alone(screen):
+    form = Form(blocks.ratings("dynamic", "abstract"))
+    screen.draw(form)
+    # After a mouse the first key but shows where the keyboard is.
+    for keys in (("down", "up", "space"), ("down", "right", "space"), ("down", "enter")):
+        assert not form.complete
+        for name in keys:
+            screen.key(form, name)
+    # Enter answered the last open scale, and did not go on as well.
+    assert form.complete and not screen.pressed
+    screen.key(form, "down")
+    screen.key(form, "enter")
+    assert screen.pressed
+
+
+@pytest.mark.parametrize("by", ["mouse", "keyboard"])
+def test_text_is_entered_where_the_field_is(screen, by):
+    form = Form(Page("x", "remarks.title", (TextField("remarks", "remarks.text"),)))
+    ((row, column),) = fields(screen.draw(form))
+    if by == "mouse":
+        screen.click(form, row, column)
+    else:
+        screen.key(form, "tab")
+    screen.stage.interface.io.add_input_characters_utf8("Grün, „gut“")
+    screen.draw(form)
+    assert form.answers["remarks"] == "Grün, „gut“"
+    if by == "mouse":
+        screen.click(form, *button(screen.draw(form)))
+    else:
+        screen.key(form, "tab")
+        screen.key(form, "enter")
+    assert screen.pressed
+
+
+def test_a_page_that_is_too_long_scrolls(screen):
+    page = Page("x", "welcome.title", (Paragraph("A line.\n" * 80),))
+    form = Form(page)
+    before = screen.draw(form)
+    assert button(before) is None  # it lies below the screen
+    screen.stage.interface.io.add_mouse_pos_event(400, 300)
+    for _ in range(60):
+        screen.stage.interface.io.add_mouse_wheel_event(0, -5)
+        screen.draw(form, 1)
+    screen.click(form, *button(screen.draw(form)))
+    assert screen.pressed
+
+
+def test_text_scales_with_the_screen(context):
+    """On a screen of twice the size, the page's ink begins and ends at the same parts of it."""
+    extents = []
+    for size in ((800, 600), (1600, 1200)):
+        screen = Screen(context, size)
+        picture = screen.draw(Form(blocks.ratings("dynamic", "abstract")))
+        screen.stage.interface.close()
+        ink = np.nonzero(picture.max(axis=2)[: -size[1] // 50] < 140)
+        assert len(ink[0]) > 1000
+        extents.append([(i.min() / size[1], i.max() / size[1]) for i in ink])
+    # ImGui puts letters on whole pixels: one or two for each of a page's ten lines.
+    np.testing.assert_allclose(extents[0], extents[1], atol=0.02)
