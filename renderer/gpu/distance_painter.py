@@ -169,17 +169,19 @@ class DistancePainter:
     def _draw_rings(self, runs: list[list[Run]], technique: DynamicTransparency) -> int:
         """The paper's masks, on a coarse grid (004 §V-D, algorithm 2)."""
         n = technique.ring_size
-        grids = (n, n * len(runs))
+        columns = max(1, tiles.WIDTH // n)
+        grids = (columns * n, n * -(-len(runs) // columns))
         covers = self._bound("covers", grids, "f2")
-        covers.clear(viewport=(0, 0, *grids))
+        columns = self._pictures["covers"][0].width // n  # as the shaders find it
+        covers.clear(viewport=(0, 0, columns * n, grids[1]))
         self._context.blend_func = (moderngl.ONE, moderngl.ZERO)
         self._context.enable_only(moderngl.BLEND | moderngl.CULL_FACE)
         for k, part in enumerate(runs):
-            covers.viewport = (0, k * n, n, n)
+            covers.viewport = (k % columns * n, k // columns * n, n, n)
             for mesh, start, count in part:
                 mesh.draw(self._context, self.cover, start, count)
         rings = self._bound("rings", grids, "f4")
-        rings.viewport = (0, 0, *grids)
+        rings.viewport = (0, 0, columns * n, grids[1])
         self._context.enable_only(moderngl.NOTHING)
         self._pictures["covers"][0].use(_LOOKED_UP)
         scale = technique.width / self._width if self._width else 1.0

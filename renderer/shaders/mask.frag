@@ -4,7 +4,7 @@
 // With CELLS instead a mask's entry for the exact picture: opacity, depth, the cap on the opacity
 // of what lies in front, and 1 where the mask is at its core. A depth of 0: no mask.
 uniform sampler2D distances;  // Euclidean, in pixels, −1 on the target, in tiles
-uniform sampler2D rings;      // the paper's masks, grids above each other
+uniform sampler2D rings;      // the paper's masks, grids in rows
 uniform sampler2D counts;     // penetrable fragments in front of the farthest target
 uniform float alpha_target;
 uniform float alpha_edge;
@@ -47,7 +47,8 @@ float ring(ivec2 pixel) {
     vec2 cell = clamp((vec2(pixel) + 0.5) * n / size - 0.5, 0.0, n - 1.0);
     ivec2 low = min(ivec2(cell), n - 2);
     vec2 t = cell - vec2(low);
-    low.y += kind * n;
+    int columns = textureSize(rings, 0).x / n;
+    low += ivec2(kind % columns, kind / columns) * n;
     float a = texelFetch(rings, low, 0).r, b = texelFetch(rings, low + ivec2(1, 0), 0).r;
     float d = texelFetch(rings, low + ivec2(0, 1), 0).r, e = texelFetch(rings, low + 1, 0).r;
     return mix(mix(a, b, t.x), mix(d, e, t.x), t.y);

@@ -1,6 +1,6 @@
 // Provides the paper's mask by ring growth: each cell takes the opacity of the nearest ring, by
 // the number of cells in the larger of the two directions (004 §V-D, algorithm 2). The grids of
-// several targets lie above each other.
+// several targets lie in rows.
 uniform sampler2D covers;  // < 0 in a cell on the target
 uniform int count;         // rings
 uniform int ring_size;
@@ -11,12 +11,12 @@ layout(location = 0) out float opacity;
 
 void main() {
     ivec2 cell = ivec2(gl_FragCoord.xy);
-    int low = cell.y / ring_size * ring_size;
+    ivec2 low = cell / ring_size * ring_size, high = low + ring_size;
     int nearest = count + 1;
     for (int y = -count; y <= count; ++y) {
-        if (cell.y + y < low || cell.y + y >= low + ring_size) continue;
+        if (cell.y + y < low.y || cell.y + y >= high.y) continue;
         for (int x = -count; x <= count; ++x) {
-            if (cell.x + x < 0 || cell.x + x >= ring_size) continue;
+            if (cell.x + x < low.x || cell.x + x >= high.x) continue;
             if (texelFetch(covers, cell + ivec2(x, y), 0).r < 0.0) {
                 nearest = min(nearest, max(abs(x), abs(y)));
             }

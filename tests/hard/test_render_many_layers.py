@@ -120,3 +120,29 @@ def test_bands_cover_a_part_and_fit(cells, width):
         columns = max(1, 2048 // (right - left))
         assert -(-cells // columns) * (bottom - top) <= 16384
         assert cells * (right - left) * (bottom - top) <= exact_painter.TEXELS
+
+
+def test_ring_masks_of_two_hundred_targets(context, monkeypatch):
+    """Their grids lie in rows, for above each other 200 of 128 cells fit into no texture. A few
+    are the same picture in rows, above each other, and in textures that were there before."""
+    ball, rng = geometry.sphere(0.12, 1), np.random.default_rng(5)
+    wall = Object(geometry.box(9, 7, 0.1), transforms.translation(0, 0, 2), (0.2, 0.5, 0.8))
+    places = [np.array([0.34 * (i % 20) - 3.2, 0.44 * (i // 20) - 2, 0]) for i in range(200)]
+    balls = [Object(ball, transforms.placed(p), tuple(rng.random(3)), True) for p in places]
+    technique = DynamicTransparency(mask="ring", width=4, ring_size=128)
+    some = Scene((wall, *balls[90:120]))
+    pictures = []
+    for width in (128, 2048):
+        monkeypatch.setattr("renderer.gpu.tiles.WIDTH", width)
+        renderer = Renderer(context, (120, 90))
+        renderer.draw(some, CAMERA, technique)
+        pictures.append(renderer.read())
+    assert (
+        renderer.draw(Scene((wall, *balls)), CAMERA, replace(technique, ring_size=300)).masks > 190
+    )
+    renderer.draw(some, CAMERA, technique)
+    pictures.append(renderer.read())
+    np.testing.assert_array_equal(pictures[0], pictures[1])
+    np.testing.assert_array_equal(pictures[0], pictures[2])
+    renderer.draw(some, CAMERA, replace(technique, mask="outline"))
+    assert (renderer.read() != pictures[0]).any()
