@@ -87,9 +87,15 @@ def plain(axes: Axes) -> None:
 
 
 def save(figure: Figure, path: Path, title: str) -> None:
-    """As an SVG whose text is text and whose colours follow the theme; the same each time."""
+    """As an SVG whose text is text and whose colours follow the theme; the same each time.
+
+    A name that ends in .png gives a PNG.
+    """
     import matplotlib
 
+    if path.suffix == ".png":
+        figure.savefig(path, dpi=150)
+        return
     written = io.StringIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": path.name}):
         figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None})
