@@ -38,6 +38,7 @@ DOUBTS = (0.0, 0.02, 0.05, 0.1, 1.0)
 WAYS = {
     "centres": DynamicTransparency(order="centers"),
     **{f"planes, doubt {d:g}": DynamicTransparency(doubt=d) for d in DOUBTS},
+    "polygons": DynamicTransparency(order="polygons"),
     "sorted by pixel": EXACT,
 }
 DEFAULT = f"planes, doubt {DynamicTransparency().doubt:g}"

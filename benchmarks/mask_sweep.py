@@ -26,7 +26,7 @@ from renderer.techniques.standard import Standard
 
 VIEWS = 4
 DEFAULT = DynamicTransparency()
-CELLS = (32, 64, 128, 256, 512)
+CELLS = (32, 64, 128, 256)
 WIDTHS = (0.0, 5.0, 10.0, 20.0, 40.0)
 TARGET_ALPHAS = (0.1, 0.2, 0.3, 0.4, 0.5)
 EDGE_ALPHAS = (0.0, 0.1, 0.2, 0.3)

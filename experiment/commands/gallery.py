@@ -11,7 +11,6 @@ from experiment.gallery import SIZE, Plate, Section, sections
 
 HELP = "draw every mode, mask, granularity and hard case into a page"
 WIDEST = 800  # pixels of a picture on the page
-COLORS = 192  # of a picture's palette: a third of the bytes, no difference to be seen
 
 _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>Seethrough: gallery</title>
@@ -68,14 +67,14 @@ def run(args: argparse.Namespace) -> int:
 
 
 def draw(renderer, plate: Plate, path: Path) -> None:  # type: ignore[no-untyped-def]
-    """Write one picture as a small PNG."""
+    """Write one picture, no larger than the page shows it."""
     from PIL import Image
 
     renderer.resize(plate.size)
     renderer.draw(plate.scene, plate.camera, plate.technique)
     picture = Image.fromarray(renderer.read())
     picture.thumbnail((WIDEST, WIDEST))
-    picture.quantize(COLORS, dither=Image.Dither.NONE).save(path, optimize=True)
+    picture.save(path, optimize=True)
 
 
 def _section(section: Section) -> str:

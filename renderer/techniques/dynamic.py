@@ -18,7 +18,9 @@ _OWNER = "dynamic transparency"
 
 @dataclass(frozen=True)
 class DynamicTransparency:
-    """What the technique may vary. The paper prints no values: the defaults are ours.
+    """What the technique may vary. The paper prints 128 × 128 cells and no other value: the
+    defaults are ours, chosen by `seethrough bench accuracy` (benchmarks/README.md has the table
+    and says how each follows from it).
 
     In front of a target an occluder keeps the opacity `alpha_target`. At the border of the mask
     its opacity jumps to the lower `alpha_edge`, and rises from there to 1 over `width` pixels of

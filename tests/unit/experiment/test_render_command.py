@@ -93,6 +93,6 @@ def test_the_pictures_of_the_readme_are_the_gallerys(name, tmp_path, context):
     with Image.open(kept) as picture:
         then = np.asarray(picture.convert("RGB")).astype(int)
     apart = np.abs(renderer.read() - then).max(axis=2)
-    # The palette of 192 colours alone moves a colour by up to some 20 steps, and few by more.
-    assert (apart > 24).mean() < 0.02
+    # Roundings differ between drivers by a step or two, coverage at edges by more.
+    assert (apart > 2).mean() < 0.02
     assert kept.stat().st_size < 300 * 1024
