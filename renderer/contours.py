@@ -27,10 +27,10 @@ class HalfEdges:
     """Which faces run through each edge: edge e (ends (e, 2)) has the entries first[e] to
     first[e + 1] of faces and signs (+1: from its first end to its second)."""
 
-    ends: NDArray[np.int64]
+    ends: NDArray[np.int32]
     first: NDArray[np.int64]
-    faces: NDArray[np.int64]
-    signs: NDArray[np.int64]
+    faces: NDArray[np.int32]
+    signs: NDArray[np.int8]
 
 
 def half_edges(shape: Topology) -> HalfEdges:
@@ -45,7 +45,8 @@ def half_edges(shape: Topology) -> HalfEdges:
     new = np.ones(len(low), dtype=bool)
     new[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
     first = np.append(np.nonzero(new)[0], len(low))
-    return HalfEdges(np.stack([low[new], high[new]], axis=1), first, owner, signs)
+    ends = np.stack([low[new], high[new]], axis=1).astype(np.int32)
+    return HalfEdges(ends, first, owner.astype(np.int32), signs.astype(np.int8))
 
 
 def distances(
@@ -64,16 +65,17 @@ def distances(
     the picture's centre x, y. `tile`: left, top, width, height in pixels, what of the window to
     fill. Pixels farther than `reach` have FAR. Outlines may be moved by `straight` pixels.
     """
-    return _distances(
+    return outline_distances(
         shape.points, shape.planes, edges.ends, edges.first, edges.faces, edges.signs,
         *pose, np.array(lens), np.array(tile), reach, straight,
     )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
-def _distances(
+def outline_distances(
     points, planes, ends, first, faces, signs, eye, turn, move, lens, tile, reach, straight
 ):  # type: ignore[no-untyped-def]
+    """`distances` of arrays alone, for other kernels."""
     pixels, edges = _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens)
     for v in range(len(pixels)):
         pixels[v, 0] -= tile[0]

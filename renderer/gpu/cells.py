@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.blocks import BLOCK
 from renderer.gpu.programs import program
 
 WIDTH = 2048  # texels; a row of cells is no wider unless one cell is
@@ -40,6 +41,18 @@ class Wiper:
 def height(count: int, size: tuple[int, int] | NDArray[np.int64]) -> int:
     """The rows of texels that `count` cells of `size` take."""
     return -(-count // max(1, WIDTH // int(size[0]))) * int(size[1])
+
+
+def touched(
+    boxes: NDArray[np.float64], cells: NDArray[np.int64], part: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """(n, 5) the blocks that (n, 4) boxes of the frame touch, in pixels of a part's cells (y up),
+    and the cells."""
+    low = np.floor(boxes[:, :2] / BLOCK) * BLOCK
+    high = (np.floor(boxes[:, 2:] / BLOCK) + 1) * BLOCK
+    low, high = np.maximum(low, part[:2]), np.minimum(high, part[2:])
+    rows = [low[:, 0] - part[0], part[3] - high[:, 1], high[:, 0] - part[0], part[3] - low[:, 1]]
+    return np.stack([*rows, cells], axis=1)
 
 
 class Cells:
@@ -117,6 +130,11 @@ class Cells:
     def corner(self, k: int) -> tuple[int, int]:
         """The texel x, y (up) where cell k begins."""
         return k % self.columns * self.size[0], k // self.columns * self.size[1]
+
+    def way(self, k: int, corner: tuple[int, int]) -> tuple[int, int]:
+        """From the frame's pixels (y up) to those of cell k, which shows it from `corner` on."""
+        x, y = self.corner(k)
+        return x - corner[0], y - corner[1]
 
     def select(self, k: int, corner: tuple[int, int], frame: tuple[int, int]) -> None:
         """Draw into cell k what the frame shows from `corner` (x, y up) on."""

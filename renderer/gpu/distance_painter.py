@@ -1,22 +1,20 @@
 """Pictures that masks look up, made before the objects: distances and the paper's rings.
 
 Each target has a tile of its own in one texture. The outlines of closed meshes are found on the
-CPU (contours.py), a target a thread. What the near plane cuts, and open meshes, are drawn whole,
+CPU (outlines.py). What the near plane cuts, and open meshes, are drawn whole,
 with every edge as a rectangle; the least distance counts.
 """
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future
 from typing import Any
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks, contours, masks
+from renderer import contours, masks
 from renderer.camera import Camera
 from renderer.gpu import tiles
 from renderer.gpu.mask_maker import MaskGeometry, outline_segments
@@ -39,32 +37,58 @@ class DistancePainter:
         self._triangle = context.vertex_array(self._ring.program, [])
         self._buffers: dict[str, moderngl.Buffer] = {}
         self._arrays: dict[str, moderngl.VertexArray] = {}
-        self._threads: ThreadPoolExecutor | None = None
         self._pictures: dict[str, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
 
     def texture(self, name: str) -> moderngl.Texture | None:
         """The picture "distances" or "rings" of the last frame, if there is one."""
         return self._pictures[name][0] if name in self._pictures else None
 
-    def draw(
+    def begin(
         self,
         table: SceneTable,
         made: MaskGeometry,
-        runs: list[list[Run]],
         camera: Camera,
         technique: DynamicTransparency,
         width: float,
         size: tuple[int, int],
-        touched: NDArray[np.bool_] | None = None,
+        touched: NDArray[np.bool_],
+    ) -> None:
+        """Begin to find the outlines of closed meshes, beside whatever is drawn meanwhile; in the
+        end the blocks of pixels that they touch are set."""
+        self._made, self._width, self._size = made, width, size
+        self._jobs: list[Future[None]] = []
+        whole = (max(tiles.WIDTH, int(made.tile[:, 2].max(initial=0))), made.height)
+        self._whole, used = whole, int(made.tile[:, 2].max(initial=1))
+        if not len(made.looped) and not len(made.covered):
+            return
+        self._found = np.full((whole[1], used), contours.FAR, np.float32)
+        if not len(made.looped):
+            return
+        tile, shift = made.tile[made.looped], made.shift[made.looped]
+        windows = np.concatenate([tile[:, :2] - shift, tile[:, 2:] - tile[:, :2]], axis=1)
+        windows[:, 1] = size[1] - windows[:, 1] - windows[:, 3]
+        targets = made.looped.tolist()
+        lens = (0.5 * size[1] / np.tan(camera.fov_y / 2), size[0] / 2, size[1] / 2)
+        straight = 0.0 if technique.per_pixel_only else contours.STRAIGHT
+        self._jobs = table.outlines.start(
+            [table.meshes[table.slot[t]] for t in targets],
+            [_pose(table, t, camera) for t in targets],
+            *(windows, tile[:, :2].copy(), lens, (width, straight), self._found, touched),
+        )
+
+    def draw(
+        self,
+        table: SceneTable,
+        runs: list[list[Run]],
+        camera: Camera,
+        technique: DynamicTransparency,
     ) -> int:
-        """Draw what the masks look up; `runs` draw each of the `covered` targets. Sets the blocks
-        of pixels `touched` by the masks of closed meshes. Returns the draw calls made."""
-        self._made, self._width, self._size, self._touched = made, width, size, touched
+        """Draw what the masks look up; `runs` draw each of the `covered` targets. Returns the draw
+        calls made."""
+        made, width, size = self._made, self._width, self._size
         if not len(made.looped) and not len(made.covered):
             return 0
-        whole = (tiles.WIDTH, made.height)
-        whole = (max(whole[0], int(made.tile[:, 2].max())), whole[1])
-        framebuffer = self._find_outlines(table, camera, technique.per_pixel_only, whole)
+        framebuffer = self._outlines()
         draws = self._cover_targets(framebuffer, runs)
         if technique.mask == "ring":
             return draws + self._draw_rings(runs, technique)
@@ -127,44 +151,14 @@ class DistancePainter:
         framebuffer.scissor = None
         return sum(len(part) for part in runs)
 
-    def _find_outlines(
-        self, table: SceneTable, camera: Camera, exact: bool, whole: tuple[int, int]
-    ) -> moderngl.Framebuffer:
+    def _outlines(self) -> moderngl.Framebuffer:
         """Upload the distances from the outlines of closed meshes."""
-        height = self._size[1]
-        lens = (0.5 * height / np.tan(camera.fov_y / 2), self._size[0] / 2, height / 2)
-        straight = 0.0 if exact else contours.STRAIGHT
-        targets = self._made.looped.tolist()
-
-        def find(t: int) -> NDArray[np.float32]:
-            left, bottom, right, top = self._made.tile[t].tolist()
-            x, y = self._made.shift[t].tolist()
-            tile = (left - x, height - (top - y), right - left, top - bottom)
-            mesh = table.meshes[table.slot[t]]
-            pose = _pose(table, t, camera)
-            found = contours.distances(
-                *(mesh.topology, mesh.edges, pose, lens, tile, self._width, straight)
-            )
-            if self._touched is not None:
-                blocks.mark(found, tile[0], int(tile[1]), self._width, self._touched)
-            return found
-
-        used = int(self._made.tile[:, 2].max(initial=1))
-        found = np.full((whole[1], used), contours.FAR, np.float32)
-        for t, distance in zip(targets, self._mapped(find, targets), strict=True):
-            left, bottom, right, top = self._made.tile[t].tolist()
-            found[bottom:top, left:right] = distance[::-1]
-        framebuffer = self._bound("distances", whole, "f4")
-        self._pictures["distances"][0].write(found, viewport=(0, 0, used, whole[1]))
+        for job in self._jobs:
+            job.result()
+        framebuffer = self._bound("distances", self._whole, "f4")
+        rows, used = self._found.shape
+        self._pictures["distances"][0].write(self._found, viewport=(0, 0, used, rows))
         return framebuffer
-
-    def _mapped(self, find: Callable[[int], Any], targets: list[int]) -> Iterable[Any]:
-        """find(t) for all targets, on all cores: the kernels do not hold Python's lock."""
-        if len(targets) < 2:
-            return map(find, targets)
-        if self._threads is None:
-            self._threads = ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1))
-        return self._threads.map(find, targets)
 
     def _draw_rings(self, runs: list[list[Run]], technique: DynamicTransparency) -> int:
         """The paper's masks, on a coarse grid (004 §V-D, algorithm 2)."""

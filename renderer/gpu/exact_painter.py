@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from renderer import blocks, order
 from renderer.camera import Camera
-from renderer.gpu.cells import MOST, Cells, height
+from renderer.gpu.cells import MOST, Cells, height, touched
 from renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS, Filled, PixelSorter
 from renderer.gpu.mask_painter import MaskPainter
 from renderer.gpu.programs import Shader, program
@@ -64,7 +64,8 @@ class ExactPainter:
     ) -> tuple[int, int]:
         """Draw the plan's exact parts over the frame, with the masks already `made` for it if
         there are any. Returns passes and draw calls."""
-        passes, draws = self._prepare(job, made)
+        self._prepare(job, made)
+        passes = draws = 0
         whole = job.frame.exact
         self._set_parts(job, None)
         if job.technique.granularity != "pixel":
@@ -104,23 +105,29 @@ class ExactPainter:
             texture.release()
         return found
 
-    def _prepare(self, job: ExactJob, made: MaskPainter | None = None) -> tuple[int, int]:
-        """Mask geometry and the pictures of distances."""
+    def _prepare(self, job: ExactJob, made: MaskPainter | None = None) -> None:
+        """Make the masks' geometry, and begin the distances that they look up."""
         caps = job.technique.min_transmittance > 0
         if caps not in self._painters:
             defines = ["CELLS"] + ["WITH_CAPS"] * caps
             self._painters[caps] = MaskPainter(self._context, defines)
         self._masks = self._painters[caps]
+        self._covers: list[NDArray[np.int64]] | None = None
         if made is not None:
             self._masks.adopt(made)
-            return 0, 0
-        covers = self._masks.prepare(
+            return
+        self._covers = self._masks.prepare(
             job.table, job.frame, job.camera, job.technique, job.width, job.size
         )
-        sequence, runs = job.table.sequence(covers, job.camera)
+
+    def _look_up(self, job: ExactJob) -> int:
+        """Draw the pictures of distances, if that is still to do. Returns the draw calls."""
+        if self._covers is None:
+            return 0
+        sequence, runs = job.table.sequence(self._covers, job.camera)
+        self._covers = None
         self._use(self._masks.cover, job, sequence)
-        draws = self._masks.draw_distances(job.table, runs, job.camera)
-        return int(draws > 0), draws
+        return self._masks.draw_distances(job.table, runs, job.camera)
 
     def _use(self, shader: Shader, job: ExactJob, sequence: moderngl.Texture) -> None:
         job.table.table.use(0)
@@ -165,7 +172,7 @@ class ExactPainter:
         # For each cell of masks: the cells of its targets, the part's first one and how many.
         owners: list[NDArray[np.int64]] = []
         bases: list[tuple[int, int]] = []
-        self._bits: list[tuple[NDArray[np.uint64], NDArray[np.uint64]] | None] = []
+        shown: list[tuple[NDArray[np.int64], ...]] = []
         for part in parts:
             corner = (int(part[0]), int(job.size[1] - part[3]))
             objects, which = _sets(job, part)
@@ -177,10 +184,10 @@ class ExactPainter:
             count = int(mask.max(initial=-1)) + 1
             owners += [slice_of[targets[mask == k]] for k in range(count)]
             bases += [(self._slice_base[-1], int(which.max(initial=-1)) + 1)] * count
-            self._bits.append(self._bits_of(job, objects, which, reach, mask))
+            shown.append((objects, which, reach, mask))
             boxes = job.frame.boxes.extents[objects] + _SLACK
-            emptied[0].append(_boxes(boxes, which + self._slice_base[-1], part))
-            emptied[1].append(_boxes(reach, mask + self._mask_base[-1], part))
+            emptied[0].append(touched(boxes, which + self._slice_base[-1], part))
+            emptied[1].append(touched(reach, mask + self._mask_base[-1], part))
             for found, cells, numbers, where, base in (
                 (objects, slices, which, corners[0], self._slice_base),
                 (targets, entries, mask, corners[1], self._mask_base),
@@ -189,19 +196,23 @@ class ExactPainter:
                 cells += [found[numbers == k] for k in range(count)]
                 where += [corner] * count
                 base.append(base[-1] + count)
-        whole |= None in self._bits  # there every cell is looked at everywhere
+        # More than bits can tell apart: there every cell is looked at everywhere.
+        many = [max(w.max(initial=0), m.max(initial=0)) >= MOST for _, w, _, m in shown]
+        whole |= any(many)
         wiped = [None if whole else np.concatenate(rows) for rows in emptied]
         draws = self._fill_slices(job, size, slices, corners[0], wiped[0])
+        draws += self._look_up(job)
+        self._bits = [
+            None if m else self._bits_of(job, *row) for m, row in zip(many, shown, strict=True)
+        ]
         return draws + self._fill_masks(job, size, entries, corners[1], owners, bases, wiped[1])
 
     def _bits_of(self, job, objects, which, reach, mask):  # type: ignore[no-untyped-def]
-        """(h, w) of each block, which slices and which masks can show in it; None if too many."""
-        if max(which.max(initial=0), mask.max(initial=0)) >= MOST:
-            return None
-        touched = self._masks.blocks
+        """(h, w) of each block, which slices and which masks can show in it."""
+        near = self._masks.blocks
         boxes = job.frame.boxes.extents[objects] + _SLACK
-        masks = blocks.covered(reach, mask, touched.shape)
-        return blocks.covered(boxes, which, touched.shape), np.where(touched, masks, 0)
+        masks = blocks.covered(reach, mask, near.shape)
+        return blocks.covered(boxes, which, near.shape), masks * near
 
     def _fill_slices(self, job, size, parts, corners, wiped):  # type: ignore[no-untyped-def]
         surfaces = job.technique.granularity == "surface"
@@ -241,12 +252,12 @@ class ExactPainter:
             self._entries.select(k, corners[k], job.size)
             x, y = self._entries.framebuffer.scissor[:2]
             painter.set(shift=(corners[k][0] - x, corners[k][1] - y))
-            painter.set(first_way=_way(slices, bases[k][0], corners[k]), slices=bases[k][1])
+            painter.set(first_way=slices.way(bases[k][0], corners[k]), slices=bases[k][1])
             for t, owner in zip(targets.tolist(), owners[k].tolist(), strict=True):
                 place = extents[t].tolist() if owner >= 0 else (0.0, 0.0, 0.0, 0.0)
                 shader = painter.shader_of(t)
                 shader.set(beside=float(depths[t]), target=t, extents=tuple(place))
-                shader.set(way=_way(slices, max(owner, 0), corners[k]))
+                shader.set(way=slices.way(max(owner, 0), corners[k]))
                 painter.draw_one(t)
         self._entries.framebuffer.scissor = None
         return sum(len(targets) for targets in parts)
@@ -345,24 +356,6 @@ def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], ND
     objects = np.nonzero(boxes.inside & _overlapping(boxes.extents, part))[0]
     grown = np.ascontiguousarray(boxes.extents[objects] + _SLACK)
     return objects, order.apart(grown) if len(objects) else np.zeros(0, np.int64)
-
-
-def _boxes(
-    boxes: NDArray[np.float64], cells: NDArray[np.int64], part: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """(n, 5) the blocks that (n, 4) boxes of the frame touch, in pixels of a part's cells (y up),
-    and the cells."""
-    step = blocks.BLOCK
-    low, high = np.floor(boxes[:, :2] / step) * step, (np.floor(boxes[:, 2:] / step) + 1) * step
-    low, high = np.maximum(low, part[:2]), np.minimum(high, part[2:])
-    rows = [low[:, 0] - part[0], part[3] - high[:, 1], high[:, 0] - part[0], part[3] - low[:, 1]]
-    return np.stack([*rows, cells], axis=1)
-
-
-def _way(cells: Cells, k: int, corner: tuple[int, int]) -> tuple[int, int]:
-    """From the frame's pixels (y up) to those of cell k, which shows the frame from `corner` on."""
-    x, y = cells.corner(k)
-    return x - corner[0], y - corner[1]
 
 
 def _overlapping(extents: NDArray[np.float64], part: NDArray[np.int64]) -> NDArray[np.bool_]:

@@ -72,9 +72,8 @@ class Layer:
         camera = tight(camera, frame)
         size = target.size
         self._matrix = clip_from_offset(camera, size)
-        runs, counts = self._before(table, frame, camera, technique, scale, size)
-        self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
-        self._context.depth_func = "<="
+        runs, rest = self._before(table, frame, camera, technique, scale, size)
+        self._set_state()
         target.clear(table.scene.background)
         for shader in (self._object, self._depth):
             self._use(shader)
@@ -84,6 +83,9 @@ class Layer:
         if after_level is not None:
             after_level()
         if frame.levels and isinstance(technique, DynamicTransparency):
+            counts = self._looked_up(table, frame, camera, technique, rest, size)
+            target.framebuffer.use()
+            self._set_state()
             self._masks.begin(counts)
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
         if len(frame.exact) and after_level is None:
@@ -113,9 +115,13 @@ class Layer:
         self._passes += passes
         self._draws += draws
 
+    def _set_state(self) -> None:
+        self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
+        self._context.depth_func = "<="
+
     def _before(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
-        """Put the objects in sequence, make what the masks look up. Returns the runs of the opaque
-        pass and of each level, and the picture of counts if one is needed."""
+        """Put the objects in sequence, begin what the masks look up. Returns the runs of the opaque
+        pass and of each level, and those that `_looked_up` draws."""
         wide = np.isin(np.arange(len(frame.reasons)), frame.wide)
         parts = [frame.opaque, frame.wide]
         leaders = [members[0] for members in frame.clusters]
@@ -124,28 +130,28 @@ class Layer:
             if leaders:
                 alone = alone[~np.isin(alone, leaders)]
             parts += [alone[~wide[alone]], alone[wide[alone]]]
-        if not frame.levels:
-            sequence, runs = table.sequence(parts, camera)
-            self._bind(table, sequence)
-            return runs, None
-        covers = self._masks.prepare(table, frame, camera, technique, technique.width * scale, size)
-        if "counting" in frame.without and technique.min_transmittance > 0:
-            counted = frame.masked
-        else:
-            counted = frame.counted
-        occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
-        extra = [*covers, *([counted, occluders] if len(counted) else [])]
+        extra = []
+        if frame.levels:
+            width = technique.width * scale
+            extra = self._masks.prepare(table, frame, camera, technique, width, size)
+            counted = _counted(frame, technique)
+            if len(counted):
+                occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
+                extra = [*extra, counted, occluders]
         sequence, runs = table.sequence([*parts, *extra], camera)
         self._bind(table, sequence)
-        counts = None
+        return runs[: len(parts)], runs[len(parts) :]
+
+    def _looked_up(self, table, frame, camera, technique, runs, size):  # type: ignore[no-untyped-def]
+        """Draw what the masks look up. Returns the picture of counts if one is needed."""
         self._use(self._masks.cover)
-        whole = runs[len(parts) : len(parts) + len(covers)]
-        draws = self._masks.draw_distances(table, whole, camera)
+        whole = len(self._masks.geometry.covered)
+        draws = self._masks.draw_distances(table, runs[:whole], camera)
         self._passes += draws > 0
         self._draws += draws
-        if len(counted):
-            counts = self._count(size, runs[-2], runs[-1])
-        return runs, counts
+        if not len(_counted(frame, technique)):
+            return None
+        return self._count(size, runs[-2], runs[-1])
 
     def _count(self, size: tuple[int, int], targets: list[Run], occluders: list[Run]):  # type: ignore[no-untyped-def]
         if self._counter is None:
@@ -256,6 +262,12 @@ class Layer:
         self._draws += self._masks.draw(targets)
         context.blend_equation = moderngl.FUNC_ADD
         context.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+
+
+def _counted(frame: FramePlan, technique: DynamicTransparency):  # type: ignore[no-untyped-def]
+    """Targets whose layers are counted."""
+    all_of_them = "counting" in frame.without and technique.min_transmittance > 0
+    return frame.masked if all_of_them else frame.counted
 
 
 def _scope(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]:

@@ -52,7 +52,6 @@ class MaskPainter:
         made = mask_geometry(table, frame, camera, technique, width, size)
         self.geometry: MaskGeometry = made
         self._technique, self._width, self._size = technique, width, size
-        self._boxes = np.clip(frame.reach, 0, [*size, *size]) / BLOCK
         self._first = np.zeros(len(frame.reach), np.int64)
         self._count, self._pictured = self._first.copy(), np.zeros(len(frame.reach), dtype=bool)
         self._first[made.targets], self._count[made.targets] = made.first, made.count
@@ -64,6 +63,7 @@ class MaskPainter:
         if len(made.vertices):
             self._vertices.orphan()
             self._vertices.write(made.vertices)
+        self._begin(table, frame, camera)
         return [np.array([t]) for t in made.covered.tolist()]
 
     def adopt(self, other: MaskPainter) -> None:
@@ -74,17 +74,20 @@ class MaskPainter:
             self._vertices = other._vertices
             self._arrays.clear()
 
+    def _begin(self, table: SceneTable, frame: FramePlan, camera: Camera) -> None:
+        """Find the blocks that masks touch, those of outlines beside the drawing that follows."""
+        made, size = self.geometry, self._size
+        self.blocks = np.zeros([-(-s // BLOCK) for s in size[::-1]], dtype=bool)
+        boxes = np.clip(frame.reach, 0, [*size, *size]) / BLOCK
+        for t in np.setdiff1d(made.targets, made.looped).tolist():
+            left, top = np.floor(boxes[t, :2]).astype(int).tolist()
+            right, bottom = np.ceil(boxes[t, 2:]).astype(int).tolist()
+            self.blocks[top:bottom, left:right] = True
+        self._distances.begin(table, made, camera, self._technique, self._width, size, self.blocks)
+
     def draw_distances(self, table: SceneTable, runs: list[list[Run]], camera: Camera) -> int:
         """Draw what the masks without a hull look up. Returns the draw calls made."""
-        made = self.geometry
-        self.blocks = np.zeros([-(-s // BLOCK) for s in self._size[::-1]], dtype=bool)
-        for t in np.setdiff1d(made.targets, made.looped).tolist():
-            left, top = np.floor(self._boxes[t, :2]).astype(int).tolist()
-            right, bottom = np.ceil(self._boxes[t, 2:]).astype(int).tolist()
-            self.blocks[top:bottom, left:right] = True
-        return self._distances.draw(
-            table, made, runs, camera, self._technique, self._width, self._size, self.blocks
-        )
+        return self._distances.draw(table, runs, camera, self._technique)
 
     def begin(
         self, counts: moderngl.Texture | None = None, shift: tuple[int, int] = (0, 0)
@@ -142,16 +145,18 @@ class MaskPainter:
         """Draw these targets' masks into the bound frame, those side by side in the buffer at
         once. Returns the draw calls."""
         draws = 0
+        first, count = self._first[targets], self._count[targets]
         for kind in (False, True):
-            mine = targets[(self._pictured[targets] == kind) & (self._count[targets] > 0)]
-            if not len(mine):
+            mine = (self._pictured[targets] == kind) & (count > 0)
+            if not mine.any():
                 continue
-            first = np.sort(self._first[mine])
-            last = np.sort(self._first[mine] + self._count[mine])
-            cuts = np.nonzero(first[1:] != last[:-1])[0] + 1
-            for a, b in zip([0, *cuts.tolist()], [*cuts.tolist(), len(first)], strict=True):
-                begin, end = int(first[a]), int(last[b - 1])
-                self._array(self._keys[kind]).render(moderngl.TRIANGLES, end - begin, begin)
+            begin, total = int(first[mine].min()), int(count[mine].sum())
+            if int((first + count)[mine].max()) == begin + total:
+                self._array(self._keys[kind]).render(moderngl.TRIANGLES, total, begin)
+                draws += 1
+                continue
+            for target in targets[mine].tolist():
+                self.draw_one(target)
                 draws += 1
         return draws
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from renderer.contours import HalfEdges, half_edges
 from renderer.geometry import Mesh
+from renderer.gpu.outlines import Outlines
 from renderer.gpu.programs import Shader
 from renderer.silhouettes import Topology, topology
 
@@ -73,6 +74,7 @@ class MeshStore:
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._meshes: dict[tuple[int, bool], GpuMesh] = {}
+        self.outlines = Outlines()
 
     def get(self, mesh: Mesh, mirrored: bool) -> GpuMesh:
         """The mesh's buffers, uploaded at its first use."""

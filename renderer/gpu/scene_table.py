@@ -17,7 +17,7 @@ class SceneTable:
     """The objects of one scene, and the sequence in which a frame draws them."""
 
     def __init__(self, context: moderngl.Context, store: MeshStore, scene: Scene) -> None:
-        self.scene = scene
+        self.scene, self.outlines = scene, store.outlines
         n = len(scene.objects)
         linear = scene.transforms[:, :3, :3]
         mirrored = np.linalg.det(linear) < 0

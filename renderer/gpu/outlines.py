@@ -1,0 +1,107 @@
+"""Distances from the outlines of many targets, found beside the drawing.
+
+One kernel goes through all targets that a thread takes: between them it would have to wait for
+Python's lock, which a draw call holds.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from renderer import blocks, contours
+
+if TYPE_CHECKING:
+    from renderer.gpu.meshes import GpuMesh
+
+
+_WORTH = 30_000  # edges to look at for which a second thread is worth waking
+
+
+class Outlines:
+    """The edges of meshes one after the other, as far as frames have asked for them."""
+
+    def __init__(self) -> None:
+        self._place: dict[int, int] = {}
+        self._meshes: list[GpuMesh] = []
+        self._threads: ThreadPoolExecutor | None = None
+
+    def _join(self) -> None:
+        shapes = [(mesh.topology, mesh.edges) for mesh in self._meshes]
+        columns = [
+            (s.points, s.planes, e.ends, e.first, e.faces, e.signs) for s, e in shapes
+        ]  # fmt: skip
+        self._arrays = tuple(np.concatenate(c) for c in zip(*columns, strict=True))
+        sizes = np.array([[len(array) for array in row] for row in columns])
+        self._starts = np.concatenate([np.zeros((1, 6), np.int64), np.cumsum(sizes, axis=0)])
+
+    def start(
+        self,
+        meshes: Sequence[GpuMesh],
+        poses: Sequence[tuple[NDArray[np.float64], ...]],
+        windows: NDArray[np.int64],
+        corners: NDArray[np.int64],
+        lens: tuple[float, float, float],
+        limits: tuple[float, float],
+        out: NDArray[np.float32],
+        touched: NDArray[np.bool_],
+    ) -> list[Future[None]]:
+        """Begin to fill `out` (rows upwards), and the blocks that are `touched`.
+
+        For each target: its mesh, its pose (contours.distances), the window it is found for
+        (left, top, width, height) and where that goes in `out` (left, bottom). `limits` are the
+        masks' width and by how much an outline may be straightened.
+        """
+        new = [mesh for mesh in meshes if id(mesh) not in self._place]
+        for mesh in new:
+            if id(mesh) not in self._place:
+                self._place[id(mesh)] = len(self._meshes)
+                self._meshes.append(mesh)
+        if new:
+            self._join()
+        count = len(meshes)
+        which = np.array([self._place[id(mesh)] for mesh in meshes])
+        eyes = np.array([pose[0] for pose in poses]).reshape(count, 3)
+        turns = np.array([pose[1] for pose in poses]).reshape(count, 3, 3)
+        moves = np.array([pose[2] for pose in poses]).reshape(count, 3)
+        work = int(np.diff(self._starts[:, 2])[which].sum())  # edges
+        threads = min(count, os.cpu_count() or 1, 8, 1 + work // _WORTH)
+        if self._threads is None:
+            self._threads = ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1))
+        jobs = [
+            self._threads.submit(
+                *(_fill, *self._arrays, self._starts, which, eyes, turns, moves, np.array(lens)),
+                *(windows, corners, *limits, out, touched, k, threads),
+            )
+            for k in range(threads)
+        ]
+        time.sleep(0)  # let them begin: once in the kernel they need no lock
+        return jobs
+
+
+@njit(cache=True, nogil=True)
+def _fill(
+    points, planes, ends, first, faces, signs, starts, which, eyes, turns, moves, lens, windows,
+    corners, width, straight, out, touched, begin, step,
+):  # type: ignore[no-untyped-def]  # fmt: skip
+    for t in range(begin, len(which), step):
+        a, b = starts[which[t]], starts[which[t] + 1]
+        window = windows[t]
+        found = contours.outline_distances(
+            points[a[0] : b[0]], planes[a[1] : b[1]], ends[a[2] : b[2]], first[a[3] : b[3]],
+            faces[a[4] : b[4]], signs[a[5] : b[5]], eyes[t], turns[t], moves[t], lens, window,
+            width, straight,
+        )  # fmt: skip
+        height = len(found)
+        for row in range(height):
+            for column in range(found.shape[1]):
+                line = corners[t, 1] + height - 1 - row
+                out[line, corners[t, 0] + column] = found[row, column]
+        blocks.mark(found, window[0], window[1], width, touched)

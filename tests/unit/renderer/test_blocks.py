@@ -1,0 +1,52 @@
+"""Blocks of pixels: every block is in one rectangle, with the bits of what touches it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from renderer.blocks import BLOCK, covered, mark, runs
+
+SHAPE = (9, 13)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_rectangles_make_up_all_blocks_that_hold_anything(seed):
+    """Each such block once, with its own bits; the others not at all."""
+    rng = np.random.default_rng(seed)
+    objects = rng.integers(0, 3, SHAPE).astype(np.uint64) << np.uint64(62)
+    masks = rng.integers(0, 2, SHAPE).astype(np.uint64)
+    part = np.array([2 * BLOCK + 3, BLOCK, 11 * BLOCK - 2, 8 * BLOCK + 1])
+    found, bits = runs(objects, masks, part)
+    times = np.zeros(SHAPE, int)
+    for (left, top, right, bottom), (a, b) in zip(found // BLOCK, bits, strict=True):
+        times[top:bottom, left:right] += 1
+        assert (objects[top:bottom, left:right] == a).all()
+        assert (masks[top:bottom, left:right] == b).all()
+    wanted = np.zeros(SHAPE, int)
+    wanted[1:9, 2:11] = objects[1:9, 2:11] != 0
+    np.testing.assert_array_equal(times, wanted)
+
+
+def test_a_box_covers_the_blocks_of_all_its_pixels():
+    """Against a picture of the box; one that lies beyond the picture covers what is in it."""
+    boxes = np.array([[7.9, 3.0, 24.1, 8.0], [-50.0, 60.0, 4.0, 1e9], [500.0, 0.0, 600.0, 10.0]])
+    bits = covered(boxes, np.array([0, 63, 5]), SHAPE)
+    first = np.zeros(SHAPE, bool)
+    first[0:2, 0:4] = True
+    np.testing.assert_array_equal((bits & np.uint64(1)) != 0, first)
+    last = np.zeros(SHAPE, bool)
+    last[7:, 0] = True
+    np.testing.assert_array_equal(bits >> np.uint64(63) != 0, last)
+    assert not (bits & np.uint64(1 << 5)).any()
+
+
+def test_a_mask_touches_the_blocks_within_its_width():
+    """One pixel of the target, and a width of 3: blocks of pixels at most 3 away."""
+    rows, columns = np.mgrid[0:40, 0:40]
+    distance = np.hypot(rows - 17, columns - 14).astype(np.float32)
+    touched = np.zeros(SHAPE, bool)
+    mark(distance, 8, 16, 3.0, touched)
+    near = distance <= 3
+    expected = {(int(r + 16) // BLOCK, int(c + 8) // BLOCK) for r, c in np.argwhere(near)}
+    assert {tuple(b) for b in np.argwhere(touched).tolist()} == expected
