@@ -55,19 +55,27 @@ def _met(row: Row) -> str:
 
 
 def _pivot(scene: str, rows: list[Row]) -> str:
-    """One table for a scene; ways that were asked for different figures get tables of their own."""
+    """Tables for a scene: ways that share a figure stand in one."""
     ways: dict[str, dict[str, Row]] = {}
     for r in rows:
         ways.setdefault(r["scene"].split(": ", 1)[1], {})[r["figure"]] = r
-    tables: dict[tuple[str, ...], list[str]] = {}
+    tables: list[tuple[list[str], list[str]]] = []  # figures, ways
     for way, cells in ways.items():
-        texts = [_cell(cells[figure]) for figure in cells]
-        tables.setdefault(tuple(cells), []).append(f"| {way} | " + " | ".join(texts) + " |")
-    found = []
-    for figures, lines in tables.items():
-        head = f"| {scene} | " + " | ".join(figures) + " |"
-        found.append("\n".join([head, "| --- " * (len(figures) + 1) + "|", *lines]))
-    return "\n\n".join(found)
+        for figures, found in tables:
+            if len(set(figures) & set(cells)) > 1:
+                figures += [f for f in cells if f not in figures]
+                found.append(way)
+                break
+        else:
+            tables.append((list(cells), [way]))
+    texts = []
+    for figures, found in tables:
+        lines = [f"| {scene} | " + " | ".join(figures) + " |", "| --- " * (len(figures) + 1) + "|"]
+        for way in found:
+            cells = [_cell(ways[way][f]) if f in ways[way] else "" for f in figures]
+            lines.append(f"| {way} | " + " | ".join(cells) + " |")
+        texts.append("\n".join(lines))
+    return "\n\n".join(texts)
 
 
 def _cell(row: Row) -> str:
