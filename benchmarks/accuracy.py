@@ -162,7 +162,8 @@ def chart(rows: list[Figure], path: Path) -> None:
     for plot, (scene, ways) in zip(axes, found.items(), strict=False):
         for k, way in enumerate(WAYS):
             at = ways[way]["time / standard"], ways[way]["mean difference"]
-            plot.plot(*at, "os^vD<>*"[k], color=f"C{k}", label=way, alpha=0.8)
+            marks = {"marker": "os^vD<>*"[k], "color": f"C{k}", "label": way, "alpha": 0.8}
+            plot.plot(*at, linestyle="", clip_on=False, zorder=3, **marks)
         plot.set(title=scene, xlabel="frame time / standard", ylabel="mean difference / 255")
         plot.set_yscale("symlog", linthresh=0.001)
         plot.set(xlim=(0, None), ylim=(0, None))
