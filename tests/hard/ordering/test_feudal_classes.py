@@ -46,7 +46,17 @@ def steps():
     return faces
 
 
-CASES = {"soup": lambda: soup(24, 3), "steps": steps}
+def two_sided():
+    """Sheets over each other, each of a half that faces up and one that faces down."""
+    half = np.array([[0.0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]])
+    faces = []
+    for z in range(3):
+        up = half + np.array([0.1 * z, 0.0, z])
+        faces += [up, up[::-1] + np.array([1.0, 0.0, 0.0])]
+    return faces
+
+
+CASES = {"soup": lambda: soup(24, 3), "steps": steps, "two_sided": two_sided}
 
 
 @pytest.mark.parametrize("version", feudal.VERSIONS)
