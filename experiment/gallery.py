@@ -20,6 +20,7 @@ from tasks.parameters import AbstractParameters, BuildingParameters
 
 DYNAMIC = DynamicTransparency()
 SIZE, LARGE = (400, 300), (800, 600)
+BUILDING = 3  # the seed of one whose first room has models behind its walls
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +69,7 @@ def _scenes(aspect: float, seed: int) -> Iterator[Plate]:
     start = orbit(parameters, aspect).camera()
     near = look_at(start.eye * 0.55, np.zeros(3), fov_y=0.6, near=5, far=250)
     building = BuildingParameters()
-    house = unique_building(np.random.default_rng(seed + 2), building)
+    house = unique_building(np.random.default_rng(BUILDING), building)
     view = walk(building, house.start).camera()
     side = look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.47)
     scenes = (

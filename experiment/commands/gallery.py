@@ -37,7 +37,7 @@ dt {{ font-weight: 600; }} dd {{ margin: 0 0 .5rem; font-family: ui-monospace, m
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("--out", required=True, type=Path, help="a folder for page and pictures")
-    parser.add_argument("--seed", type=int, default=1, help="of the scenes, ≥ 0")
+    parser.add_argument("--seed", type=int, default=1, help="of the abstract world, ≥ 0")
 
 
 def run(args: argparse.Namespace) -> int:
