@@ -55,12 +55,22 @@ class Difficulty:
 
 @dataclass(frozen=True)
 class Match:
-    """A task's levels side by side: mean visible fraction of each, and their distance."""
+    """One measure of a task's scenes, level by level: its means, and how far they are apart.
+
+    `difference` is in the measure's own unit for shares (visible, hidden), else a share of the
+    mean over all levels.
+    """
 
     task: str
+    measure: str
     levels: tuple[tuple[str, float], ...]
     difference: float
-    ok: bool
+    bound: float
+
+    @property
+    def ok(self) -> bool:
+        """Whether the levels are alike enough."""
+        return self.difference <= self.bound
 
 
 def trials_of(study: Study, participants: int | None = None) -> list[Trial]:
@@ -128,31 +138,52 @@ class Certifier:
         return np.minimum(fraction, 1.0), int(hides.sum()), int(plain.visible.sum())
 
 
+# What is matched between levels. The path is one of the building's: sets are crossed with levels.
+MEASURES = {
+    "visible": lambda d: d.visible,
+    "hidden": lambda d: d.hidden / max(d.targets, 1),
+    "targets": lambda d: float(d.targets),
+    "occluders": lambda d: d.occluders,
+    "clutter": lambda d: d.clutter,
+    "path": lambda d: d.path,
+}
+SHARES = ("visible", "hidden")
+
+
 def matches(study: Study, measured: Sequence[Difficulty]) -> list[Match]:
-    """Whether, task by task, the transparency levels show equally much of the targets."""
-    found = []
-    for task in study.design.tasks:
-        levels = tuple(
-            (level, float(np.mean(values)))
-            for level in study.design.transparency
-            if (values := [d.visible for d in measured if _is(d.trial, task, level)])
-        )
-        means = [mean for _, mean in levels]
-        difference = max(means) - min(means)
-        found.append(Match(task, levels, difference, difference <= study.design.tolerance))
-    return found
+    """Whether, task by task and measure by measure, the transparency levels are equally hard."""
+    return [
+        _match(study, [d for d in measured if d.trial.task == task], measure)
+        for task in study.design.tasks
+        for measure in MEASURES
+    ]
+
+
+def _match(study: Study, own: Sequence[Difficulty], measure: str) -> Match:
+    levels = tuple(
+        (level, float(np.mean(values)))
+        for level in study.design.transparency
+        if (values := [MEASURES[measure](d) for d in own if d.trial.transparency == level])
+    )
+    means = [mean for _, mean in levels]
+    apart = max(means) - min(means)
+    if measure in SHARES:
+        return Match(own[0].trial.task, measure, levels, apart, study.design.tolerance)
+    share = apart / float(np.mean(means)) if apart > 0 else 0.0
+    return Match(own[0].trial.task, measure, levels, share, study.design.imbalance)
 
 
 def worst(match: Match, measured: Iterable[Difficulty]) -> Difficulty:
-    """The trial to draw again: the farthest from the other levels' mean."""
+    """The trial to draw again: the one that adds most to the difference."""
     means = dict(match.levels)
+    middle = float(np.mean(list(means.values())))
 
-    def distance(d: Difficulty) -> float:
-        others = [mean for level, mean in match.levels if level != d.trial.transparency]
-        return abs(d.visible - float(np.mean(others)))
+    def pull(d: Difficulty) -> float:
+        side = 1.0 if means[d.trial.transparency] > middle else -1.0
+        return side * (MEASURES[match.measure](d) - middle)
 
     own = [d for d in measured if d.trial.task == match.task and d.trial.transparency in means]
-    return max(own, key=distance)
+    return max(own, key=pull)
 
 
 def walking_path(building: Building) -> float:
@@ -167,10 +198,6 @@ def walking_path(building: Building) -> float:
         nearest = min(range(len(left)), key=lambda i: float(np.linalg.norm(left[i] - way[-1])))
         way.append(left.pop(nearest))
     return float(sum(np.linalg.norm(b - a) for a, b in pairwise(way)))
-
-
-def _is(trial: Trial, task: str, level: str) -> bool:
-    return trial.task == task and trial.transparency == level
 
 
 def _abstract(camera: Camera) -> list[Camera]:

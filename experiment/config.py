@@ -79,8 +79,10 @@ class StudyTable(_Table):
 class DesignTable(_Table):
     """[design]: what is crossed, and how often.
 
-    `tolerance` bounds the difference between transparency levels in the mean visible fraction of
-    the targets; scenes named in `redraw` are drawn again to keep it (experiment/certificate.py).
+    Transparency levels are to be equally hard: `tolerance` bounds their difference in the shares of
+    the targets that can be seen and that are hidden, `imbalance` that in the numbers of targets,
+    occluders and visible objects and in the way to walk, as a share of their mean. Scenes named in
+    `redraw` are drawn again to keep both (experiment/certificate.py).
     """
 
     transparency: Annotated[
@@ -96,6 +98,7 @@ class DesignTable(_Table):
     training: Annotated[int, Field(ge=0, le=20)] = 1
     redraw: tuple[str, ...] = ()
     tolerance: Annotated[float, Field(gt=0, le=1)] = 0.05
+    imbalance: Annotated[float, Field(gt=0, le=2)] = 0.2
 
     _arrays = field_validator("transparency", "tasks", "redraw", mode="before")(_as_tuple)
     _unique = field_validator("transparency", "tasks")(_once)

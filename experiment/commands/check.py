@@ -16,7 +16,7 @@ from experiment.errors import InputError
 from experiment.texts import Texts
 
 if TYPE_CHECKING:
-    from experiment.certificate import Difficulty
+    from experiment.certificate import Difficulty, Match
 
 SECONDS = 10.0  # of the hardest scene
 LEAST_DISK = 1.0  # GiB
@@ -96,20 +96,31 @@ def _measured(study: Study, context: Any) -> list[Difficulty]:
 def _difficulty(study: Study, measured: list[Difficulty], context: Any, redraw: bool) -> bool:
     from experiment.certificate import matches, worst
 
-    passed = True
-    for match in matches(study, measured):
-        levels = ", ".join(f"{level} {mean:.3f}" for level, mean in match.levels)
-        verdict = "ok" if match.ok else "NOT MATCHED"
-        print(
-            f"difficulty  {match.task}: visible fraction {levels}; apart {match.difference:.3f}, "
-            f"at most {study.design.tolerance:g}: {verdict}"
-        )
-        if not match.ok:
-            passed = False
+    found = matches(study, measured)
+    for task in study.design.tasks:
+        own = [match for match in found if match.task == task]
+        print(f"difficulty  {task}: " + ", ".join(_means(m) for m in own if m.ok) + ": ok")
+        for match in (m for m in own if not m.ok):
+            print(
+                f"difficulty  {task}: {_means(match)}: apart {_apart(match, match.difference)}, "
+                f"at most {_apart(match, match.bound)}: NOT MATCHED"
+            )
             print(f"            farthest off: {worst(match, measured).trial.scene}")
+    passed = all(match.ok for match in found)
     if redraw and not passed:
         _redraw(study, measured, context)
     return passed
+
+
+def _means(match: Match) -> str:
+    return f"{match.measure} " + " / ".join(f"{mean:.3g}" for _, mean in match.levels)
+
+
+def _apart(match: Match, value: float) -> str:
+    """A difference as the measure's unit has it."""
+    from experiment.certificate import SHARES
+
+    return f"{value:.3f}" if match.measure in SHARES else f"{100 * value:.0f} %"
 
 
 def _redraw(study: Study, measured: list[Difficulty], context: Any) -> None:

@@ -1,13 +1,14 @@
 """The difficulty certificate: on scenes whose answer is known, and how it fails."""
 
 import csv
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from experiment import cli
-from experiment.certificate import Certifier, Difficulty, Match, matches, walking_path, worst
+from experiment.certificate import Certifier, Difficulty, matches, walking_path, worst
 from experiment.config import parse
 from experiment.design import Trial, session_for
 from renderer import geometry
@@ -90,9 +91,9 @@ def test_the_walking_path_goes_to_the_nearest_next():
     assert walking_path(building) == 3.0 + 5.0 + 5.0
 
 
-def difficulty(task, level, visible, scene="s"):
+def difficulty(task, level, visible, scene="s", **others):
     trial = Trial(1, 1, 1, 1, level, "abstract", task, scene, (1,))
-    return Difficulty(trial, 10, visible, 0, 1.0, 5.0, 0.0)
+    return replace(Difficulty(trial, 10, visible, 0, 1.0, 5.0, 0.0), **others)
 
 
 def test_levels_match_within_the_tolerance_and_the_farthest_trial_is_named():
@@ -110,11 +111,34 @@ def test_levels_match_within_the_tolerance_and_the_farthest_trial_is_named():
         difficulty("pattern", "dynamic", 0.52, "good"),
         difficulty("pattern", "dynamic", 0.70, "bad"),
     ]
-    count, pattern = matches(study, measured)
+    found = {(m.task, m.measure): m for m in matches(study, measured)}
+    count, pattern = found["count", "visible"], found["pattern", "visible"]
     assert count.ok and count.difference == pytest.approx(0.04)
     assert not pattern.ok and pattern.difference == pytest.approx(0.11)
     assert worst(pattern, measured).trial.scene == "bad"
-    assert isinstance(pattern, Match)
+    assert all(m.ok for key, m in found.items() if key != ("pattern", "visible"))
+
+
+def test_every_measure_is_matched_and_the_trial_that_adds_most_is_named():
+    study = parse(
+        {
+            "study": {"name": "a", "title": "a", "description": "a", "participants": 1, "seed": 1},
+            "design": {"tasks": ["pattern"], "imbalance": 0.2},
+        },
+        "x",
+    )
+    levels = {"standard": (20, 26), "dynamic": (17, 3, 16)}
+    measured = [
+        difficulty("pattern", level, 0.5, f"{level}-{n}", occluders=float(n), targets=10 + n // 26)
+        for level, numbers in levels.items()
+        for n in numbers
+    ]
+    found = {m.measure: m for m in matches(study, measured)}
+    # Means 23 and 12, together 17.5; 10.5 and 10 targets, together 10.25.
+    assert found["occluders"].difference == pytest.approx(11 / 17.5)
+    assert found["targets"].difference == pytest.approx(0.5 / 10.25)
+    assert [m.measure for m in found.values() if not m.ok] == ["occluders"]
+    assert worst(found["occluders"], measured).trial.scene == "dynamic-3"
 
 
 def test_check_fails_names_the_trial_finds_redraws_and_they_match(study_file, tmp_path, capsys):
