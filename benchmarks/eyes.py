@@ -24,7 +24,7 @@ from experiment.pages import Page, Paragraph
 from experiment.participants.data_mode import play_trial
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import LazyDraw, Pool
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from renderer.gpu.renderer import Renderer
 from renderer.techniques.standard import Standard
 from renderer.visibility import Visibility

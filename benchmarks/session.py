@@ -22,7 +22,7 @@ from experiment.design import SIMULATED, generator, session_for
 from experiment.looking import Looking
 from experiment.recorder import FileRecorder, Who
 from experiment.replay import find_trial, replay
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from renderer.gpu.context import standalone
 from tasks.base import Outcome, View
 from tasks.catalog import TASKS
@@ -116,8 +116,9 @@ def _replay(folder: Path) -> float:
     from experiment.offscreen import OffscreenDisplay
     from experiment.participants.participant import SimulatedParticipant
     from experiment.provenance import provenance
-    from experiment.session import World, run_session
+    from experiment.session import run_session
     from experiment.simulated_input import SimulatedInput
+    from experiment.world import World
 
     study, clock, context = load("demo"), SimulatedClock(), standalone()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)

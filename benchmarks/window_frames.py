@@ -20,10 +20,10 @@ from experiment.clock import RealClock
 from experiment.config import load
 from experiment.design import session_for
 from experiment.recorder import FileRecorder, Who
-from experiment.session import World
 from experiment.texts import Texts
 from experiment.trial import TrialRun
 from experiment.window import _KEYS, Window
+from experiment.world import World
 from tasks.base import View
 from tasks.catalog import TASKS
 

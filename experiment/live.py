@@ -13,10 +13,10 @@ from experiment.own_models import keep
 from experiment.provenance import provenance
 from experiment.recorder import FileRecorder, Who
 from experiment.resume import going_on, starting_point
-from experiment.session import World, run_session
+from experiment.session import run_session
 from experiment.texts import Texts
-from experiment.trial import TrialRecord
 from experiment.window import Window
+from experiment.world import TrialRecord, World
 from tasks.catalog import TASKS
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ from experiment.errors import InputError
 from experiment.folders import folder_of, next_free, stem_of
 from experiment.private import make_folder, refused, write_new
 from experiment.record_files import Table, Traces, header_of, mend
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from tasks.base import View
 from tasks.events import Event
 

@@ -7,61 +7,17 @@ offscreen, and in tests.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, Protocol
-
 from experiment import questionnaire
-from experiment.clock import Clock
 from experiment.config import Study
 from experiment.design import TaskSet, Trial, session_for
-from experiment.display import Display, DisplayLost, Input, Leave
+from experiment.display import DisplayLost, Leave
 from experiment.pages import Page, Paragraph, Picture
-from experiment.scenes import StudyScenes
-from experiment.trial import TrialRecord, TrialRun
-from tasks.base import Task
-
-
-class Recorder(Protocol):
-    """Keeps what happened; the only writer of data."""
-
-    def trial_begins(self, trial: Trial) -> None:
-        """Open the traces of a trial."""
-
-    def event(self, event: Any) -> None:
-        """One input event of the running trial."""
-
-    def frame(self, time: float, view: Any, digest: str = "") -> None:
-        """One frame shown in the running trial; the digest of its pixels now and then."""
-
-    def trial_ends(self, record: TrialRecord) -> None:
-        """A completed trial: on disk when this returns."""
-
-    def answers(self, rows: list[Mapping[str, str]]) -> None:
-        """Rows of the questionnaire: on disk when this returns."""
-
-    def note(self, trial: Trial | None, text: str) -> None:
-        """A note of the experimenter's: on disk when this returns."""
-
-    def close(self, status: str) -> None:
-        """The session ended: `complete`, `left`, `time limit` or `display lost`."""
+from experiment.trial import TrialRun
+from experiment.world import TrialRecord, World
 
 
 class TimeIsUp(Leave):
     """The session's own time limit ended it."""
-
-
-@dataclass(frozen=True)
-class World:
-    """Everything a session touches."""
-
-    display: Display
-    input: Input
-    clock: Clock
-    recorder: Recorder
-    tasks: Mapping[str, Task]
-    progress: Callable[[TrialRecord], None] = lambda record: None
-    scenes: StudyScenes | None = None  # others than the study's own
 
 
 def run_session(study: Study, slot: int, world: World, done: frozenset[int] = frozenset()) -> str:

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import acos, dist, inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from experiment.config import Study
 from experiment.design import Trial
 from experiment.display import Leave
 from experiment.pages import Page, Paragraph, TextField
 from experiment.scenes import StudyScenes
+from experiment.world import TrialRecord, World
 from renderer.techniques.standard import Standard
 from tasks.base import Outcome, View
 from tasks.events import Event, FocusChange, KeyPress
-
-if TYPE_CHECKING:
-    from experiment.session import World
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5
@@ -29,30 +26,6 @@ MENU = Page(
     (TextField("note", "menu.note"),),
     ("menu.on", "menu.repeat", "menu.leave"),
 )
-
-
-@dataclass(frozen=True)
-class TrialRecord:
-    """A trial that ended; times in seconds on the session's clock."""
-
-    trial: Trial
-    outcome: Outcome | None
-    targets: int
-    first_frame: float
-    confirmed: float
-    away: float
-    timed_out: bool
-    frames: int
-    frames_missed: int
-    worst_frame: float
-    path_length: float
-    turned: float
-    repeat: bool = False
-
-    @property
-    def time(self) -> float:
-        """Completion time: first frame shown to the answer's confirmation."""
-        return self.confirmed - self.first_frame
 
 
 class _Watch:

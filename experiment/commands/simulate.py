@@ -101,8 +101,9 @@ def _one(  # type: ignore[no-untyped-def]
     from experiment.own_models import keep
     from experiment.provenance import provenance
     from experiment.recorder import FileRecorder, Who
-    from experiment.session import World, run_session
+    from experiment.session import run_session
     from experiment.simulated_input import SimulatedInput
+    from experiment.world import World
 
     clock = SimulatedClock()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)

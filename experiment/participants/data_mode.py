@@ -17,9 +17,10 @@ from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import Pool
 from experiment.participants.profile import AVERAGE, Profile
 from experiment.recorder import trial_row
-from experiment.session import World, run_session
+from experiment.session import run_session
 from experiment.simulated_input import SimulatedInput
-from experiment.trial import TrialRecord, TrialRun
+from experiment.trial import TrialRun
+from experiment.world import TrialRecord, World
 from renderer.visibility import Visibility
 from tasks.base import View
 from tasks.catalog import TASKS

@@ -24,7 +24,7 @@ from experiment.design import Trial
 from experiment.errors import InputError
 from experiment.record_files import Table
 from experiment.recorder import FileRecorder, Who
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from tasks.base import Outcome
 
 STEM = "study-test_subject-P01_session-1"
@@ -37,7 +37,7 @@ import numpy as np
 from experiment import cli
 from experiment.design import Trial
 from experiment.recorder import FileRecorder, Who
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from renderer.camera import look_at
 from renderer.scene import Scene
 from tasks.base import Outcome, View

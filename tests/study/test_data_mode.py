@@ -11,8 +11,9 @@ from experiment.participants import batch
 from experiment.participants.data_mode import Played, play_session
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import LazyDraw, Pool
-from experiment.session import World, run_session
+from experiment.session import run_session
 from experiment.simulated_input import SimulatedInput
+from experiment.world import World
 from tasks.catalog import TASKS
 
 ASPECT = 4 / 3

@@ -19,7 +19,8 @@ from experiment.clock import SimulatedClock
 from experiment.config import parse
 from experiment.recorder import FileRecorder, Who
 from experiment.resume import starting_point
-from experiment.session import World, run_session
+from experiment.session import run_session
+from experiment.world import World
 from tasks.catalog import TASKS
 from tasks.events import KeyPress, PointerMove, Tick
 

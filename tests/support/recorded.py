@@ -10,7 +10,7 @@ from experiment.config import load
 from experiment.design import session_for
 from experiment.provenance import provenance
 from experiment.recorder import FileRecorder, Who
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from renderer.camera import look_at
 from renderer.scene import Scene
 from tasks.base import Outcome, View

@@ -7,9 +7,10 @@ from experiment.config import parse
 from experiment.driver import describe
 from experiment.provenance import provenance
 from experiment.recorder import FileRecorder, Who
-from experiment.session import World, run_session
+from experiment.session import run_session
 from experiment.stage import Stage
 from experiment.texts import Texts
+from experiment.world import World
 from renderer.gpu.context import standalone
 from tasks.catalog import TASKS
 from tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from experiment.chain import verify
 from experiment.design import Trial
 from experiment.recorder import FileRecorder, Who
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from renderer.camera import look_at
 from renderer.scene import Scene
 from tasks.base import Outcome, View

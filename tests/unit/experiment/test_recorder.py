@@ -12,7 +12,7 @@ from experiment.design import Trial
 from experiment.errors import InputError
 from experiment.folders import check_participant, next_free, stem_of
 from experiment.recorder import FileRecorder, Who
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from renderer.camera import look_at
 from renderer.scene import Scene
 from tasks.base import Outcome, View

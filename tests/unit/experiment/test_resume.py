@@ -7,7 +7,7 @@ from experiment.design import session_for
 from experiment.errors import InputError
 from experiment.recorder import FileRecorder, Who
 from experiment.resume import already_done, going_on, past, starting_point
-from experiment.trial import TrialRecord
+from experiment.world import TrialRecord
 from tasks.base import Outcome
 
 STUDY = load("published")

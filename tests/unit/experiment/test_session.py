@@ -8,7 +8,8 @@ import pytest
 from experiment.clock import SimulatedClock
 from experiment.config import parse
 from experiment.display import DisplayLost, Leave
-from experiment.session import World, run_session
+from experiment.session import run_session
+from experiment.world import World
 from tasks.base import View
 from tasks.catalog import TASKS
 from tasks.events import FocusChange, KeyPress, PointerPress, Tick
