@@ -21,7 +21,9 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks import mask_sweep, vtk_peeling
 from benchmarks.breaking import BREAKING
+from benchmarks.picture_errors import drawn, errors
 from benchmarks.scenes import SCENES
 from benchmarks.speed import Figure, row, times
 from renderer.gpu.context import standalone
@@ -45,20 +47,8 @@ DEFAULT = f"planes, doubt {DynamicTransparency().doubt:g}"
 MOST_OFF = 0.1  # % of the pixels, by more than 2/255, on the three scenes
 
 
-def flip(truth: np.ndarray, picture: np.ndarray) -> float | None:
-    """Mean FLIP of two (h, w, 3) uint8 pictures; None without the package."""
-    try:
-        import flip_evaluator
-    except ModuleNotFoundError:
-        return None
-    one, two = (p.astype(np.float32) / 255 for p in (truth, picture))
-    return float(flip_evaluator.evaluate(one, two, "LDR")[1])
-
-
 def figures() -> Iterator[Figure]:
     """All rows, as they are measured."""
-    from benchmarks import mask_sweep, vtk_peeling
-
     context = standalone()
     renderer = Renderer(context, SIZE, without=frozenset({"still"}))
     for name, make in {**SCENES, **BREAKING}.items():
@@ -92,29 +82,6 @@ def of_scene(
             for c, s in zip(cameras, shown, strict=True)
         ]
         yield row("pixels with a wrong order", where, 100 * float(np.mean(wrong)), "%", None, None)
-
-
-def drawn(renderer: Renderer, scene: Any, camera: Any, technique: Any) -> np.ndarray:
-    """(h, w, 3) the frame."""
-    renderer.draw(scene, camera, technique)
-    return renderer.read()
-
-
-def errors(
-    where: str, truths: list[np.ndarray], pictures: list[np.ndarray], must: float | None
-) -> Iterator[Figure]:
-    """The differences of some pictures from the true ones, as rows."""
-    pairs = list(zip(truths, pictures, strict=True))
-    apart = np.stack([np.abs(a.astype(int) - b).max(axis=2) for a, b in pairs])
-    yield row(
-        "pixels off by more than 2/255", where, 100 * float((apart > 2).mean()), "%", must, None
-    )
-    yield row("mean difference", where, float(apart.mean()), "/255", None, None)
-    yield row("99.9th percentile", where, float(np.percentile(apart, 99.9)), "/255", None, None)
-    yield row("largest difference", where, float(apart.max()), "/255", None, None)
-    values = [flip(a, b) for a, b in pairs]
-    if None not in values:
-        yield row("mean FLIP", where, float(np.mean(values)), "", None, None)  # type: ignore[arg-type]
 
 
 def _keys(layers: list[tuple[np.ndarray, np.ndarray]], objects: int, least: float) -> np.ndarray:

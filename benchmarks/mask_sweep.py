@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.picture_errors import drawn, errors
 from benchmarks.scenes import SCENES
 from benchmarks.speed import Figure, row, times
 from renderer.gpu.renderer import Renderer
@@ -61,8 +62,6 @@ def _spent(renderer: Renderer, scene: Any, cameras: list[Any], ways: dict[str, A
 
 
 def _resolutions(renderer: Renderer, name: str, scene: Any, cameras: list[Any]) -> Iterator[Figure]:
-    from benchmarks.accuracy import drawn, errors
-
     ways = {
         "outline": DEFAULT,
         **{f"ring {n} × {n}": replace(DEFAULT, mask="ring", ring_size=n) for n in CELLS},
@@ -83,8 +82,6 @@ def _looks(
     cameras: list[Any],
     ways: dict[str, DynamicTransparency],
 ) -> Iterator[Figure]:
-    from benchmarks.accuracy import drawn
-
     spent = _spent(renderer, scene, cameras, ways)
     plain = [drawn(renderer, scene, c, Standard()) for c in cameras]
     hidden = [_covered(renderer, scene, c) for c in cameras]

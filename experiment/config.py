@@ -183,6 +183,10 @@ class Study(_Table):
             del model["folder"]  # where a file lies differs between stations that run one study
         return table
 
+    def with_walkthrough(self, parameters: BuildingParameters) -> Study:
+        """The study with another building."""
+        return self.model_copy(update={"walkthrough": parameters})
+
     def digest(self) -> str:
         """SHA-256 of the resolved study: two sessions with the same digest ran the same study."""
         text = json.dumps(self.resolved(), sort_keys=True)
@@ -227,7 +231,8 @@ def load(name: str) -> Study:
         raise InputError(f"{path}: byte {error.start} is not UTF-8") from None
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not valid TOML: {_one_line(str(error))}") from None
-    return beside(_with_consent(parse(table, str(path)), path), path)
+    study = _with_consent(parse(table, str(path)), path)
+    return study.with_walkthrough(beside(study.walkthrough, path))
 
 
 def _with_consent(study: Study, path: Path) -> Study:

@@ -3,53 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
+from experiment import gallery_hard
+from experiment.gallery_plates import DYNAMIC, LARGE, Plate, Section
 from renderer import geometry, transforms
 from renderer.camera import Camera, look_at
-from renderer.plan import Technique
 from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import GRANULARITIES, MASKS, DynamicTransparency
+from renderer.techniques.dynamic import GRANULARITIES, MASKS
 from renderer.techniques.standard import Standard
 from tasks.abstract_scene import abstract_scene
 from tasks.building import unique_building
 from tasks.controls import orbit, walk
 from tasks.parameters import AbstractParameters, BuildingParameters
 
-DYNAMIC = DynamicTransparency()
-SIZE, LARGE = (400, 300), (800, 600)
 BUILDING = 3  # the seed of one whose first room has models behind its walls
-
-
-@dataclass(frozen=True, eq=False)
-class Plate:
-    """One picture: its file name, what it shows in words, and how large it is drawn."""
-
-    name: str
-    caption: str
-    scene: Scene
-    camera: Camera
-    technique: Technique
-    size: tuple[int, int] = SIZE
-
-
-@dataclass(frozen=True, eq=False)
-class Section:
-    """Pictures under one heading, with a line about them; `refused` are inputs and the message
-    that each one got."""
-
-    title: str
-    about: str
-    plates: tuple[Plate, ...]
-    refused: tuple[tuple[str, str], ...] = field(default=())
 
 
 def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     """The gallery from top to bottom."""
-    from experiment import gallery_hard
-
     yield Section(
         "The three scenes and the models",
         "Standard rendering beside dynamic transparency.",

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from experiment.gallery import DYNAMIC, Plate, Section
+from experiment.gallery_plates import DYNAMIC, Plate, Section
 from renderer import geometry, transforms
 from renderer.camera import Camera, look_at
 from renderer.plan import Technique

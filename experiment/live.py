@@ -48,7 +48,7 @@ def play_in_window(
         who = Who(study.study.name, participant, source, start.slot, described, start.session)
         person: Input = window if watched is None else _simulated(watched, window)
         recorder = FileRecorder(data, who, attempts=start.attempts)
-        keep(study, data)
+        keep(study.walkthrough, data)
         world = World(window, person, clock, recorder, TASKS, say)
         return run_session(study, start.slot, world, start.done)
     finally:

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from experiment.errors import InputError
 from experiment.private import make_folder, write_new
 from tasks.own_models import digest, kept_as, mesh_of, packed
-from tasks.parameters import OwnModel
-
-if TYPE_CHECKING:
-    from experiment.config import Study
+from tasks.parameters import BuildingParameters
 
 FOLDER = "models"
 
 
-def beside(study: Study, path: Path) -> Study:
-    """The study with its models read, and their files' hashes. Raises InputError."""
+def beside(parameters: BuildingParameters, path: Path) -> BuildingParameters:
+    """The [walkthrough] of the study file at `path`, its models read, with their files' hashes.
+    Raises InputError."""
     found = []
-    for number, model in enumerate(study.walkthrough.models):
+    for number, model in enumerate(parameters.models):
         try:
             model = replace(model, folder=str(path.parent))
             mesh_of(model)
@@ -30,12 +27,12 @@ def beside(study: Study, path: Path) -> Study:
             raise InputError(
                 f"{path}: walkthrough.models[{number}].file = {model.file!r}: {reason}"
             ) from None
-    return _with(study, found)
+    return replace(parameters, models=tuple(found))
 
 
-def keep(study: Study, data: Path) -> None:
+def keep(parameters: BuildingParameters, data: Path) -> None:
     """Put the meshes into the data folder, for replays on any machine. Raises InputError."""
-    for model in study.walkthrough.models:
+    for model in parameters.models:
         path = kept_as(replace(model, folder=str(data / FOLDER)))
         try:
             make_folder(path.parent)
@@ -47,17 +44,11 @@ def keep(study: Study, data: Path) -> None:
             raise InputError(f"{path}: cannot be written: {error.strerror}") from None
 
 
-def kept(study: Study, data: Path) -> Study:
-    """A study from a sidecar, with its models as the data folder kept them. Raises InputError."""
-    found = [replace(model, folder=str(data / FOLDER)) for model in study.walkthrough.models]
+def kept(parameters: BuildingParameters, data: Path) -> BuildingParameters:
+    """The [walkthrough] of a sidecar, its models as the data folder kept them.
+    Raises InputError."""
+    found = [replace(model, folder=str(data / FOLDER)) for model in parameters.models]
     for model in found:
         if not kept_as(model).is_file():
             raise InputError(f"{kept_as(model)}: expected the model {model.name!r} as it was shown")
-    return _with(study, found)
-
-
-def _with(study: Study, models: list[OwnModel]) -> Study:
-    if not models:
-        return study
-    parameters = replace(study.walkthrough, models=tuple(models))
-    return study.model_copy(update={"walkthrough": parameters})
+    return replace(parameters, models=tuple(found))

@@ -82,7 +82,7 @@ def _recorded(table: Path, row: dict[str, str], number: int) -> Recorded:
         study = parse(provenance["study"], str(sidecar))
     except (OSError, ValueError, KeyError) as error:
         raise InputError(f"{sidecar}: not a session's sidecar: {error!r}") from None
-    study = kept(study, table.parents[3])
+    study = study.with_walkthrough(kept(study.walkthrough, table.parents[3]))
     task_sets = session_for(int(row["slot"]), study.design.factors())
     trial = next(t for s in task_sets for t in s.trials if t.number == number)
     return Recorded(

@@ -7,7 +7,8 @@ import html
 from pathlib import Path
 
 from experiment.errors import InputError
-from experiment.gallery import SIZE, Plate, Section, sections
+from experiment.gallery import sections
+from experiment.gallery_plates import SIZE, Plate, Section
 
 HELP = "draw every mode, mask, granularity and hard case into a page"
 WIDEST = 800  # pixels of a picture on the page

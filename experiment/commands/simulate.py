@@ -122,7 +122,7 @@ def _one(  # type: ignore[no-untyped-def]
             _explain(f"S{slot:02d} trial {record.trial.number} {record.trial.task}", person)
 
     session_input = SimulatedInput(person, display, clock)
-    keep(study, out)
+    keep(study.walkthrough, out)
     world = World(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
     run_session(study, slot, world)
 

@@ -88,10 +88,11 @@ def test_the_digest_follows_the_files_bytes_and_not_its_place(tmp_path):
 
 def test_replay_needs_the_data_folder_alone(tmp_path):
     study = load(str(written(tmp_path / "lab")))
-    keep(study, tmp_path / "data")
-    keep(study, tmp_path / "data")  # the next participant
+    keep(study.walkthrough, tmp_path / "data")
+    keep(study.walkthrough, tmp_path / "data")  # the next participant
     shutil.rmtree(tmp_path / "lab")
-    again = kept(parse(study.resolved(), "sidecar"), tmp_path / "data")
+    again = parse(study.resolved(), "sidecar")
+    again = again.with_walkthrough(kept(again.walkthrough, tmp_path / "data"))
     assert again.digest() == study.digest()
     for old, new in zip(buildings(study), buildings(again), strict=True):
         for a, b in zip(old.scene.objects, new.scene.objects, strict=True):
@@ -104,12 +105,12 @@ def test_a_model_that_was_not_kept_or_is_damaged_is_one_line(tmp_path):
     study = load(str(written(tmp_path / "lab")))
     plain = parse(study.resolved(), "sidecar")
     with pytest.raises(InputError, match=r"\.npz: expected the model 'wedge of wood' as it was"):
-        kept(plain, tmp_path / "data")
-    keep(study, tmp_path / "data")
+        kept(plain.walkthrough, tmp_path / "data")
+    keep(study.walkthrough, tmp_path / "data")
     (file,) = tmp_path.rglob("*.npz")
     file.write_bytes(file.read_bytes()[:100])
     with pytest.raises(ValueError, match=r"^[^\n]*\.npz: not a kept model: [^\n]*$"):
-        next(buildings(kept(plain, tmp_path / "data")))
+        next(buildings(plain.with_walkthrough(kept(plain.walkthrough, tmp_path / "data"))))
 
 
 BAD = [

@@ -11,7 +11,8 @@ from PIL import Image
 
 from experiment import gallery_hard
 from experiment.cli import main
-from experiment.gallery import Section, sections
+from experiment.gallery import sections
+from experiment.gallery_plates import Section
 from renderer.gpu.renderer import Renderer
 from renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES
 
