@@ -181,16 +181,22 @@ def _put(out, k, x, y, ox, oy):  # type: ignore[no-untyped-def]
     return k + 1
 
 
+_BLUNT = 1.0  # radians: the corner of two triangles lies an eighth of the width too far out
+
+
 @njit(cache=True)
 def _fan(out, k, corner, a, b, width):  # type: ignore[no-untyped-def]
-    """Three triangles round a corner from unit normal a to b, outside the circle of `width`."""
+    """Two or three triangles round a corner from unit normal a to b, outside the circle of
+    `width`, by little."""
     turn = np.arctan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
-    c, s, r = np.cos(turn / 4), np.sin(turn / 4), width / np.cos(turn / 4)
+    half = turn / 2 if turn < _BLUNT else turn / 4
+    c, s, r = np.cos(half), np.sin(half), width / np.cos(half)
     rim = np.empty((4, 2))
-    rim[0], rim[3] = a * width, b * width
+    rim[0], rim[2], rim[3] = a * width, b * width, b * width
     rim[1, 0], rim[1, 1] = r * (c * a[0] - s * a[1]), r * (s * a[0] + c * a[1])
-    rim[2, 0], rim[2, 1] = r * (c * b[0] + s * b[1]), r * (c * b[1] - s * b[0])
-    for t in range(3):
+    if turn >= _BLUNT:
+        rim[2, 0], rim[2, 1] = r * (c * b[0] + s * b[1]), r * (c * b[1] - s * b[0])
+    for t in range(2 if turn < _BLUNT else 3):
         k = _put(out, k, corner[0], corner[1], 0.0, 0.0)
         for o in (rim[t], rim[t + 1]):
             k = _put(out, k, corner[0] + o[0], corner[1] + o[1], o[0], o[1])

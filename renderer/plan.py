@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Set
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -168,8 +169,8 @@ def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-
     planes = scene.separations
     while True:
         found = order.decide(*args, blend, planes.relation(camera.eye), by_center)
-        pairs = np.argwhere(np.triu(found[1] & ~planes.tried))
-        if not len(pairs) or not planes.learn(pairs, scene):
+        new = found[1] & ~planes.tried
+        if not new.any() or not planes.learn(np.argwhere(np.triu(new)), scene):
             return found
 
 
@@ -258,10 +259,8 @@ def _with_levels(
     if "levels" in base.without:
         of_object, of_mask = order.one_by_one(seen, of_object, of_mask)
     last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
-    levels = [
-        Level(np.nonzero(of_object == k)[0], np.nonzero(of_mask == k)[0])
-        for k in range(-1, last + 1)
-    ]
+    pairs = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
+    levels = [Level(objects, targets) for objects, targets in pairs]
     parts = merged_parts(doubtful, size)
     if _union(doubtful, size) <= doubt * size[0] * size[1]:
         parts = parts[:0]
@@ -281,6 +280,13 @@ def _with_levels(
         holes=holes,
         clusters=united.members,
     )
+
+
+def _grouped(level: Indices, last: int) -> list[Indices]:
+    """The objects of each level from −1 to `last`, in their order."""
+    order_ = np.argsort(level, kind="stable")
+    cuts = np.searchsorted(level[order_], np.arange(-1, last + 2)).tolist()
+    return [order_[a:b] for a, b in pairwise(cuts)]
 
 
 def _held(

@@ -122,7 +122,8 @@ class Layer:
     def _before(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
         """Put the objects in sequence, begin what the masks look up. Returns the runs of the opaque
         pass and of each level, and those that `_looked_up` draws."""
-        wide = np.isin(np.arange(len(frame.reasons)), frame.wide)
+        wide = np.zeros(len(frame.reasons), dtype=bool)
+        wide[frame.wide] = True
         parts = [frame.opaque, frame.wide]
         leaders = [members[0] for members in frame.clusters]
         for level in frame.levels:

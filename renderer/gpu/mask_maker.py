@@ -173,7 +173,9 @@ def _hulls(table, targets, frame, camera, width, size):  # type: ignore[no-untyp
     starts = np.cumsum([0] + [len(c) for c in clouds])  # type: ignore[arg-type]
     pixels = np.concatenate([*clouds, np.zeros((0, 2))])  # type: ignore[list-item]
     vertices, firsts = masks.hulls_with_skirts(pixels, starts, width)
-    return np.pad(vertices, ((0, 0), (0, VERTEX - vertices.shape[1]))), firsts
+    rows = np.zeros((len(vertices), VERTEX), vertices.dtype)
+    rows[:, : vertices.shape[1]] = vertices
+    return rows, firsts
 
 
 def _ellipses(table, targets, frame, camera, shape, width, size):  # type: ignore[no-untyped-def]

@@ -8,6 +8,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer import blocks
 from renderer.blocks import BLOCK
 from renderer.camera import Camera
 from renderer.gpu.distance_painter import DistancePainter
@@ -77,12 +78,11 @@ class MaskPainter:
     def _begin(self, table: SceneTable, frame: FramePlan, camera: Camera) -> None:
         """Find the blocks that masks touch, those of outlines beside the drawing that follows."""
         made, size = self.geometry, self._size
-        self.blocks = np.zeros([-(-s // BLOCK) for s in size[::-1]], dtype=bool)
-        boxes = np.clip(frame.reach, 0, [*size, *size]) / BLOCK
-        for t in np.setdiff1d(made.targets, made.looped).tolist():
-            left, top = np.floor(boxes[t, :2]).astype(int).tolist()
-            right, bottom = np.ceil(boxes[t, 2:]).astype(int).tolist()
-            self.blocks[top:bottom, left:right] = True
+        shape = (-(-size[1] // BLOCK), -(-size[0] // BLOCK))
+        looped = np.zeros(len(frame.reach), dtype=bool)
+        looped[made.looped] = True
+        boxes = frame.reach[made.targets[~looped[made.targets]]]
+        self.blocks = blocks.covered(boxes, np.zeros(len(boxes), np.int64), shape) != 0
         self._distances.begin(table, made, camera, self._technique, self._width, size, self.blocks)
 
     def draw_distances(self, table: SceneTable, runs: list[list[Run]], camera: Camera) -> int:
@@ -144,21 +144,18 @@ class MaskPainter:
     def draw(self, targets: NDArray[np.int64]) -> int:
         """Draw these targets' masks into the bound frame, those side by side in the buffer at
         once. Returns the draw calls."""
-        draws = 0
-        first, count = self._first[targets], self._count[targets]
-        for kind in (False, True):
-            mine = (self._pictured[targets] == kind) & (count > 0)
-            if not mine.any():
-                continue
-            begin, total = int(first[mine].min()), int(count[mine].sum())
-            if int((first + count)[mine].max()) == begin + total:
-                self._array(self._keys[kind]).render(moderngl.TRIANGLES, total, begin)
-                draws += 1
-                continue
-            for target in targets[mine].tolist():
-                self.draw_one(target)
-                draws += 1
-        return draws
+        spans: dict[bool, list[list[int]]] = {False: [], True: []}
+        rows = (self._first[targets], self._count[targets], self._pictured[targets])
+        for first, count, kind in zip(*(row.tolist() for row in rows), strict=True):
+            found = spans[kind]
+            if found and found[-1][1] == first:
+                found[-1][1] += count
+            elif count:
+                found.append([first, first + count])
+        for kind, found in spans.items():
+            for begin, end in found:
+                self._array(self._keys[kind]).render(moderngl.TRIANGLES, end - begin, begin)
+        return len(spans[False]) + len(spans[True])
 
     def _array(self, key: tuple[str, ...]) -> moderngl.VertexArray:
         if key not in self._arrays:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import struct
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +16,7 @@ from renderer.silhouettes import Topology, topology
 
 FORMAT = "3f 3f 3f"
 ATTRIBUTES = ("in_position", "in_normal", "in_color")
+_INT = struct.Struct("i").pack
 
 
 class GpuMesh:
@@ -64,7 +67,7 @@ class GpuMesh:
             layout = " ".join("3f" if a else "12x" for a in used)
             content = [(self._vertices, layout, *[a for a in used if a])]
             self._arrays[key] = context.vertex_array(shader.program, content, self._indices)
-        shader.members["first"].value = first
+        shader["first"].write(_INT(first))  # half the time of setting its value
         self._arrays[key].render(instances=count)
 
 
