@@ -32,13 +32,13 @@ class Tally:
         new = 0
         used: set[int] = set()
         # What has stayed in sight is known; the rest is told by its place.
-        order = sorted(found.index.tolist(), key=lambda i: i not in self.tracked)
+        order = sorted(found.index, key=lambda i: i not in self.tracked)
         for index in order:
             place = walker.place(index, found.seen)
             entry = self.tracked.get(index)
             if entry is None:
                 entry = self._nearest(
-                    place, p.same_place + 0.1 * hypot(*(place - walker.eye)), used
+                    place, p.same_place + 0.1 * hypot(*(place - walker.eye).tolist()), used
                 )
             if entry is None:
                 entry = len(self.places)
@@ -56,8 +56,10 @@ class Tally:
         free = [k for k in range(len(self.places)) if k not in used]
         if not free:
             return None
-        nearest = min(free, key=lambda k: hypot(*(self.places[k] - place)))
-        return nearest if hypot(*(self.places[nearest] - place)) < within else None
+        x, z = place.tolist()
+        ways = [hypot(a - x, b - z) for a, b in (self.places[k].tolist() for k in free)]
+        nearest = min(ways)
+        return free[ways.index(nearest)] if nearest < within else None
 
 
 def count_things(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None]:

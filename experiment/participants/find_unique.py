@@ -10,7 +10,8 @@ import numpy as np
 from experiment.participants.glance import Glance
 from experiment.participants.hands import Hands
 from experiment.participants.person import Mood
-from experiment.participants.walking import THERE, Walker
+from experiment.participants.places import THERE
+from experiment.participants.walking import Walker
 from tasks.events import Event
 from tasks.hud import Button, FloorPlan
 
@@ -28,10 +29,10 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
         found = walker.look()
         if len(found.index):
             walker.settle()
-            index = int(found.index[0])
+            index = found.index[0]
             believed = walker.place(index, found.seen)
             way = believed - walker.error - walker.eye
-            if hypot(*way) <= mood.profile.near_enough:
+            if hypot(*way.tolist()) <= mood.profile.near_enough:
                 break
             yield from walker.hop(walker.eye + way)
             continue
@@ -47,7 +48,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
 
 def _go_on(walker: Walker, goal):  # type: ignore[no-untyped-def]
     """One step of the search: on to a goal, or whatever is worth most now; the goal, if any."""
-    if goal is None or hypot(*(goal - walker.eye)) < THERE:
+    if goal is None or hypot(*(goal - walker.eye).tolist()) < THERE:
         walker.settle()
         turn, goal = walker.choose()
         if goal is None:

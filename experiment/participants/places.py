@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
+from math import atan2, cos, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from renderer.scene import Scene
 from renderer.transforms import moved
 
 CELL = 5.0
+THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached it
 DIRECTIONS = 8  # headings one looks and walks in: every 45°
 # From one cell to the next in each heading: cells in (x, z), and the parts a step is walked in. One
 # looks after each part: at the usual speed twice a second or more, across corners as well.
@@ -40,12 +42,25 @@ class Layout:
     _blocked: dict[int, NDArray[np.uint8]] = field(default_factory=dict)
     _ways: dict[int, tuple[NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=dict)
     _units: dict[int, NDArray[np.float64]] = field(default_factory=dict)
+    _near: dict[int, NDArray[np.bool_]] = field(default_factory=dict)
 
     def cell(self, place: NDArray[np.float64]) -> int:
         """The cell in which (or nearest to which) a place (2,) lies."""
         half, last = self.size / 2, self.size - 1
-        i, j = (min(max(int(x / CELL + half), 0), last) for x in (place[0], place[1]))
+        x, z = place.tolist()
+        i, j = min(max(int(x / CELL + half), 0), last), min(max(int(z / CELL + half), 0), last)
         return i * self.size + j
+
+    def nearest(self, place: NDArray[np.float64]) -> int:
+        """The cell whose middle lies nearest to a place (2,)."""
+        away = self.centers - place
+        return int(np.argmin((away * away).sum(axis=1)))
+
+    def near(self, cell: int) -> NDArray[np.bool_]:
+        """(n,) which cells one has reached who stands in the middle of `cell`."""
+        if cell not in self._near:
+            self._near[cell] = self.ways(cell)[0] < THERE
+        return self._near[cell]
 
     def ways(self, cell: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(n,) how far and in which yaw every cell lies from the middle of `cell`."""
@@ -59,8 +74,11 @@ class Layout:
         if cell not in self._units:
             toward = self.ways(cell)[1]
             self._units[cell] = np.stack([-np.sin(toward), -np.cos(toward)])
-        facing = np.stack([-np.sin(yaw), -np.cos(yaw)], axis=-1)
-        return facing @ self._units[cell] > COS_HALF_VIEW
+        across, along = self._units[cell]
+        if isinstance(yaw, float):
+            return across * -sin(yaw) + along * -cos(yaw) > COS_HALF_VIEW
+        facing = -np.sin(yaw)[..., None], -np.cos(yaw)[..., None]
+        return across * facing[0] + along * facing[1] > COS_HALF_VIEW
 
     def hidden(self, cell: int, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """(n,) which cells one of these wall segments hides from the middle of `cell`."""
@@ -143,7 +161,8 @@ class Known:
     @property
     def left(self) -> float:
         """Share of the building not seen yet."""
-        return float(self.unseen.mean())
+        unseen = self.unseen
+        return float(np.add.reduce(unseen)) / len(unseen)
 
     def see_walls(self, visible: NDArray[np.bool_]) -> None:
         """Remember the walls among the visible objects (one flag per object of the scene)."""
@@ -206,6 +225,11 @@ def bearing(way: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.arctan2(-way[..., 0], -way[..., 1])
 
 
+def turn_to(x: float, z: float) -> float:
+    """The same for one way."""
+    return atan2(-x, -z)
+
+
 def apart(a: NDArray[np.float64] | float, b: NDArray[np.float64] | float):  # type: ignore[no-untyped-def]
     """Angle from b to a, in (−π, π]."""
-    return -((np.asarray(b) - a + np.pi) % (2 * np.pi) - np.pi)
+    return -((b - a + np.pi) % (2 * np.pi) - np.pi)

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from experiment.participants.count_red import TILT
 from experiment.participants.name_letter import FROM_ABOVE
 from experiment.participants.places import AHEAD, CELL, DIRECTIONS, STRIDES
+from experiment.participants.sight import Kept, shown
 from renderer.camera import Camera
 from renderer.scene import Scene
 from renderer.visibility import Visibility
@@ -28,7 +29,7 @@ from tasks.controls import turned
 YAWS = 12  # of the orbit's lattice: every 30°
 PITCHES = (-1.25, -0.8, -TILT, 0.0, TILT, 0.8, FROM_ABOVE)
 
-MOST_WHOLE = 64  # looks of a table kept as arrays over all objects: some 10 KB each
+MOST_WHOLE = 1024  # looks of a table kept with what was made of them: some 2 KB each
 
 Key = tuple[int, ...]
 Draw = Callable[[Scene, Camera], Visibility]
@@ -63,11 +64,11 @@ def walk_key(camera: Camera) -> Key:
     Headings from 8 on are passed on the way to the next cell: 8 and more after the first of the
     equal parts that a step in that heading is walked in (`STRIDES`), 16 and more after the second.
     """
-    r, eye = camera.rotation, camera.eye
-    yaw = atan2(-r[2, 0], r[0, 0])
+    yaw = atan2(-camera.rotation.item(2, 0), camera.rotation.item(0, 0))
     heading = round(yaw / (2 * pi / DIRECTIONS)) % DIRECTIONS
     across, along = AHEAD[heading]
-    x, z = eye[0] / CELL, eye[2] / CELL
+    x, _, z = camera.eye.tolist()
+    x, z = x / CELL, z / CELL
     key, nearest = (0, 0, 0), inf
     for part in range(STRIDES[heading]):
         share = part / STRIDES[heading]
@@ -96,30 +97,20 @@ class Table:
     objects: int
     rows: dict[Key, NDArray[np.float64]] = field(default_factory=dict)
     fresh: list[Key] = field(default_factory=list)  # looks kept since somebody last asked
-    _whole: dict[Key, Visibility] = field(default_factory=dict)  # looks that were wanted lately
+    _whole: dict[Key, Kept] = field(default_factory=dict)  # looks that were wanted lately
 
     def put(self, key: Key, seen: Visibility) -> None:
-        """Keep a look: index, pixels, weight, x, y, contrast, area of whatever is visible."""
-        index = np.nonzero(seen.pixels > 0)[0]
-        columns = (index, seen.pixels[index], seen.weight[index], seen.position[index, 0],
-                   seen.position[index, 1], seen.contrast[index], seen.area[index])  # fmt: skip
-        self.rows[key] = np.stack(columns).astype(float)
+        """Keep a look: what `shown` gives of it."""
+        self.rows[key] = shown(seen)
         self.fresh.append(key)
 
     def get(self, key: Key) -> Visibility:
         """The look as it was kept, the same to the last bit."""
-        if key in self._whole:
-            return self._whole[key]
-        rows = self.rows[key]
-        index = rows[0].astype(np.int64)
-        dense = np.zeros((4, self.objects))
-        dense[:, index] = rows[[1, 2, 5, 6]]
-        position = np.full((self.objects, 2), np.nan)
-        position[index] = rows[3:5].T
-        seen = Visibility(dense[0].astype(np.int64), dense[1], position, dense[2], dense[3])
-        if len(self._whole) >= MOST_WHOLE:
-            self._whole.clear()
-        self._whole[key] = seen
+        seen = self._whole.get(key)
+        if seen is None:
+            if len(self._whole) >= MOST_WHOLE:
+                self._whole.clear()
+            seen = self._whole[key] = Kept(self.objects, self.rows[key])
         return seen
 
 

@@ -5,22 +5,13 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import hypot, pi
+from math import atan2, hypot, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from experiment.participants.counting import saccade
-from experiment.participants.glance import (
-    CLEAR,
-    WHOLE,
-    WINDOW_PIXELS,
-    Glance,
-    heading,
-    likely,
-    noticed,
-    recognised,
-)
+from experiment.participants.glance import CLEAR, WHOLE, WINDOW_PIXELS, Glance, likely
 from experiment.participants.hands import Hands
 from experiment.participants.person import Mood
 from experiment.participants.places import (
@@ -29,10 +20,11 @@ from experiment.participants.places import (
     STRIDES,
     Known,
     apart,
-    bearing,
     crossed,
     layout,
+    turn_to,
 )
+from experiment.participants.sight import Sight, sight
 from renderer.scene import Scene
 from renderer.visibility import Visibility
 from tasks.events import Event
@@ -45,7 +37,6 @@ THING = 1.5  # radius of a usual thing, for how well it would be seen from afar 
 FILLED = 0.5 * pi * (THING / (2 * np.tan(np.pi / 6))) ** 2 * 0.75 * WINDOW_PIXELS
 REACH = 3  # cells about a place that count as worth going there for [ours]
 THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
-THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached it
 TURNS = apart(np.arange(1, DIRECTIONS) * STEP, 0.0)
 TURN_COST = 0.25 / STEP  # seconds a radian is thought to cost when choosing [ours]
 GOAL = 0.5  # a cell is a goal if it is unseen at least half as much as any [ours]
@@ -55,9 +46,9 @@ LOOK = 1.0  # seconds that a look somewhere else is thought to cost when choosin
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """Things of the asked kind recognised in one look."""
+    """Things of the asked kind recognised in one look, in the order of the scene."""
 
-    index: NDArray[np.int64]
+    index: list[int]
     seen: Visibility
 
 
@@ -71,11 +62,14 @@ class Walker:
         self._cell: int | None = None
         self.known = Known(layout(glance.view.scene))
         self._asked = _of_kind(glance.view.scene, _asked(glance))
+        self._walls = 0  # bits of the objects that are no things and have been visible
         self.error = np.zeros(2)  # where one believes to be, less where one is
         self.recognised: set[int] = set()  # what has been made out, and is known again
         self.passed: set[int] = set()  # things of the asked kind made out in passing
         self.through: list[float] = []  # clearness of things seen through walls
         self._busy = glance.now  # until then one thinks about what was seen last
+        # What hides, the cell and experience that the quality of looks was worked out for, and it.
+        self._quality: tuple[NDArray[np.bool_], tuple[int, int], NDArray[np.float64]] | None = None
 
     @property
     def glance(self) -> Glance:
@@ -101,43 +95,56 @@ class Walker:
     @property
     def yaw(self) -> float:
         """Where one looks."""
-        return heading(self.glance.view)[0]
+        rotation = self.glance.view.camera.rotation
+        return atan2(-rotation.item(2, 0), rotation.item(0, 0))
 
     def look(self) -> Found:
         """Look, and remember what has been seen; found is also what was made out in passing."""
         self.settle()
         seen = self.glance.look()
-        things, asked = self._make_out(seen, noticed(seen, self.mood))
-        self._see_through(seen, things)
+        view = sight(seen, self.glance.view.scene, self.mood.profile)
+        things, asked = self._make_out(seen, view, self._noticed(view))
+        self._see_through(view, things)
         self._inspect()
         self._think(self.mood.profile.count, len(things))
         if self.passed:
-            asked = np.union1d(asked, np.array(sorted(self.passed), dtype=np.int64))
+            asked = sorted(self.passed.union(asked))
             self.passed.clear()
         return Found(asked, seen)
 
     def pass_by(self) -> None:
         """Look while on the move: at nothing that is known already."""
         seen = self.glance.look()
-        index = noticed(seen, self.mood)
-        news = [i for i in index.tolist() if i not in self.recognised]
-        things, asked = self._make_out(seen, np.array(news, dtype=np.int64))
-        self.passed.update(asked.tolist())
+        view = sight(seen, self.glance.view.scene, self.mood.profile)
+        news = [k for k in self._noticed(view) if view.index[k] not in self.recognised]
+        things, asked = self._make_out(seen, view, news)
+        self.passed.update(asked)
         self._think(0.0, len(things))
 
+    def _noticed(self, view: Sight) -> list[int]:
+        """Which of the things seen are noticed; walls are not looked at, but remembered."""
+        hits = self.mood.rng.random(len(view.index)) < view.notice
+        return [k for k, hit in enumerate(hits.tolist()) if hit and view.thing[k]]
+
     def _make_out(
-        self, seen: Visibility, index: NDArray[np.int64]
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Of what is noticed, the things; and those made out to be of the asked kind."""
-        self.known.see_walls(seen.pixels > 0)
-        things = index[self.glance.view.scene.targets[index]]
-        known = recognised(seen, things, self.mood)
-        clear = things[known]
-        self.recognised.update(clear.tolist())
-        for made_out in clear.tolist():
-            self.known.unclear.pop(made_out, None)
-        self._wonder(seen, things[~known])
-        return things, clear[self._asked[clear]]
+        self, seen: Visibility, view: Sight, things: list[int]
+    ) -> tuple[list[int], list[int]]:
+        """The things noticed, by their number in the look; and what is of the asked kind."""
+        if view.walls & ~self._walls:
+            self._walls |= view.walls
+            self.known.see_walls(seen.pixels > 0)
+        if not things:
+            return things, []
+        draws = self.mood.rng.random(len(things)).tolist()
+        known = [draw < view.recognise[k] for k, draw in zip(things, draws, strict=True)]
+        clear = [view.index[k] for k, clear in zip(things, known, strict=True) if clear]
+        self.recognised.update(clear)
+        if self.known.unclear:
+            for made_out in clear:
+                self.known.unclear.pop(made_out, None)
+        self._wonder(seen, [view.index[k] for k, clear in zip(things, known, strict=True)
+                            if not clear])  # fmt: skip
+        return things, [index for index in clear if self._asked[index]]
 
     def _think(self, seconds: float, things: int) -> None:
         """Thinking about a look begins now and goes on while the feet and hands do."""
@@ -149,36 +156,43 @@ class Walker:
         """Think to the end about what was seen: before the next look, and before decisions."""
         self.hands.time = max(self.hands.time, self._busy)
 
-    def _see_through(self, seen: Visibility, things: NDArray[np.int64]) -> None:
+    def _see_through(self, view: Sight, things: list[int]) -> None:
         """Learn whether things shine through walls: was one seen that a known wall is before?"""
-        if len(things) == 0:
+        faint = [k for k in things if view.weight[k] < WHOLE]
+        if not faint:
             return
-        places = self.glance.view.scene.transforms[things][:, [0, 2], 3]
+        index = [view.index[k] for k in faint]
+        places = self.glance.view.scene.transforms[index][:, [0, 2], 3]
         walls = self.known.layout.segments[self.known.walls]
-        behind = crossed(self.eye, places, walls)
-        through = things[behind & (seen.weight[things] < WHOLE)]
-        self.through += np.minimum(seen.contrast[through] / CLEAR, 1.0).tolist()
+        behind = crossed(self.eye, places, walls).tolist()
+        self.through += [
+            min(view.contrast[k] / CLEAR, 1.0) for k, hid in zip(faint, behind, strict=True) if hid
+        ]
 
     def _inspect(self) -> None:
         plan = self.known.layout
         inside = plan.ahead(self.cell, self.yaw)
-        here = plan.ways(self.cell)[0] < THERE
+        here = plan.near(self.cell)
         self.known.inspect(np.where(inside, self.quality(), here))
-        self.known.unclear = {i: c for i, c in self.known.unclear.items() if not here[c]}
+        if self.known.unclear:
+            self.known.unclear = {i: c for i, c in self.known.unclear.items() if not here[c]}
 
-    def _wonder(self, seen: Visibility, things: NDArray[np.int64]) -> None:
+    def _wonder(self, seen: Visibility, things: list[int]) -> None:
         """Where something was noticed and not made out, one has not really looked yet."""
-        for index in things.tolist():
+        for index in things:
             if index not in self.recognised:
                 place = self.place(index, seen) - self.error
-                away = np.hypot(*(self.known.layout.centers - place).T)
-                self.known.unclear[index] = int(np.argmin(away))
+                self.known.unclear[index] = self.known.layout.nearest(place)
 
     def quality(self) -> NDArray[np.float64]:
         """(n,) how surely a thing in each cell would be recognised from where one stands."""
         hidden = self.known.hidden(self.cell)
-        through = self.mood.profile.trust * self._sure(self._through_clearness())
-        return np.where(hidden, through, self._sure(1.0))
+        about = (self.cell, len(self.through))
+        if self._quality is None or self._quality[0] is not hidden or self._quality[1] != about:
+            through = self.mood.profile.trust * self._sure(self._through_clearness())
+            made = np.where(hidden, through, self._sure(1.0))
+            self._quality = (hidden, about, made)
+        return self._quality[2]
 
     def _sure(self, clearness: float) -> NDArray[np.float64]:
         """(n,) the same for things everywhere as clear as that; looked up where nobody differs."""
@@ -229,15 +243,15 @@ class Walker:
             self.glance = yield self.hands.take()
             if not ended:
                 self.pass_by()
-        turned = float(apart(self.yaw, before))
+        turned = apart(self.yaw, before)
         if turned * angle > 0 and not 0.7 < turned / angle < 1.4:
             self.hands.gain *= turned / angle
 
     def hop(self, cell: NDArray[np.float64]) -> Generator[list[Event], Glance, None]:
         """One cell on towards `cell`: face one of eight directions, walk, see how far it went."""
-        way = cell - self.eye
-        aim = round(float(bearing(way)) / STEP) * STEP
-        if abs(turn := float(apart(aim, self.yaw))) > 1e-9:
+        x, z = (cell - self.eye).tolist()
+        aim = round(turn_to(x, z) / STEP) * STEP
+        if abs(turn := apart(aim, self.yaw)) > 1e-9:
             yield from self.turn(turn)
             self.pass_by()
         direction = round(aim / STEP)
@@ -248,7 +262,7 @@ class Walker:
             if not ended:
                 self.pass_by()
         self.known.move()
-        went = hypot(*(self.eye - before))
+        went = hypot(*(self.eye - before).tolist())
         if not 0.7 < went / distance < 1.4 and went > 0:
             self.hands.speed *= went / distance
         if self.mood.uses("drift"):
@@ -258,12 +272,12 @@ class Walker:
     def place(self, index: int, seen: Visibility) -> NDArray[np.float64]:
         """(2,) where one believes a visible thing to stand: direction good, distance uncertain."""
         mood, p = self.mood, self.mood.profile
-        way = self.glance.view.scene.transforms[index][[0, 2], 3] - self.eye
+        way = self.glance.view.scene.transforms[index, ::2, 3][:2] - self.eye
         if mood.uses("depth_noise"):
             through = p.through_noise if seen.weight[index] < WHOLE else 0.0
             spread = hypot(p.depth_noise, through)
             # Near things are seen at their distance; far ones look nearer.
-            bias = 1 - (1 - p.depth_bias) * min(1.0, hypot(*way) / 30)
+            bias = 1 - (1 - p.depth_bias) * min(1.0, hypot(*way.tolist()) / 30)
             way = way * bias * np.exp(spread * mood.rng.standard_normal())
         return self.eye + self.error + way
 
