@@ -36,11 +36,12 @@ class SimulatedInput:
         self.participant.begin_trial(task, self.clock.now())
 
     def events(self, view: View) -> list[Event]:
-        """The participant's next events, then a Tick at the time of the last."""
+        """The participant's next events, and a Tick at the time of the last."""
         events = self.participant.events(view, self.display.look, self.clock.now(), self._task)
-        end = max((e.time for e in events), default=self.clock.now())
+        end = max([e.time for e in events], default=self.clock.now())
         self.clock.advance(end)
-        return [*events, Tick(end)]
+        ticked = bool(events) and isinstance(events[-1], Tick) and events[-1].time == end
+        return events if ticked else [*events, Tick(end)]
 
     def ask(self, page: Page) -> Answers:
         """The participant reads and answers a page."""

@@ -50,7 +50,8 @@ class _Watch:
         if self._view is not None and self._view.camera is not view.camera:
             old, new = self._view.camera, view.camera
             self.path += dist(new.eye.tolist(), old.eye.tolist())
-            self.turned += acos(min(1.0, max(-1.0, float(new.forward @ old.forward))))
+            along = float(new.rotation[:, 2] @ old.rotation[:, 2])
+            self.turned += acos(min(1.0, max(-1.0, along)))
         self._time, self._view = time, view
 
     def pause(self) -> None:

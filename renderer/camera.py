@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,8 @@ class Camera:
     far: float = 1000.0
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.eye).all() and np.isfinite(self.rotation).all()):
+        values = [*self.eye.tolist(), *self.rotation.ravel().tolist()]
+        if not all(map(isfinite, values)):
             raise ValueError("camera has a value that is not finite")
         if not 0 < self.near < self.far:
             raise ValueError(f"near = {self.near}, far = {self.far}, expected 0 < near < far")

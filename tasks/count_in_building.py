@@ -8,6 +8,7 @@ from numpy.random import Generator
 
 from tasks.base import Outcome, View
 from tasks.building import Building, count_building
+from tasks.controls import changed
 from tasks.count import number_outcome
 from tasks.entry import NumberEntry
 from tasks.events import Event, KeyPress
@@ -53,7 +54,7 @@ class CountInBuilding:
     def on_event(self, state: CountInBuildingState, event: Event) -> CountInBuildingState:
         """The state after `event`: digits are typed, for the pointer turns the walker."""
         entry = state.entry.on_event(event) if isinstance(event, KeyPress) else state.entry
-        return CountInBuildingState(state.visit.on_event(event), entry)
+        return changed(state, visit=state.visit.on_event(event), entry=entry)
 
     def view(self, state: CountInBuildingState) -> View:
         """What to show for `state`."""

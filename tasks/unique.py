@@ -9,6 +9,7 @@ from numpy.random import Generator
 
 from tasks.base import Outcome, View
 from tasks.building import Building, unique_building
+from tasks.controls import changed
 from tasks.events import Event, KeyPress
 from tasks.floor import room_at
 from tasks.hud import Label
@@ -57,7 +58,7 @@ class Unique:
         if state.found:
             return replace(state, plan=state.plan.on_event(event))
         found = isinstance(event, KeyPress) and event.key in ("space", "enter")
-        return UniqueState(state.visit.on_event(event), state.plan, found)
+        return changed(state, visit=state.visit.on_event(event), found=found)
 
     def view(self, state: UniqueState) -> View:
         """What to show for `state`: the building, then its plan over it."""
