@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import acos, dist, inf
-from typing import Any
+from typing import Any, TypeGuard
 
 from experiment.config import Study
 from experiment.design import Trial
@@ -11,6 +12,7 @@ from experiment.display import Leave
 from experiment.pages import Page, Paragraph, TextField
 from experiment.scenes import StudyScenes
 from experiment.world import TrialRecord, World
+from renderer.camera import Camera
 from renderer.techniques.standard import Standard
 from tasks.base import Outcome, View
 from tasks.events import Event, FocusChange, KeyPress
@@ -39,7 +41,9 @@ class _Watch:
         self.path = 0.0
         self.turned = 0.0
         self._time: float | None = None
-        self._view: View | None = None
+        self._camera: Camera | None = None
+        self._eye: list[float] = []
+        self._back: list[float] = []  # the camera's third axis: it looks the other way
 
     def frame(self, time: float, view: View) -> None:
         self.frames += 1
@@ -47,12 +51,15 @@ class _Watch:
             took = time - self._time
             self.worst = max(self.worst, took)
             self.missed += took > MISSED * self.period
-        if self._view is not None and self._view.camera is not view.camera:
-            old, new = self._view.camera, view.camera
-            self.path += dist(new.eye.tolist(), old.eye.tolist())
-            along = float(new.rotation[:, 2] @ old.rotation[:, 2])
-            self.turned += acos(min(1.0, max(-1.0, along)))
-        self._time, self._view = time, view
+        camera = view.camera
+        if camera is not self._camera:
+            eye, back = camera.eye.tolist(), camera.rotation[:, 2].tolist()
+            if self._camera is not None:
+                (a, b, c), (d, e, f) = back, self._back
+                self.path += dist(eye, self._eye)
+                self.turned += acos(min(1.0, max(-1.0, a * d + b * e + c * f)))
+            self._camera, self._eye, self._back = camera, eye, back
+        self._time = time
 
     def pause(self) -> None:
         """The next frame comes after a page: its distance to the last one is not a missed frame."""
@@ -91,8 +98,10 @@ class TrialRun:
         running.show()
         while not running.ended:
             for event in world.input.events(running.view):
-                if event.time < running.first:
-                    continue  # pressed while the first frame was being drawn: not an answer to it
+                if event.time < running.first:  # pressed while the first frame was being drawn:
+                    if not _interrupts(event):  # no answer to it, but Esc is meant all the same
+                        continue
+                    event = replace(event, time=running.first)
                 world.recorder.event(event)
                 running.take(event)
                 if running.ended or running.interrupted:
@@ -100,6 +109,10 @@ class TrialRun:
             else:
                 running.show()
         return running.record()
+
+
+def _interrupts(event: Event) -> TypeGuard[KeyPress]:
+    return isinstance(event, KeyPress) and event.key in ("escape", "f1")
 
 
 class Running:
@@ -138,15 +151,16 @@ class Running:
 
     def take(self, event: Event) -> None:
         """Let an event change the trial. Raises Leave."""
-        self.interrupted = isinstance(event, KeyPress) and event.key in ("escape", "f1")
+        self.interrupted = _interrupts(event)
         self._confirmed = event.time
-        if self.interrupted:
+        if _interrupts(event):
             self._interrupt(event)
         elif isinstance(event, FocusChange):
             self._focus(event)
         else:
-            self._state = self._task.on_event(self._state, event)
-            self._outcome = self._task.outcome(self._state)
+            state = self._task.on_event(self._state, event)
+            if state is not self._state:
+                self._state, self._outcome = state, self._task.outcome(state)
             over = bool(self._limit) and event.time - self.first >= self._limit
             self._timed_out = over and self._outcome is None
 

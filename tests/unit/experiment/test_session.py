@@ -347,3 +347,22 @@ def test_keys_from_before_the_first_frame_answer_nothing():
     run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
     assert all(r.time == 4 * FRAME for r in recorder.ended)
     assert {r.outcome.answer for r in recorder.ended if r.trial.task == "count"} == {"20"}
+
+
+def test_escape_from_before_the_first_frame_asks_at_it():
+    asked = []
+
+    class Leaves(ScriptedInput):
+        def events(self, view):
+            events = super().events(view)
+            return [KeyPress(events[0].time - FRAME - 0.01, "escape"), *events]
+
+        def ask(self, page):
+            asked.append(page.name)
+            return {"button": "1" if page.name == "leave" else "0"}
+
+    clock = SimulatedClock(50.0)
+    recorder = MemoryRecorder()
+    world = World(FakeDisplay(clock), Leaves(clock, ANSWERS), clock, recorder, TASKS)
+    assert run_session(study(), 1, world) == "left"
+    assert asked.count("leave") == 1 and recorder.ended == []
