@@ -61,7 +61,7 @@ def render(about: Mapping[str, Any], study: Study, slots: Slots, played: Sequenc
         texts[f"{stem}_questionnaire_data.csv"] = questions
     early = {p.participant: p.status for p in played if p.status != "complete"}
     end = {
-        "status": "complete" if not early else "time limit",
+        "status": ", ".join(sorted(set(early.values()))) or "complete",
         "early": early,
         "trials": sum(len(p.trials) for p in played),
         "chain": last,
@@ -109,6 +109,10 @@ class Results(AbstractContextManager["Results"]):
         except ModuleNotFoundError:
             self._parquet = nullcontext()
             self.note = f"no Parquet files, only CSV: they need DuckDB: {INSTALL}"
+        try:
+            self._mend_parquet()
+        except OSError as error:
+            raise InputError(f"{out / 'parquet'}: cannot be written: {error.strerror}") from None
 
     def __exit__(self, *error: object) -> None:
         self._parquet.__exit__(None, None, None)
@@ -139,14 +143,31 @@ class Results(AbstractContextManager["Results"]):
         except OSError as error:
             raise InputError(f"{draft}: cannot be written: {error.strerror}") from None
 
-    def _as_parquet(self, draft: Path, name: str) -> None:
+    def _mend_parquet(self) -> None:
+        """Parquet files for exactly the chunks that are there.
+
+        A run that was killed leaves files of a chunk whose folder had not appeared yet, which may
+        be made again in other pieces; one without DuckDB leaves chunks without files.
+        """
+        for file in self.out.glob("parquet/*/*.parquet"):
+            if NAME.fullmatch(file.stem) and not (self._folder / file.stem).is_dir():
+                file.unlink()
+        for slots in self._there():
+            name = chunk_name(slots)
+            self._as_parquet(self._folder / name, name)
+
+    def _as_parquet(self, folder: Path, name: str) -> None:
+        """The Parquet files that a chunk lacks, of the tables in `folder`."""
         if not isinstance(self._parquet, ParquetWriter):
             return
-        for path in draft.glob("*_data.csv"):
+        for path in folder.glob("*_data.csv"):
             table = path.stem.split("_")[-2]
-            make_folder(self.out / "parquet" / table)
             whole = self.out / "parquet" / table / f"{name}.parquet"
-            part = draft.with_name(f"{name}-{table}.parquet")
+            if whole.exists():
+                continue
+            make_folder(whole.parent)
+            make_folder(self.out / DRAFTS)
+            part = self.out / DRAFTS / f"{name}-{table}.parquet"
             self._parquet.write(table, [path], part)
             part.replace(whole)
 
@@ -166,7 +187,7 @@ class Results(AbstractContextManager["Results"]):
         if described.exists():
             try:
                 name = json.loads(described.read_text(encoding="utf-8"))["name"]
-            except (OSError, ValueError, KeyError, TypeError):
+            except (OSError, ValueError, KeyError, TypeError, RecursionError):
                 raise InputError(f"{described}: expected a JSON object with a name") from None
             if name != study.study.name:
                 raise InputError(
@@ -176,7 +197,10 @@ class Results(AbstractContextManager["Results"]):
         sidecar = next(self._folder.glob("*/*_trials_data.json"), None)
         if sidecar is None:
             return
-        before = json.loads(sidecar.read_text(encoding="utf-8")).get("provenance", {})
+        try:
+            before = dict(json.loads(sidecar.read_text(encoding="utf-8"))["provenance"])
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            raise InputError(f"{sidecar}: expected a JSON object with a provenance") from None
         # As JSON gives it back: tuples are lists there.
         for key, value in json.loads(json.dumps(about["provenance"])).items():
             if before.get(key) != value:
