@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 TRIALS_TABLE, SIDECAR, END = "_trials_data.csv", "_trials_data.json", "_end.json"
+ANSWERS_TABLE = "_questionnaire_data.csv"
 
 
 def link(before: str, text: str) -> str:
@@ -73,6 +74,8 @@ def verify(folder: Path) -> list[str]:
         problems += _verify_table(table, sidecar)
         before = end_of(table)
         problems += _verify_end(folder, table, before)
+    if tables:
+        problems += _answers_alone(folder)
     return problems
 
 
@@ -120,6 +123,31 @@ def _verify_end(folder: Path, table: Path, last: str) -> Iterator[str]:
         other = folder / name
         if not other.is_file() or file_hash(other) != digest:
             yield f"{name}: {'changed' if other.is_file() else 'missing'}"
+    yield from _added(table, {*end.get("files", {}), table.name, *_traces_of(table)})
+
+
+def _traces_of(table: Path) -> set[str]:
+    """The traces that a table's rows hold."""
+    rows = csv.DictReader(table.read_text("utf-8", "replace").split("\n"))
+    return {row.get(f"{trace}_file") or "" for row in rows for trace in ("events", "camera")}
+
+
+def _added(table: Path, held: set[str]) -> Iterator[str]:
+    """Tables and traces of a closed session that neither its chain nor its end file holds."""
+    stem = table.name.removesuffix(TRIALS_TABLE)
+    tables = (p for p in table.parent.glob("*_data.csv") if p.name.startswith(f"{stem}_"))
+    traces = (table.parent / "traces").glob(f"session-{_session(table)[0]}_*")
+    for path in (*sorted(tables), *sorted(traces)):
+        name = path.relative_to(table.parent).as_posix()
+        if name not in held:
+            yield f"{name}: added after the session"
+
+
+def _answers_alone(folder: Path) -> Iterator[str]:
+    """Answers of a session that never was, which a report would read as well."""
+    for path in sorted(folder.glob(f"*{ANSWERS_TABLE}")):
+        if not path.with_name(path.name.replace(ANSWERS_TABLE, TRIALS_TABLE)).is_file():
+            yield f"{path.name}: expected its session's trial table"
 
 
 def _session(table: Path) -> tuple[int, str]:

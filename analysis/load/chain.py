@@ -4,9 +4,10 @@ A table with a chain ends in the column `chain`: in each row the SHA-256, in hex
 value in the row before followed by the row's own text up to (without) the comma before `chain`.
 The sidecar's `chain.start` stands before the first row; it is itself made from the sidecar and the
 table's header. Each row holds the hashes of its trial's traces. The session's end file, if the
-session was closed, holds the last value and the hashes of the session's other files; the sidecar of
-a session that goes on holds the last value of the one before. The end
-file's `seal` is the hash of the rest of it (CONVENTIONS.md).
+session was closed, holds the last value and the hashes of the session's other files: a table or
+trace of the session that neither holds was added later. The end file's `seal` is the hash of the
+rest of it; the sidecar of a session that goes on holds the last value of the one before
+(CONVENTIONS.md).
 
 Data may be handed on without their traces: a session whose traces folder is gone is verified
 without them and says so. A single trace that is missing was removed.
@@ -26,9 +27,8 @@ from analysis.errors import DataError
 from analysis.load.table import Source
 
 COLUMN = "chain"
+TRIALS_TABLE, ANSWERS_TABLE = "_trials_data.csv", "_questionnaire_data.csv"
 END = "_end.json"
-
-
 TRACES = "traces"
 _PAIRS = (("events_file", "events_sha256"), ("camera_file", "camera_sha256"))
 
@@ -83,6 +83,8 @@ def verify_all(
                 raise DataError(f"{source.name}: does not follow the session before it")
             ends[person] = state.last
         states[source.name] = state
+    for person in ends:
+        _no_answers_alone(folder / person, folder)
     return [states[source.name] for source in sources]
 
 
@@ -112,25 +114,25 @@ def verify(source: Source, sidecar: Mapping[str, Any], folder: Path) -> ChainSta
             raise DataError(f"{source.name}: row {number}: changed, or a row before it removed")
         before = value
     traces = _verify_traces(source.name, lines, folder)
-    state, more = _verify_end(source.name, before, folder, traces is not None)
-    return ChainState(source.name, state, None if traces is None else traces + more, before)
+    state, more = _verify_end(source.name, before, folder, traces)
+    return ChainState(source.name, state, None if traces is None else len(traces) + more, before)
 
 
-def _verify_traces(name: str, lines: Sequence[str], folder: Path) -> int | None:
-    """The traces named in the rows; how many there are, None if their folder is gone."""
+def _verify_traces(name: str, lines: Sequence[str], folder: Path) -> list[str] | None:
+    """The traces named in the rows, each verified; None if their folder is gone."""
     own = (folder / name).parent
     header, *rows = csv.reader(lines)
     places = [(header.index(f), header.index(h)) for f, h in _PAIRS if f in header and h in header]
     if not (own / TRACES).is_dir():
         return None
-    count = 0
+    traces = []
     for number, cells in enumerate((row for row in rows if row), start=2):
         for file, digest in places:
             if cells[file]:
                 where = f" (the trial in row {number} of {name})"
                 _same(own, cells[file], cells[digest], folder, where)
-                count += 1
-    return count
+                traces.append(cells[file])
+    return traces
 
 
 def _same(own: Path, name: str, digest: str, folder: Path, where: str = "") -> None:
@@ -144,9 +146,14 @@ def _same(own: Path, name: str, digest: str, folder: Path, where: str = "") -> N
         raise DataError(f"{path.relative_to(folder)}: changed after the session{where}")
 
 
-def _verify_end(name: str, last: str, folder: Path, traced: bool) -> tuple[str, int]:
-    """The end file against the table and the session's other files; how many were traces."""
-    path = folder / name.replace("_trials_data.csv", END)
+def _verify_end(
+    name: str, last: str, folder: Path, chained: Sequence[str] | None
+) -> tuple[str, int]:
+    """The end file against the table and the session's other files; how many were traces.
+
+    `chained`: the traces that the rows hold, None where no traces are there.
+    """
+    path = folder / name.replace(TRIALS_TABLE, END)
     if not path.is_file():
         return "open", 0
     try:
@@ -163,8 +170,25 @@ def _verify_end(name: str, last: str, folder: Path, traced: bool) -> tuple[str, 
     traces = 0
     for other, digest in files.items():
         trace = other.startswith(f"{TRACES}/")
-        if trace and not traced:
+        if trace and chained is None:
             continue
         _same(path.parent, other, digest, folder)
         traces += trace
+    _nothing_added(folder / name, {*files, *(chained or ()), Path(name).name}, folder)
     return "verified", traces
+
+
+def _nothing_added(table: Path, held: set[str], folder: Path) -> None:
+    """Raises DataError if a closed session has a table or a trace that nothing holds."""
+    stem, number = table.name.removesuffix(TRIALS_TABLE), _session(table.name)[1]
+    tables = (p for p in table.parent.glob("*_data.csv") if p.name.startswith(f"{stem}_"))
+    for path in (*sorted(tables), *sorted((table.parent / TRACES).glob(f"session-{number}_*"))):
+        if path.relative_to(table.parent).as_posix() not in held:
+            raise DataError(f"{path.relative_to(folder)}: added after the session")
+
+
+def _no_answers_alone(own: Path, folder: Path) -> None:
+    """Raises DataError if a participant with a chain has answers of a session that never was."""
+    for path in sorted(own.glob(f"*{ANSWERS_TABLE}")):
+        if not path.with_name(path.name.replace(ANSWERS_TABLE, TRIALS_TABLE)).is_file():
+            raise DataError(f"{path.relative_to(folder)}: expected its session's trial table")

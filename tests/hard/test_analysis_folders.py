@@ -218,7 +218,8 @@ def chain(folder: Path) -> Path:
     path.write_text("\n".join(out) + "\n")
     training = traces / "session-1_training-101_events.csv"
     training.write_text("t,event\n")
-    files = {str(p.relative_to(path.parent)): sha256(p) for p in (folder / ANSWERS, training)}
+    others = [p for p in (folder / ANSWERS, training) if p.is_file()]
+    files = {str(p.relative_to(path.parent)): sha256(p) for p in others}
     end = path.with_name(path.name.replace("_trials_data.csv", "_end.json"))
     about = {"status": "complete", "chain": before, "files": files}
     end.write_text(json.dumps({**about, "seal": seal_of(about)}))
@@ -261,6 +262,30 @@ def test_a_changed_questionnaire_is_found(folder):
     chain(folder)
     edit(folder / ANSWERS, 4, "value", "4")
     refused(folder, r"P01.*questionnaire_data.csv: changed after the session")
+
+
+def test_a_forged_questionnaire_is_no_part_of_a_closed_session(folder):
+    """Its own answers were listed as it closed: those that lie there without were added later."""
+    answers = (folder / ANSWERS).read_bytes()
+    (folder / ANSWERS).unlink()
+    chain(folder)
+    states = {c.file: c.state for c in load_study(folder).chains}
+    assert states[TRIALS] == "verified"
+    (folder / ANSWERS).write_bytes(answers)
+    refused(folder, r"P01.*session-1_questionnaire_data\.csv: added after the session")
+    (folder / ANSWERS).unlink()
+    later = folder / ANSWERS.replace("session-1", "session-2")
+    later.write_bytes(answers)
+    refused(folder, r"P01.*session-2_questionnaire_data\.csv: expected its session's trial table")
+
+
+def test_a_trace_added_to_a_closed_session_is_named(folder):
+    chain(folder)
+    (folder / TRIALS).with_name("traces").joinpath("session-1_trial-999_events.csv").write_text("")
+    refused(folder, r"P01/traces/session-1_trial-999_events\.csv: added after the session")
+    (folder / TRIALS).with_name("traces").joinpath("session-1_trial-999_events.csv").unlink()
+    (folder / TRIALS).with_name("traces").joinpath("session-10_trial-1_events.csv").write_text("")
+    load_study(folder)  # another session's, not this one's
 
 
 def test_a_changed_byte_in_any_recorded_file_is_found_and_named(folder):

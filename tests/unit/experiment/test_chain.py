@@ -33,12 +33,13 @@ def play(recorder, number):
     recorder.trial_ends(record)
 
 
-def session(data, number=1, trials=3, status="complete"):
+def session(data, number=1, trials=3, status="complete", answers=True):
     who = Who("test", "P01", "human", 1, {"seed": 3}, number)
     recorder = FileRecorder(data, who, now=lambda: "2026-01-02T03:04:05.678Z")
     for trial in range(1, trials + 1):
         play(recorder, trial)
-    recorder.answers([{"item": "remarks", "text": 'a "quote",\na line'}])
+    if answers:
+        recorder.answers([{"item": "remarks", "text": 'a "quote",\na line'}])
     if status:
         recorder.close(status)
     return recorder.folder
@@ -129,6 +130,28 @@ def test_a_trace_that_was_changed_or_removed_is_named_with_its_trial(tmp_path):
     assert verify(folder) == [f"traces/{trace.name}: changed {line}"]
     trace.unlink()
     assert verify(folder) == [f"traces/{trace.name}: missing {line}"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        f"{STEM}_questionnaire_data.csv",
+        f"{STEM}_notes_data.csv",
+        "traces/session-1_trial-004_events.csv",
+    ],
+)
+def test_a_file_added_to_a_closed_session_is_named(tmp_path, name):
+    folder = session(tmp_path, answers=False)
+    assert verify(folder) == []
+    (folder / name).write_text("forged", "utf-8")
+    assert verify(folder) == [f"{name}: added after the session"]
+
+
+def test_answers_of_a_session_that_never_was_are_named(tmp_path):
+    folder = session(tmp_path)
+    name = f"{STEM[:-1]}2_questionnaire_data.csv"
+    (folder / name).write_text("forged", "utf-8")
+    assert verify(folder) == [f"{name}: expected its session's trial table"]
 
 
 def test_a_session_that_was_killed_verifies_as_far_as_it_goes(tmp_path):
