@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from renderer.camera import Camera
-from tasks.events import Event, KeyPress, KeyRelease, PointerMove
+from tasks.events import Event, KeyPress, KeyRelease, PointerMove, Tick
 from tasks.parameters import AbstractParameters, BuildingParameters
 
 Value = TypeVar("Value")
@@ -134,6 +134,8 @@ class Walk:
     def on_event(self, event: Event) -> Walk:
         """The walker after `event`: on an arc while turning, on a straight line while not."""
         held = self.held
+        if isinstance(event, Tick) and held.time is not None and event.time <= held.time:
+            return self  # no time has passed
         x, z, yaw = self.x, self.z, self.yaw
         if held.keys:
             x, z, yaw = self._moved(held.elapsed(event.time))

@@ -16,6 +16,8 @@ from tasks.hud import Label
 from tasks.parameters import BuildingParameters
 from tasks.visit import Visit, visit
 
+QUESTION = Label("count_in_building.question", (0.26, 0.02))
+
 
 @dataclass(frozen=True, eq=False)
 class CountInBuildingState:
@@ -54,13 +56,17 @@ class CountInBuilding:
     def on_event(self, state: CountInBuildingState, event: Event) -> CountInBuildingState:
         """The state after `event`: digits are typed, for the pointer turns the walker."""
         entry = state.entry.on_event(event) if isinstance(event, KeyPress) else state.entry
-        return changed(state, visit=state.visit.on_event(event), entry=entry)
+        moved = state.visit.on_event(event)
+        if moved is state.visit and entry is state.entry:
+            return state
+        return changed(state, visit=moved, entry=entry)
 
     def view(self, state: CountInBuildingState) -> View:
         """What to show for `state`."""
-        question = Label("count_in_building.question", (0.26, 0.02))
-        return state.visit.view(question, state.entry.field())
+        return state.visit.view(QUESTION, state.entry.field())
 
     def outcome(self, state: CountInBuildingState) -> Outcome | None:
         """The scored answer once confirmed: `count_error` is answer − truth."""
+        if not state.entry.confirmed:
+            return None
         return number_outcome(state.entry, len(state.building.asked_objects))

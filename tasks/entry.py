@@ -53,14 +53,23 @@ class NumberEntry:
 
     def field(self) -> Entry:
         """The typed number."""
-        first = self.buttons()[0][1]
-        return Entry(self.text, Rect(first.x, first.y - SIZE - GAP, 3 * SIZE + 2 * GAP, SIZE))
+        return _field(self.aspect, self.text)
 
     def elements(self) -> tuple[Element, ...]:
         """The typed number above its buttons."""
-        texts = {"backspace": "button.backspace", "enter": "button.confirm"}
-        buttons = (Button(texts.get(key, key), rect) for key, rect in self.buttons())
-        return (self.field(), *buttons)
+        return (self.field(), *_labelled(self.aspect))
+
+
+@lru_cache(maxsize=8)
+def _labelled(aspect: float) -> tuple[Button, ...]:
+    texts = {"backspace": "button.backspace", "enter": "button.confirm"}
+    return tuple(Button(texts.get(key, key), rect) for key, rect in _buttons(aspect))
+
+
+@lru_cache(maxsize=64)
+def _field(aspect: float, text: str) -> Entry:
+    first = _buttons(aspect)[0][1]
+    return Entry(text, Rect(first.x, first.y - SIZE - GAP, 3 * SIZE + 2 * GAP, SIZE))
 
 
 @lru_cache(maxsize=8)

@@ -17,6 +17,8 @@ from tasks.parameters import BuildingParameters
 from tasks.plan_mark import PlanMark
 from tasks.visit import Visit, visit
 
+SEARCH = Label("unique.search", (0.26, 0.02))
+
 
 @dataclass(frozen=True, eq=False)
 class UniqueState:
@@ -58,12 +60,15 @@ class Unique:
         if state.found:
             return replace(state, plan=state.plan.on_event(event))
         found = isinstance(event, KeyPress) and event.key in ("space", "enter")
-        return changed(state, visit=state.visit.on_event(event), found=found)
+        moved = state.visit.on_event(event)
+        if moved is state.visit and not found:
+            return state
+        return changed(state, visit=moved, found=found)
 
     def view(self, state: UniqueState) -> View:
         """What to show for `state`: the building, then its plan over it."""
         if not state.found:
-            return state.visit.view(Label("unique.search", (0.26, 0.02)))
+            return state.visit.view(SEARCH)
         mark = Label("unique.mark", (state.plan.aspect / 2, 0.03), align="center")
         plan = state.plan.elements(state.building)
         return state.visit.view(mark, *plan, captured=False)

@@ -27,7 +27,8 @@ class Visit:
 
     def on_event(self, event: Event) -> Visit:
         """The visit after `event`."""
-        return changed(self, walk=self.walk.on_event(event))
+        walk = self.walk.on_event(event)
+        return self if walk is self.walk else changed(self, walk=walk)
 
     def view(self, label: Element, *more: Element, captured: bool = True) -> View:
         """What the walker sees, under a label, the turning picture and what the task adds."""
