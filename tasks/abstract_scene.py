@@ -13,7 +13,7 @@ from renderer import geometry
 from renderer.geometry import Mesh
 from renderer.scene import Color, Object, Scene
 from renderer.transforms import placed, random_rotation
-from tasks.enclosure import enclosing_pairs
+from tasks.enclosure import enclosing_pairs, farthest
 from tasks.letters import grid_reach, letter_points
 from tasks.parameters import AbstractParameters
 
@@ -101,7 +101,7 @@ def _object(
     radius = rng.uniform(*p.radius)
     mesh = unit_mesh(shape)
     stretch = _proportions(rng, shape)
-    stretch *= radius / np.linalg.norm(mesh.vertices * stretch, axis=1).max()
+    stretch *= radius / farthest(mesh.vertices * stretch)
     if place is None:
         room = p.side / 2 - radius
         place = rng.uniform(-room, room, 3)

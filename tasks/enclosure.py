@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+from math import sqrt
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -28,6 +31,7 @@ def encloses(outer: Object, inner: Object) -> bool:
     return bool(_in_ring(outer.mesh, points).all())
 
 
+@lru_cache(maxsize=64)
 def half_spaces(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Outward unit normals (m, 3) and offsets (m,): inside is points @ normals ≤ offsets."""
     a, b, c = np.moveaxis(mesh.vertices[mesh.triangles], 1, 0)
@@ -62,4 +66,9 @@ def enclosing_pairs(objects: list[Object] | tuple[Object, ...]) -> list[tuple[in
 def bounding_radius(thing: Object) -> float:
     """Radius of the sphere about the object's origin that holds its vertices, in world units."""
     linear = thing.transform[:3, :3]
-    return float(np.linalg.norm(thing.mesh.vertices @ linear.T, axis=1).max())
+    return farthest(thing.mesh.vertices @ linear.T)
+
+
+def farthest(points: NDArray[np.float64]) -> float:
+    """Greatest distance of (n, 3) points from the origin."""
+    return sqrt(np.add.reduce(points * points, axis=1).max())  # one root instead of n
