@@ -31,7 +31,7 @@ class MaskPainter:
     def __init__(self, context: moderngl.Context, defines: Sequence[str] = ()) -> None:
         self._context, self._defines = context, tuple(defines)
         self._distances = DistancePainter(context)
-        self._vertices = context.buffer(reserve=1 << 16, dynamic=True)
+        self._own = self._vertices = context.buffer(reserve=1 << 16, dynamic=True)
         self._variants: dict[tuple[str, ...], Shader] = {}
         self._arrays: dict[tuple[str, ...], moderngl.VertexArray] = {}
 
@@ -57,10 +57,10 @@ class MaskPainter:
         self._count, self._pictured = self._first.copy(), np.zeros(len(frame.reach), dtype=bool)
         self._first[made.targets], self._count[made.targets] = made.first, made.count
         self._pictured[made.targets[made.pictured :]] = True
-        if made.vertices.nbytes > self._vertices.size:
-            self._vertices.release()
-            self._vertices = self._context.buffer(reserve=2 * made.vertices.nbytes, dynamic=True)
-            self._arrays.clear()
+        if made.vertices.nbytes > self._own.size:
+            self._own.release()
+            self._own = self._context.buffer(reserve=2 * made.vertices.nbytes, dynamic=True)
+        self._draw_from(self._own)
         if len(made.vertices):
             self._vertices.orphan()
             self._vertices.write(made.vertices)
@@ -71,8 +71,12 @@ class MaskPainter:
         """Take over what another has prepared and drawn for the same frame."""
         for name in ("geometry", "blocks", *_PREPARED):
             setattr(self, name, getattr(other, name))
-        if self._vertices is not other._vertices:
-            self._vertices = other._vertices
+        self._draw_from(other._vertices)
+
+    def _draw_from(self, vertices: moderngl.Buffer) -> None:
+        """Draw from these vertices: its own, or those of another that made them."""
+        if self._vertices is not vertices:
+            self._vertices = vertices
             self._arrays.clear()
 
     def _begin(self, table: SceneTable, frame: FramePlan, camera: Camera) -> None:

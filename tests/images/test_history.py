@@ -1,10 +1,13 @@
 """A frame is the same picture, to the bit, whatever was drawn before it: replay needs that."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from renderer.gpu.context import standalone
 from renderer.gpu.renderer import Renderer
+from renderer.plan import plan
 from renderer.techniques.dynamic import DynamicTransparency
 from tasks.catalog import TASKS
 from tasks.parameters import AbstractParameters, BuildingParameters
@@ -42,3 +45,21 @@ def test_a_picture_does_not_depend_on_what_was_drawn_before(context):
     for order in (range(9), reversed(range(9))):
         for k in order:
             np.testing.assert_array_equal(drawn(one, shown[k]), alone[k])
+
+
+def test_masks_that_outgrow_their_buffer_between_two_kinds_of_frame_leave_no_trace(context):
+    """Parts sorted by pixel borrow the masks of the frame; those of a frame sorted as a whole are
+    their own, and more than the first buffer holds here."""
+    some, whole = DynamicTransparency(doubt=0.0), DynamicTransparency(exact=True)
+    frames = ((view, plan(view.scene, view.camera, some, SIZE)) for view in views())
+    view = next(view for view, frame in frames if frame.levels and len(frame.exact))
+    crowd = replace(
+        view.scene, objects=tuple(replace(o, target=True) for o in 8 * view.scene.objects)
+    )
+    alone = Renderer(context, SIZE)
+    alone.draw(view.scene, view.camera, some)
+    expected = alone.read().copy()
+    one = Renderer(context, SIZE)
+    for scene, technique in ((view.scene, some), (crowd, whole), (view.scene, some)):
+        one.draw(scene, view.camera, technique)
+    np.testing.assert_array_equal(one.read(), expected)
