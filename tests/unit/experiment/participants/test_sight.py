@@ -1,0 +1,75 @@
+"""What a person makes of a look: the same with the eyes open, from a table, and worked out anew."""
+
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+from experiment.participants.glance import CLEAR, WINDOW_PIXELS, likely
+from experiment.participants.profile import AVERAGE
+from experiment.participants.sight import sight
+from experiment.participants.tables import Table
+from renderer import geometry
+from renderer.scene import Object, Scene
+from renderer.visibility import Visibility
+from tasks.controls import changed, walk
+from tasks.events import KeyPress, KeyRelease, PointerMove, Tick
+from tasks.parameters import BuildingParameters
+
+THINGS = (True, False, True, True, False, True)  # what may be asked for; the others are walls
+SCENE = Scene(tuple(Object(geometry.box(), target=thing) for thing in THINGS))
+
+
+def look():
+    pixels = np.array([0, 30, 12, 1, 700, 0])
+    seen = pixels > 0
+    share = np.array([0, 0.4, 1, 0.1, 1, 0])
+    position = np.where(seen[:, None], np.linspace(0, 1, 12).reshape(6, 2), np.nan)
+    return Visibility(pixels, share, position, seen * 0.15, pixels / 30_000 * share)
+
+
+def kept():
+    table = Table(len(THINGS))
+    table.put((0, 0, 0), look())
+    return table.get((0, 0, 0))
+
+
+@pytest.mark.parametrize("seen", [look(), kept()])
+def test_a_sight_says_of_each_visible_thing_what_the_arrays_say(seen):
+    found = sight(seen, SCENE, AVERAGE)
+    assert found.index == [1, 2, 3, 4] and found.thing == [False, True, True, False]
+    assert found.walls == 0b10010
+    pixels = look().area * WINDOW_PIXELS
+    p = AVERAGE
+    for k, i in enumerate(found.index):
+        notice = likely(0.15 * np.sqrt(pixels[i]), p.notice, p.notice_spread)
+        clear = likely(pixels[i] * 0.15 / CLEAR, p.recognise, p.recognise_spread)
+        # The same formula for one number: a few units in the last place.
+        assert found.notice[k] == pytest.approx(notice, rel=1e-12)
+        assert found.recognise[k] == pytest.approx(clear, rel=1e-12)
+        assert found.weight[k] == look().weight[i]
+
+
+def test_a_kept_look_serves_one_profile_after_the_other():
+    seen = kept()
+    first = sight(seen, SCENE, AVERAGE)
+    assert sight(seen, SCENE, AVERAGE) is first
+    other = replace(AVERAGE, notice=AVERAGE.notice * 3)
+    assert (sight(seen, SCENE, other).notice < first.notice).all()
+    assert sight(seen, SCENE, AVERAGE).recognise == first.recognise
+
+
+def test_a_value_changed_is_the_value_replaced():
+    walker = walk(BuildingParameters(), (1.0, 2.0), 0.3)
+    new = changed(walker, x=5.0, yaw=-1.0)
+    assert new == replace(walker, x=5.0, yaw=-1.0) and walker.x == 1.0
+    assert asdict(new).keys() == asdict(walker).keys()
+
+
+def test_a_tick_without_time_leaves_the_walker_and_one_with_time_moves_him():
+    walker = walk(BuildingParameters(), (1.0, 2.0)).on_event(KeyPress(1.0, "up"))
+    assert walker.on_event(Tick(1.0)) is walker
+    assert walker.on_event(Tick(2.0)).z == pytest.approx(2.0 - walker.speed)
+    still = walker.on_event(KeyRelease(1.0, "up"))
+    assert still.on_event(Tick(9.0)).held.time == 9.0  # the turning picture lives on it
+    assert still.on_event(PointerMove(1.0, 0, 0, 0.1, 0)).yaw == pytest.approx(-0.1 * still.gain)
