@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.rows import Row, row
 from experiment.config import load
 from experiment.design import SIMULATED, generator, session_for
 from experiment.participants.data_mode import play_trial
@@ -26,7 +27,6 @@ from experiment.participants.profile_file import find
 
 STUDY, POOL, PEOPLE, SEED = "published", 40, 16, 1
 PROFILE = "calibrated"
-Row = dict[str, Any]
 
 # Accuracy of each task: what is averaged over its trials, and its unit.
 MEASURES = {
@@ -115,8 +115,7 @@ def figures() -> Iterator[Row]:
             name, unit = MEASURES[task]
             value = float(values[0]) if effect else float(values)
             label = f"without {effect}: {name}" if effect else f"all effects: {name}"
-            yield {"figure": label, "scene": STUDY, "value": round(value, 4), "unit": unit,
-                   "must": None, "aim": None, "met": None}  # fmt: skip
+            yield row(label, STUDY, value, unit)
 
 
 def _pool(size: int) -> Pool:

@@ -17,17 +17,17 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from benchmarks.memory import used_by
 from benchmarks.postprocessing import VIEWS, microseconds
+from benchmarks.rows import Row, row
 from renderer.models.translucent.scenes import TranslucentScene, scene
 from renderer.ordering import boxes, bsp, feudal
 from renderer.ordering.polygons import Polygons
 
 HELP = "depth orderings: splits, relations, times, memory and image error"
-Row = dict[str, Any]
 SEEDS = 100  # of the BSP baseline: the mean of 20, as in paper 002, still moves by 3 %
 ORDERS = 20  # random input orders of the dynamic version
 LOOKAHEAD = 4  # candidates of each rule that are tried out, see `feudal_lookahead`
@@ -41,8 +41,6 @@ IMAGE_SCENES = (
 PICTURE = (320, 240)
 
 MEMORY = """
-import resource
-from benchmarks.postprocessing import VIEWS, microseconds
 from renderer.models.translucent.scenes import scene
 from renderer.ordering import bsp
 import numpy as np
@@ -50,12 +48,10 @@ from benchmarks.ordering import bare
 polygons = scene("soup100000").polygons
 prepared = bsp.prepare({polygons})
 prepared.order(eye=np.array([3.0, 2.0, 1.0]))
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 """
 COLD = """
 import time
 import numpy as np
-from benchmarks.postprocessing import VIEWS, microseconds
 from renderer.models.translucent.scenes import scene
 from renderer.ordering import boxes, bsp, feudal
 polygons = scene("fence").polygons
@@ -64,18 +60,6 @@ for method in (bsp, feudal, boxes):
     method.prepare(polygons).order(eye=np.array([3.0, 2.0, 1.0]))
 print(time.process_time() - start)
 """
-
-
-def row(
-    figure: str, scene: str, value: float, unit: str, must: float | None = None,
-    aim: float | None = None, more: bool = False,
-) -> Row:  # fmt: skip
-    """One line of the table; `more`: larger is better."""
-    met = must is None or (value >= must if more else value <= must)
-    return {
-        "figure": figure, "scene": scene, "value": float(f"{value:.4g}"), "unit": unit,
-        "must": must, "aim": aim, "met": bool(met),
-    }  # fmt: skip
 
 
 def fastest(call: Callable[[], object], times: int) -> float:
@@ -95,8 +79,9 @@ def figures() -> Iterator[Row]:
     yield panels_per_second()
     yield from large_soup()
     for what, polygons in (("", "polygons"), (", geometry alone", "bare(polygons)")):
-        peak = float(_child(MEMORY.format(polygons=polygons)))
-        yield row(f"peak memory{what}", "soup100000", peak, "MiB", 500)
+        peak = used_by(MEMORY.format(polygons=polygons)).peak
+        if peak is not None:
+            yield row(f"peak memory{what}", "soup100000", peak, "MiB", 500)
     with tempfile.TemporaryDirectory() as folder:
         cold = float(_child(COLD, NUMBA_CACHE_DIR=folder))
     yield row("first call, compilation not cached", "all methods", cold, "s")
@@ -214,7 +199,7 @@ def image_errors() -> Iterator[Row]:
 
 
 def _child(code: str, **environment: str) -> str:
-    """What a fresh Python prints: memory and compilation are a process's own."""
+    """What a fresh Python prints: compilation is a process's own."""
     done = subprocess.run(
         [sys.executable, "-c", code], env={**os.environ, **environment}, check=True,
         capture_output=True, text=True,

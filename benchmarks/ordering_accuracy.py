@@ -20,6 +20,7 @@ import numpy as np
 
 from benchmarks import ordering_exactness
 from benchmarks.painted_scene import PaintedScene as Bench
+from benchmarks.rows import Row, row
 from renderer.gpu.approximations import PeelingPainter, StochasticPainter, WeightedPainter
 from renderer.models.translucent.scenes import scene
 from renderer.ordering import axis_tree, boxes, bsp, distance, feudal
@@ -135,26 +136,22 @@ def figures() -> Iterator[dict[str, Any]]:
         yield from rows(measure(name))
 
 
-def rows(results: list[Result]) -> Iterator[dict[str, Any]]:
+def rows(results: list[Result]) -> Iterator[Row]:
     """Four rows for each result."""
     units = {"rmse": "/255", "over": "%", "frame_ms": "ms", "prepare_ms": "ms"}
     for result in results:
         for what, unit in units.items():
-            yield {
-                "figure": f"{what}, {result['way']}", "scene": result["scene"],
-                "value": float(f"{result[what]:.4g}"), "unit": unit,
-                "must": None, "aim": None, "met": True,
-            }  # fmt: skip
+            yield row(f"{what}, {result['way']}", result["scene"], result[what], unit)
 
 
 def results_of(table: list[dict[str, Any]]) -> list[Result]:
     """The results that rows were made of."""
     found: dict[tuple[str, str], Result] = {}
-    for row in table:
-        what, _, way = row["figure"].partition(", ")
+    for line in table:
+        what, _, way = line["figure"].partition(", ")
         if what in ("rmse", "over", "frame_ms", "prepare_ms"):
-            key = (row["scene"], way)
-            found.setdefault(key, {"scene": key[0], "way": way})[what] = row["value"]
+            key = (line["scene"], way)
+            found.setdefault(key, {"scene": key[0], "way": way})[what] = line["value"]
     return list(found.values())
 
 

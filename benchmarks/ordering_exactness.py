@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.painted_scene import PaintedScene
+from benchmarks.rows import Row, row
 from renderer.camera import Camera
 from renderer.models.translucent.scenes import SCENES, scene
 from renderer.ordering.methods import prepare
@@ -32,7 +32,7 @@ SNAP = 1 / 256  # of a pixel: the grid that OpenGL's implementations fill polygo
 MOST_EDGES = 20_000  # each pixel is compared with each edge
 
 
-def figures(names: tuple[str, ...] = tuple(SCENES), count: int = EYES) -> Iterator[dict[str, Any]]:
+def figures(names: tuple[str, ...] = tuple(SCENES), count: int = EYES) -> Iterator[Row]:
     """Two rows for each scene and method."""
     for name in names:
         painted = PaintedScene(scene(name), SIZES.get(name, SIZE))
@@ -41,10 +41,10 @@ def figures(names: tuple[str, ...] = tuple(SCENES), count: int = EYES) -> Iterat
         for method in LARGE.get(name, METHODS):
             share, distance = worst(painted, method, eyes)
             label = f"pixels over 1/255, {method}, worst of {count} eyes"
-            yield _row(label, name, 100 * share, "%", ALONG_CUTS, 0.0)
+            yield row(label, name, 100 * share, "%", ALONG_CUTS, 0.0)
             if distance is not None:
                 label = f"farthest of them from an edge, {method}"
-                yield _row(label, name, distance, "pixels", SNAP, None)
+                yield row(label, name, distance, "pixels", SNAP, None)
         painted.release()
 
 
@@ -80,12 +80,3 @@ def edge_distance(pixels: NDArray[np.bool_], polygons: Polygons, camera: Camera)
     part = np.clip(((centers - screen) * along).sum(axis=2) / length, 0, 1)
     nearest = screen + part[..., None] * along
     return np.linalg.norm(centers - nearest, axis=2).min(axis=1)
-
-
-def _row(
-    figure: str, name: str, value: float, unit: str, must: float | None, aim: float | None
-) -> dict[str, Any]:
-    return {
-        "figure": figure, "scene": name, "value": float(f"{value:.4g}"), "unit": unit,
-        "must": must, "aim": aim, "met": must is None or value <= must,
-    }  # fmt: skip

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.rows import Row, row
 from experiment.clock import SimulatedClock
 from experiment.config import Study, load
 from experiment.design import SIMULATED, generator, session_for
@@ -46,37 +47,23 @@ window.ask(Page("welcome", "welcome.title", (Paragraph("welcome.text"),)))
 """
 
 
-def figures() -> Iterator[dict[str, Any]]:
+def figures() -> Iterator[Row]:
     """Rows of {figure, scene, value, unit, must, aim, met}, as they are measured."""
     with tempfile.TemporaryDirectory() as folder:
         frame, end = _recording(Path(folder) / "recording")
-        yield _row("recorder, a frame", "abstract", 1000 * frame, "ms", 1.0)
-        yield _row("recorder, a trial's end", "abstract", 1000 * end, "ms", 20.0)
-        yield _row("replay, of real time", "demo", 1 / _replay(Path(folder)), "part", 0.25)
+        yield row("recorder, a frame", "abstract", 1000 * frame, "ms", 1.0)
+        yield row("recorder, a trial's end", "abstract", 1000 * end, "ms", 20.0)
+        yield row("replay, of real time", "demo", 1 / _replay(Path(folder)), "part", 0.25)
     with _screen() as screen:
         if screen is None:
             return
-        yield _row("first frame after the command", "published", _first_frame(screen), "s", 3.0)
+        yield row("first frame after the command", "published", _first_frame(screen), "s", 3.0)
         for level in ("standard", "dynamic"):
             scene, found = f"abstract, {level}, dragged", _dragged(level, screen)
-            yield _row("frames missed in a window", scene, found["missed"], "part", 0.01)
-            yield _row("longest frame", scene, 1000 * found["worst"], "ms")
-            yield _row("a frame, all threads", scene, 1000 * found["cpu"], "ms")
-            yield _row("of that, the renderer", scene, 1000 * found["drawing"], "ms")
-
-
-def _row(
-    figure: str, scene: str, value: float, unit: str, must: float | None = None
-) -> dict[str, Any]:
-    return {
-        "figure": figure,
-        "scene": scene,
-        "value": value,
-        "unit": unit,
-        "must": must,
-        "aim": None,
-        "met": must is None or value <= must,
-    }
+            yield row("frames missed in a window", scene, found["missed"], "part", 0.01)
+            yield row("longest frame", scene, 1000 * found["worst"], "ms")
+            yield row("a frame, all threads", scene, 1000 * found["cpu"], "ms")
+            yield row("of that, the renderer", scene, 1000 * found["drawing"], "ms")
 
 
 def _first_view(study: Study) -> tuple[Any, View]:

@@ -8,7 +8,6 @@ tables are made first, in a folder of their own, and timed apart; `python -m ben
 from __future__ import annotations
 
 import argparse
-import resource
 import sys
 import tempfile
 import time
@@ -18,6 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import eyes
+from benchmarks.memory import Watch
+from benchmarks.rows import Row, row
 from experiment.config import load
 from experiment.participants import batch, data_run
 from experiment.participants.calibration import FITTED, HELD_OUT, measured, published
@@ -33,23 +34,15 @@ MANY = 10_000
 LONG = 64  # participants of the longer of two runs, whose difference is what 16 cost
 CHUNK = 4  # participants a worker plays at a time where seconds are measured
 
-Figure = dict[str, Any]
 
-
-def figure(
-    name: str, value: float, unit: str, must: float, aim: float, more: bool = False
-) -> Figure:
+def figure(name: str, value: float, unit: str, must: float, aim: float, more: bool = False) -> Row:
     """One row; `more` where larger is better."""
-    met = value >= must if more else value <= must
-    return {
-        "figure": name, "scene": STUDY, "value": round(value, 4), "unit": unit,
-        "must": must, "aim": aim, "met": bool(met),
-    }  # fmt: skip
+    return row(name, STUDY, value, unit, must, aim, more)
 
 
-def told(name: str, value: float, unit: str) -> Figure:
+def told(name: str, value: float, unit: str) -> Row:
     """A row without a goal."""
-    return {**figure(name, value, unit, 0, 0), "must": None, "aim": None, "met": None}
+    return row(name, STUDY, value, unit)
 
 
 def timed(work: Callable[[], Any]) -> tuple[float, Any]:
@@ -59,7 +52,7 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
     return time.perf_counter() - start, result
 
 
-def visual() -> Iterator[Figure]:
+def visual() -> Iterator[Row]:
     """The published study through the real session, on this machine."""
     from experiment.commands.simulate import simulate
 
@@ -69,7 +62,7 @@ def visual() -> Iterator[Figure]:
     yield figure("16 participants, visual", seconds / 60, "min", 10, 3)
 
 
-def make_tables(job: batch.Batch) -> Iterator[Figure]:
+def make_tables(job: batch.Batch) -> Iterator[Row]:
     """Tables of every abstract viewpoint, and of the buildings as 16 people walk through them."""
     assert job.tables is not None
     if not job.tables.exists():
@@ -91,7 +84,7 @@ def _rows(job: batch.Batch, count: int, workers: int, chunk: int = CHUNK) -> lis
     return [row for rows in results for row in rows]
 
 
-def data(job: batch.Batch) -> Iterator[Figure]:
+def data(job: batch.Batch) -> Iterator[Row]:
     """The published study from tables, on one worker and on two.
 
     What the start of the processes costs is in both runs of a pair, and cancels.
@@ -109,18 +102,17 @@ def data(job: batch.Batch) -> Iterator[Figure]:
     yield figure("two workers against one", ratio, "×", 1.7, 1.9, more=True)
 
 
-def many(job: batch.Batch, count: int = MANY) -> Iterator[Figure]:
+def many(job: batch.Batch, count: int = MANY) -> Iterator[Row]:
     """Many participants as `simulate` plays them, files and all; memory of the largest process."""
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, Watch() as watch:
         out = Path(folder) / "data"
         seconds, _ = timed(lambda: data_run.run(job, out, count, WORKERS))
-    kinds = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-    memory = max(resource.getrusage(kind).ru_maxrss for kind in kinds) / 2**20
     yield figure(f"{count} participants, data mode", seconds / 60, "min", 30, 5)
-    yield figure(f"memory at {count} participants", memory, "GiB", 1, 1)
+    if watch.peak is not None:
+        yield figure(f"memory at {count} participants", watch.peak / 1024, "GiB", 1, 1)
 
 
-def calibration(job: batch.Batch, profile: Profile, count: int = 64) -> Iterator[Figure]:
+def calibration(job: batch.Batch, profile: Profile, count: int = 64) -> Iterator[Row]:
     """How far simulated times lie from the published ones, fitted and held-out half."""
     found = measured(_rows(replace(job, profile=profile), count, WORKERS))
     for half, tasks in (("fitted", FITTED), ("held out", HELD_OUT)):
@@ -136,11 +128,11 @@ def _off(ours: Sequence[float], theirs: Sequence[float]) -> float:
     return max(abs(a / b - 1) for a, b in zip(ours, theirs, strict=True))
 
 
-def _eyes() -> Iterator[Figure]:
+def _eyes() -> Iterator[Row]:
     """What accuracy costs in time: coarser eyes against the finest."""
-    for row in eyes.run(4):
-        more = {key: row[key] for key in ("time_error", "count_error")}
-        yield {**told(f"eyes: {row['scene']}", row["value"], row["unit"]), **more}
+    for way in eyes.run(4):
+        more = {key: way[key] for key in ("time_error", "count_error")}
+        yield {**told(f"eyes: {way['scene']}", way["value"], way["unit"]), **more}
 
 
 PARTS = ("visual", "data", "many", "calibration", "eyes")
@@ -148,11 +140,11 @@ PARTS = ("visual", "data", "many", "calibration", "eyes")
 
 def figures(
     only: Sequence[str] = PARTS, tables: Path | None = None, count: int = MANY
-) -> Iterator[Figure]:
+) -> Iterator[Row]:
     """The rows of these parts; tables are made anew in a folder of its own, unless given."""
     with tempfile.TemporaryDirectory() as folder:
         job = batch.Batch(STUDY, 1, POOL, tables or Path(folder) / "tables.npz")
-        parts: dict[str, Callable[[], Iterator[Figure]]] = {
+        parts: dict[str, Callable[[], Iterator[Row]]] = {
             "visual": visual,
             "data": lambda: data(job),
             "many": lambda: many(job, count),
@@ -166,7 +158,7 @@ def figures(
             yield from parts[name]()
 
 
-def chart(rows: Sequence[Figure], path: Path) -> None:
+def chart(rows: Sequence[Row], path: Path) -> None:
     """Error of the measures against time, a point for each way to look."""
     named = [{**row, "scene": row["figure"].removeprefix("eyes: ")} for row in rows]
     eyes.draw([row for row in named if "time_error" in row], path)
@@ -185,8 +177,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--many", type=int, default=MANY, help="participants of the large run")
     parser.add_argument("--only", default=",".join(PARTS))
     chosen = parser.parse_args(arguments)
-    for row in figures(chosen.only.split(","), chosen.tables, chosen.many):
-        print(line(row), flush=True)
+    for measured_row in figures(chosen.only.split(","), chosen.tables, chosen.many):
+        print(line(measured_row), flush=True)
     return 0
 
 

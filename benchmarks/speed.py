@@ -7,8 +7,6 @@ and over; a camera's time is the least of its turns, and a scene's the sum over 
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -16,7 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.memory import used_by
 from benchmarks.paper_way import PaperWay
+from benchmarks.rows import Row as Figure
+from benchmarks.rows import row
 from benchmarks.scenes import SCENES
 from renderer.gpu.context import standalone
 from renderer.gpu.renderer import Renderer
@@ -29,18 +30,6 @@ SIZES = ((800, 600), (1280, 1024))
 VIEWS, TURNS = 6, 4
 MUST = {"abstract": 2.5, "walkthrough": 2.0, "jeep": 2.0}
 TECHNIQUE = DynamicTransparency()
-Figure = dict[str, Any]
-
-
-def row(
-    figure: str, scene: str, value: float, unit: str, must: float | None, aim: float | None
-) -> Figure:
-    """One line of the table; `met` says whether the value is at most `must`."""
-    met = None if must is None else bool(value <= must)
-    return {
-        "figure": figure, "scene": scene, "value": round(value, 4), "unit": unit,
-        "must": must, "aim": aim, "met": met,
-    }  # fmt: skip
 
 
 def times(ways: dict[str, Callable[[Any], None]], cameras: list[Any], context: Any) -> dict:
@@ -73,7 +62,7 @@ def figures() -> Iterator[Figure]:
     yield from _of_many_targets(context)
     yield _of_plan()
     yield _of_nothing(context)
-    yield _of_memory()
+    yield from _of_memory()
 
 
 def _of_scene(renderer, paper, name, label, scene, cameras, software) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
@@ -187,18 +176,11 @@ renderer = Renderer(standalone(), (800, 600))
 for camera in cameras:
     renderer.draw(scene, camera, DynamicTransparency())
     renderer.read()
-status = open("/proc/self/status").read()
-print(status.split("VmHWM:")[1].split()[0])
 """
 
 
-def _of_memory() -> Figure:
-    """Most memory of a process of its own that draws the walkthrough, from /proc (Linux, in KiB).
-
-    Not getrusage's ru_maxrss: a new process starts with its parent's there, and so reported this
-    benchmark's own memory.
-    """
-    done = subprocess.run(
-        [sys.executable, "-c", _MEMORY], capture_output=True, text=True, check=True
-    )
-    return row("resident memory", "walkthrough 800×600", int(done.stdout) / 1024, "MiB", 600, None)
+def _of_memory() -> Iterator[Figure]:
+    """Most memory of a process of its own that draws the walkthrough, where the system tells."""
+    held = used_by(_MEMORY).peak
+    if held is not None:
+        yield row("resident memory", "walkthrough 800×600", held, "MiB", 600, None)

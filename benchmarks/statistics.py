@@ -8,16 +8,12 @@ rows start the program itself, on made data of 384 and 240,000 trials.
 from __future__ import annotations
 
 import json
-import multiprocessing
-import subprocess
-import sys
 import tempfile
 import time
 import warnings
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -25,31 +21,23 @@ from numpy.typing import NDArray
 
 from analysis.load.schema import QUESTIONNAIRE, TRIALS
 from analysis.stats.anova import repeated_measures
+from analysis.stats.undefined import is_defined
+from benchmarks.memory import used_by
+from benchmarks.rows import Row, row
 
 Array = NDArray[np.float64]
-Figure = dict[str, Any]
 OFFSETS = (0.0, 1e6, 1e9, 1e12, 1e15)
 REPORTS = ((16, 10.0, None), (10_000, 40.0, 1.5))
 """Participants of 24 trials, the most seconds, the most GiB."""
+REPORT = """
+import sys
+from experiment.cli import main
+if main(sys.argv[1:]):
+    raise SystemExit(2)
+"""
 
 
-def row(
-    figure: str, scene: str, value: float, unit: str, must: float | None, aim: float | None = None
-) -> Figure:
-    """One line of the table; `met` says whether the value is at most `must`."""
-    met = None if must is None else bool(value <= must)
-    return {
-        "figure": figure,
-        "scene": scene,
-        "value": value,
-        "unit": unit,
-        "must": must,
-        "aim": aim,
-        "met": met,
-    }
-
-
-def figures() -> Iterator[Figure]:
+def figures() -> Iterator[Row]:
     """Accuracy against time, then whole reports."""
     yield from accuracy()
     for participants, seconds, gib in REPORTS:
@@ -58,7 +46,8 @@ def figures() -> Iterator[Figure]:
 
 def contrast_scores(y: Array) -> float:
     """Ours."""
-    return float(str(repeated_measures(y, ["c"])["c"].f))
+    f = repeated_measures(y, ["c"])["c"].f
+    return f if is_defined(f) else float("nan")
 
 
 def textbook(y: Array) -> float:
@@ -90,7 +79,7 @@ def exact(y: Array) -> Fraction:
     return mean**2 * len(gaps) / variance
 
 
-def accuracy() -> Iterator[Figure]:
+def accuracy() -> Iterator[Row]:
     """Relative error of F at each offset, and each way's time against ours."""
     rng = np.random.default_rng(1)
     base = np.round(4 * (rng.normal(size=(16, 1)) + rng.normal(size=(16, 2)))) / 4
@@ -125,46 +114,20 @@ def _seconds(way: Callable[[Array], float], y: Array, turns: int = 20) -> float:
     return best
 
 
-def reports(participants: int, seconds: float, gib: float | None) -> Iterator[Figure]:
+def reports(participants: int, seconds: float, gib: float | None) -> Iterator[Row]:
     """Wall time, and where it is bounded the peak memory, of `seethrough report`."""
     scene = f"{24 * participants} trials"
     with tempfile.TemporaryDirectory() as folder:
         data = make_data(Path(folder) / "data", participants)
-        words = [sys.executable, "-m", "experiment", "report", str(data), "--out", f"{folder}/out"]
         start = time.perf_counter()
-        peak, cpu = _run(words)
+        used = used_by(REPORT, "report", str(data), "--out", f"{folder}/out")
         yield row("report", scene, time.perf_counter() - start, "s", seconds)
-        if cpu is not None:  # what a busy machine does not change
-            yield row("report, processor time", scene, cpu, "s", None)
-        if gib is not None and peak is not None:
-            yield row("memory of the report", scene, peak, "GiB", gib)
+        # what a busy machine does not change
+        yield row("report, processor time", scene, used.cpu, "s")
+        if gib is not None and used.peak is not None:
+            yield row("memory of the report", scene, used.peak / 1024, "GiB", gib)
         size = (Path(folder) / "out" / "report.html").stat().st_size / 2**20
         yield row("report.html", scene, size, "MiB", 3.0 if participants == 16 else None)
-
-
-def _run(words: list[str]) -> tuple[float | None, float | None]:
-    """Run a command; its peak memory in GiB and processor seconds, where the system tells."""
-    context = multiprocessing.get_context("spawn")
-    receive, send = context.Pipe(duplex=False)
-    told: tuple[float | None, float | None]
-    worker = context.Process(target=_measured, args=(words, send))
-    worker.start()
-    told = receive.recv()
-    worker.join()
-    return told
-
-
-def _measured(words: list[str], send: Any) -> None:
-    """In a process of its own, so that the peak is this command's."""
-    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
-    if sys.platform == "win32":
-        send.send((None, None))
-        return
-    import resource
-
-    unit = 2**30 if sys.platform == "darwin" else 2**20
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    send.send((used.ru_maxrss / unit, used.ru_utime + used.ru_stime))
 
 
 def make_data(folder: Path, participants: int) -> Path:
@@ -206,7 +169,7 @@ def make_data(folder: Path, participants: int) -> Path:
 
 def _trial(
     name: str, slot: int, number: int, cell: tuple[int, str, str, str, int], time: float, off: int
-) -> Figure:
+) -> Row:
     block, transparency, scenario, task, k = cell
     time *= 0.6 if transparency == "dynamic" else 1.0
     counting = task.startswith("count")
@@ -242,7 +205,7 @@ def _trial(
     }
 
 
-def _rating(name: str, item: str, transparency: str, scenario: str, value: int) -> Figure:
+def _rating(name: str, item: str, transparency: str, scenario: str, value: int) -> Row:
     return {
         "row_id": f"human-{name}-1-{item}-{transparency}-{scenario}",
         "participant": name,
@@ -256,6 +219,6 @@ def _rating(name: str, item: str, transparency: str, scenario: str, value: int) 
     }
 
 
-def _write(path: Path, columns: dict[str, str], rows: list[Figure]) -> None:
+def _write(path: Path, columns: dict[str, str], rows: list[Row]) -> None:
     lines = [",".join(columns), *(",".join(str(r[c]) for c in columns) for r in rows)]
     path.write_text("\n".join(lines) + "\n", "utf-8")
