@@ -10,9 +10,8 @@ from __future__ import annotations
 import os
 import platform
 from pathlib import Path
-from typing import Any
 
-Row = dict[str, Any]
+from benchmarks.rows import Row
 
 
 def machine() -> str:
@@ -85,13 +84,34 @@ def _cell(row: Row) -> str:
     return text
 
 
-def put(path: Path, name: str, rows: list[Row]) -> None:
-    """Write the tables of a bench into a page: between its marks, else at the end."""
-    begin, end = f"<!-- bench {name} -->", f"<!-- /bench {name} -->"
-    table = f"{begin}\nOn {machine()}:\n\n{markdown(rows)}{end}"
+def around(path: Path, name: str) -> tuple[str, str]:
+    """What stands before a bench's mark in a page, and after its end.
+
+    Raises ValueError if only one of the two marks is there, or the end comes first.
+    """
+    begin, end = _marks(name)
     old = path.read_text("utf-8") if path.exists() else ""
     before, found, rest = old.partition(begin)
-    after = rest.partition(end)[2] if found else "\n"
+    _, ended, after = rest.partition(end)
+    if found and not ended:
+        raise ValueError(f"{path}: {end} = missing: expected after {begin}")
+    if not found and end in old:
+        raise ValueError(f"{path}: {begin} = missing: expected before {end}")
+    return before, after if found else "\n"
+
+
+def put(path: Path, name: str, rows: list[Row]) -> None:
+    """Write the tables of a bench into a page: between its marks, else at the end.
+
+    Raises ValueError as `around` does; the page then stays as it is.
+    """
+    before, after = around(path, name)
+    begin, end = _marks(name)
+    table = f"{begin}\nOn {machine()}:\n\n{markdown(rows)}{end}"
     if before and not before.endswith("\n"):
         before += "\n"
     path.write_text(f"{before}{table}{after}", "utf-8")
+
+
+def _marks(name: str) -> tuple[str, str]:
+    return f"<!-- bench {name} -->", f"<!-- /bench {name} -->"

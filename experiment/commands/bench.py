@@ -55,6 +55,12 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(f"bench {args.bench}: {error}; expected it to be installed") from error
     if args.figure is not None and not hasattr(module, "chart"):
         raise InputError(f"--figure = {args.figure}: bench {args.bench} draws none")
+    tables = importlib.import_module("benchmarks.tables") if args.markdown is not None else None
+    if tables is not None:
+        try:
+            tables.around(args.markdown, args.bench)  # before anything is measured
+        except ValueError as error:
+            raise InputError(str(error)) from None
     rows = []
     for row in module.figures(*_only(args.only, module)):
         rows.append(row)
@@ -63,8 +69,8 @@ def run(args: argparse.Namespace) -> int:
         print(f"\n{module.summary(rows)}")
     if args.json is not None:
         args.json.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", "utf-8")
-    if args.markdown is not None:
-        importlib.import_module("benchmarks.tables").put(args.markdown, args.bench, rows)
+    if tables is not None:
+        tables.put(args.markdown, args.bench, rows)
     if args.figure is not None:
         module.chart(rows, args.figure)
     return 0

@@ -48,6 +48,33 @@ def test_a_table_is_put_between_its_marks(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("<!-- bench b -->\nold\nafter\n", "<!-- /bench b --> = missing: expected after"),
+        ("old\n<!-- /bench b -->\nafter\n", "<!-- bench b --> = missing: expected before"),
+        ("<!-- /bench b -->\n<!-- bench b -->\nafter\n", "<!-- /bench b --> = missing"),
+    ],
+)
+def test_a_page_that_lost_a_mark_stays_whole(tmp_path, monkeypatch, text, message):
+    """And the line names the page."""
+    monkeypatch.setattr(tables, "machine", lambda: "a machine")
+    page = tmp_path / "README.md"
+    page.write_text(text, "utf-8")
+    with pytest.raises(ValueError, match=f"README.md: {message}"):
+        tables.put(page, "b", ROWS)
+    assert page.read_text("utf-8") == text
+
+
+def test_the_command_says_so_before_it_measures_in_one_line(tmp_path, capsys):
+    page = tmp_path / "page.md"
+    page.write_text("<!-- bench statistics -->\n", "utf-8")
+    assert main(["bench", "statistics", "--markdown", str(page)]) == 2
+    told = capsys.readouterr()
+    assert "page.md: <!-- /bench statistics --> = missing" in told.err
+    assert told.err.count("\n") == 1 and not told.out
+
+
+@pytest.mark.parametrize(
     ("words", "message"),
     [
         (["--figure", "x.pdf"], "--figure = x.pdf: expected a name that ends in .svg or .png"),
