@@ -72,7 +72,7 @@ def main() -> None:
         questionnaire.before(study, 1, camera)  # type: ignore[arg-type]
     except Leave:
         raise AssertionError("the first option was to agree") from None
-    run = TrialRun(study, SimpleNamespace(display=camera.stage, tasks=TASKS))  # type: ignore[arg-type]
+    run = TrialRun(study, SimpleNamespace(scenes=None, display=camera.stage, tasks=TASKS))  # type: ignore[arg-type]
     task_sets = session_for(1, study.design.factors())
     shown = set()
     for number, task_set in enumerate(task_sets):
