@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from experiment.clock import RealClock
 from experiment.config import Study
@@ -31,11 +32,13 @@ def play_in_window(
     data: Path,
     clock: RealClock,
     watched: SimulatedParticipant | None = None,
+    about: Mapping[str, Any] | None = None,
 ) -> str:
     """Play a slot's session in a window: `complete`, `left` or `time limit`. Raises InputError.
 
     An interrupted session of the participant is gone on with, in its own slot. With `watched`, a
     simulated participant, it plays and somebody looks on; without, the window's own events count.
+    `about` is what the sidecar says of it besides (`SimulatedParticipant.about`).
     """
     start = starting_point(study, data, source, participant, slot)
     if start.session > 1:
@@ -44,11 +47,11 @@ def play_in_window(
     window = Window(study.display, texts, clock, study.study.title)
     window.stage.pilot = source == "pilot"
     try:
-        described = provenance(study, window.describe(), speed=clock.speed)
+        described = provenance(study, window.describe(), speed=clock.speed, **(about or {}))
         who = Who(study.study.name, participant, source, start.slot, described, start.session)
         person: Input = window if watched is None else _simulated(watched, window)
+        keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts)
-        keep(study.walkthrough, data)
         world = World(window, person, clock, recorder, TASKS, say)
         return run_session(study, start.slot, world, start.done)
     finally:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
-from experiment import participants
 from experiment.config import load
 from experiment.errors import InputError
+from experiment.participants.code_hash import code_sha256
 from experiment.participants.profile_file import find, write
 from experiment.progress import Progress
 
@@ -74,9 +73,10 @@ def _provenance(
     from experiment.participants.calibration import FITTED, HELD_OUT
 
     return {
-        "command": f"seethrough calibrate {arguments.study} --participants "
-        f"{arguments.participants} --evaluations {arguments.evaluations} --seed {arguments.seed} "
-        f"--pool {arguments.pool} --check {arguments.check} --check-seed {arguments.check_seed}",
+        "command": f"seethrough calibrate {arguments.study} --profile {arguments.profile} "
+        f"--participants {arguments.participants} --evaluations {arguments.evaluations} "
+        f"--seed {arguments.seed} --pool {arguments.pool} --check {arguments.check} "
+        f"--check-seed {arguments.check_seed}",
         "code": _code(),
         "participants": arguments.participants,
         "seed": arguments.seed,
@@ -93,8 +93,5 @@ def _provenance(
 
 def _code() -> str:
     """The program's version, and what tells the participants' own code from any other."""
-    digest = hashlib.sha256()
-    for path in sorted(Path(participants.__path__[0]).glob("*.py")):
-        digest.update(path.read_bytes())
     version = metadata.version("seethrough")
-    return f"seethrough {version}, experiment/participants sha256 {digest.hexdigest()[:12]}"
+    return f"seethrough {version}, experiment/participants sha256 {code_sha256()}"

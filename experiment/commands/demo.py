@@ -66,8 +66,10 @@ def _in_window(data: Path, simulated: bool, speed: float) -> str:
         return play_in_window(study, "P01", 1, "human", data, RealClock())
     from experiment.participants.participant import SimulatedParticipant
 
-    person = SimulatedParticipant(generator(1, (SIMULATED, 1)))
-    return play_in_window(study, "S01", 1, "simulated", data, RealClock(speed), watched=person)
+    seed, clock = 1, RealClock(speed)
+    person = SimulatedParticipant(generator(seed, (SIMULATED, 1)))
+    about = person.about(seed)
+    return play_in_window(study, "S01", 1, "simulated", data, clock, watched=person, about=about)
 
 
 def _offscreen(data: Path) -> str:

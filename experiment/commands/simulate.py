@@ -107,13 +107,7 @@ def _one(  # type: ignore[no-untyped-def]
 
     clock = SimulatedClock()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
-    described = provenance(
-        study,
-        display.describe(),
-        simulation_seed=seed,
-        profile=person.person.profile.name,
-        without=sorted(person.person.without),
-    )
+    described = provenance(study, display.describe(), **person.about(seed))
     who = Who(study.study.name, f"S{slot:02d}", "simulated", slot, described)
 
     def ended(record) -> None:  # type: ignore[no-untyped-def]
@@ -137,7 +131,10 @@ def _watch(
     for slot in range(1, count + 1):
         person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
         name = f"S{slot:02d}"
-        status = play_in_window(study, name, slot, "simulated", out, RealClock(), watched=person)
+        about = person.about(seed)
+        status = play_in_window(
+            study, name, slot, "simulated", out, RealClock(), watched=person, about=about
+        )
         if status != "complete":
             break
     return 0
@@ -164,6 +161,7 @@ def _data_mode(
         raise InputError(f"--pool = {a.pool}: expected at least 1 scene a task")
     if a.explain or a.watch:
         raise InputError("--explain and --watch: expected with --mode visual only")
-    tables = a.tables or a.out.with_name(a.out.name + "-tables.npz")
+    where = a.out.resolve()  # "." has no name
+    tables = a.tables or where.parent / f"{where.name}-tables.npz"
     job = Batch(a.study, a.seed, a.pool, tables, profile, without)
     data_run.run(job, a.out, count, a.workers, a.scheduler)

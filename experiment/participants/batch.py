@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from typing import Any
 from experiment.config import Study, load
 from experiment.design import Trial, session_for
 from experiment.participants.batch_files import CHUNK, Chunk, Slots, render
+from experiment.participants.code_hash import code_sha256
 from experiment.participants.data_mode import Played, play_session
 from experiment.participants.pool import LazyDraw, Pool
 from experiment.participants.profile import AVERAGE, Profile
@@ -30,6 +31,7 @@ class Batch:
     profile: Profile = AVERAGE
     without: frozenset[str] = frozenset()
     draws: bool = True
+    code: str = field(default_factory=code_sha256)  # of the process that began the run
 
     def about(self, study: Study) -> dict[str, Any]:
         """The sidecar of every chunk: what the rows depend on."""
@@ -45,6 +47,7 @@ class Batch:
                 "profile": asdict(self.profile),
                 "without": sorted(self.without),
                 "pool": self.pool,
+                "code": self.code,
             },
         }
 

@@ -11,19 +11,22 @@ import io
 import logging
 import pickle
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from importlib import metadata
 from threading import Lock
 from typing import Any
 
-from experiment.config import load
+from experiment.config import Study, load
 from experiment.errors import InputError
 from experiment.participants import batch as b
 from experiment.participants.batch_files import Chunk, Slots, chunk_name
+from experiment.participants.code_hash import code_sha256
 from experiment.participants.tables import load as load_tables
 
-PATIENCE = 5.0  # seconds until a scheduler that does not answer is not there
+PATIENCE = 5.0  # seconds until a scheduler or workers that do not answer are not there
 AHEAD = 2  # chunks handed out for each thread of the cluster, so that none waits
+PACKAGES = ("seethrough", "numpy")  # whose versions a chunk's sidecar holds
 MOST_LOSSES = 20  # of the scattered tables, with the workers that held them
 
 _one_at_a_time = Lock()  # participants of one process share its tables
@@ -33,7 +36,8 @@ _prepared: list[str] = []  # the run that this process is ready for
 def play(job: b.Batch, chunks: Sequence[Slots], address: str) -> Iterator[Chunk]:
     """`batch.play_files` of each chunk, in order.
 
-    Raises InputError where no scheduler answers, or its workers keep dying.
+    Raises InputError where no scheduler or no worker answers, where workers are of another
+    version or keep dying.
     """
     try:
         from distributed import Client, KilledWorker  # an extra: only this option needs it
@@ -41,28 +45,41 @@ def play(job: b.Batch, chunks: Sequence[Slots], address: str) -> Iterator[Chunk]
         raise InputError("--scheduler: needs Dask: pip install 'seethrough[cluster]'") from None
     # What Dask says about lost workers and schedulers in many lines is said in one here.
     logging.getLogger("distributed").setLevel(logging.CRITICAL + 1)
+    study = load(job.study)
     try:
         client = Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
-        said = " ".join(str(error).split())[:120] or type(error).__name__
-        raise InputError(f"--scheduler = {address}: no Dask scheduler answers: {said}") from None
+        raise InputError(
+            f"--scheduler = {address}: no Dask scheduler answers: {_said(error)}"
+        ) from None
     with client:
         try:
-            yield from _Queue(client, job, chunks)
+            yield from _Queue(client, job, study, chunks)
         except KilledWorker:
             raise InputError(f"--scheduler = {address}: its workers die one by one") from None
-        except (ModuleNotFoundError, AttributeError) as error:
+        except ModuleNotFoundError as error:
             raise InputError(
                 f"--scheduler = {address}: its workers need this version of seethrough: {error}"
             ) from None
+        except InputError as error:
+            raise InputError(f"--scheduler = {address}: {error}") from None
+        except OSError as error:  # time-outs and lost connections are such
+            raise InputError(
+                f"--scheduler = {address}: no worker answers: {_said(error)}"
+            ) from None
+
+
+def _said(error: Exception) -> str:
+    return " ".join(str(error).split())[:120] or type(error).__name__
 
 
 class _Queue:
     """Chunks in the hands of the cluster, the oldest first."""
 
-    def __init__(self, client: Any, job: b.Batch, chunks: Sequence[Slots]) -> None:
+    def __init__(self, client: Any, job: b.Batch, study: Study, chunks: Sequence[Slots]) -> None:
         self._client, self._chunks = client, iter(chunks)
-        self._job = pickle.dumps((replace(job, tables=None), load(job.study)))
+        self._needs = {**_versions(), "code": job.code}
+        self._job = pickle.dumps((replace(job, tables=None), study))
         there = job.tables is not None and job.tables.exists()
         self._tables = job.tables.read_bytes() if there and job.tables else b""
         self._waiting: deque[tuple[Slots, Any]] = deque()
@@ -79,14 +96,14 @@ class _Queue:
                 continue
             losses += 1
             if losses > MOST_LOSSES:
-                raise InputError(f"--scheduler: {chunk_name(slots)} was lost with its workers")
+                raise InputError(f"{chunk_name(slots)} was lost with its workers again and again")
             self._again()
 
     def _scatter(self) -> Any:
         return self._client.scatter([self._job, self._tables], broadcast=True)
 
     def _submit(self, slots: Slots) -> Any:
-        return self._client.submit(_work, *self._scattered, slots, pure=False)
+        return self._client.submit(_work, self._needs, *self._scattered, slots, pure=False)
 
     def _fill(self) -> bool:
         """Hand out more; whether anything is on its way."""
@@ -107,8 +124,17 @@ def _is_lost(error: BaseException) -> bool:
     return isinstance(error, FutureCancelledError)
 
 
-def _work(job: bytes, tables: bytes, slots: Slots) -> Chunk:
-    """Runs in a worker's process."""
+def _versions() -> dict[str, str]:
+    """What must be the same in every process for the rows to be the same."""
+    return {**{name: metadata.version(name) for name in PACKAGES}, "code": code_sha256()}
+
+
+def _work(needs: Mapping[str, str], job: bytes, tables: bytes, slots: Slots) -> Chunk:
+    """Runs in a worker's process. Raises InputError where that is of another version."""
+    here = _versions()
+    for name, version in needs.items():
+        if here.get(name) != version:
+            raise InputError(f"a worker has {name} {here.get(name)}: expected {version}, as here")
     run = hashlib.sha256(job).hexdigest()
     with _one_at_a_time:
         if _prepared != [run]:

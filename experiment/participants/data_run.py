@@ -8,10 +8,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from experiment.config import load
+from experiment.config import Study, find, load
+from experiment.errors import InputError
 from experiment.participants import batch as b
 from experiment.participants.batch_files import Chunk, Results, Slots
 from experiment.participants.pool import Pool
+from experiment.participants.tables import load as load_tables
 from experiment.progress import Progress
 from experiment.workers import ordered_map
 
@@ -28,17 +30,31 @@ def run(
     """
     assert job.tables is not None
     study = load(job.study)
+    if scheduler is not None:
+        _check_models(job, study)
+    if (workers > 1 or scheduler is not None) and job.tables.exists():
+        load_tables(job.tables)  # a file that holds something else is refused here, not there
     with Results(out, study, job.about(study)) as results:
         chunks = results.missing(count)
         if results.note:
             print(results.note, file=sys.stderr)
-        if not job.tables.exists():
+        if chunks and not job.tables.exists():
             make_tables(job, min(count, b.CHUNK))
         with Progress("simulating", sum(map(len, chunks))) as progress, _Growing(job) as tables:
             for chunk in _played(job, chunks, workers, scheduler):
                 results.add(chunk)
                 tables.add(chunk)
                 progress.step(f"S{chunk.slots[-1]:02d}", len(chunk.slots))
+
+
+def _check_models(job: b.Batch, study: Study) -> None:
+    """Workers of a cluster share no disk with this machine, where a study's own models lie."""
+    own = [model.name for model in study.walkthrough.models]
+    if own:
+        raise InputError(
+            f"{find(job.study)}: walkthrough.models = {own}: expected none with --scheduler, whose "
+            "workers have no files of this machine: use --workers"
+        )
 
 
 def make_tables(job: b.Batch, walkers: int) -> None:

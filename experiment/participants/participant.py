@@ -7,10 +7,13 @@ visible strongly enough. It is a tool for planning studies, never evidence about
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable
+from dataclasses import asdict
+from typing import Any
 
 from numpy.random import Generator as Random
 
 from experiment.pages import Page
+from experiment.participants.code_hash import code_sha256
 from experiment.participants.count_red import count_red
 from experiment.participants.count_things import count_things
 from experiment.participants.effects import EffectUse, checked
@@ -44,6 +47,15 @@ class SimulatedParticipant:
         self._strategy: Generator[list[Event], Glance, None] | None = None
         self._task, self._began = "", 0.0
         self._mood: Mood | None = None
+
+    def about(self, seed: int) -> dict[str, Any]:
+        """What a sidecar says of it, so that anybody can simulate it again."""
+        return {
+            "simulation_seed": seed,
+            "profile": asdict(self.person.profile),
+            "without": sorted(self.person.without),
+            "code": code_sha256(),
+        }
 
     def begin_trial(self, task: str, now: float) -> None:
         """Meet a new trial. Raises ValueError for a task nobody has taught it."""

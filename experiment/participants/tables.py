@@ -8,15 +8,18 @@ on who came first.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import asin, atan2, floor, inf, pi
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
+from experiment.errors import InputError
 from experiment.participants.count_red import TILT
 from experiment.participants.name_letter import FROM_ABOVE
 from experiment.participants.places import AHEAD, CELL, DIRECTIONS, STRIDES
@@ -147,27 +150,42 @@ def save(path: Path, tables: dict[str, Table]) -> None:
         arrays[f"{name}/rows"] = (
             np.concatenate([table.rows[k] for k in keys], axis=1) if keys else np.zeros((7, 0))
         )
-    draft = path.with_suffix(".part.npz")
-    np.savez(draft, **arrays)
-    draft.replace(path)
+    draft = path.with_name(f".{path.name}.{os.getpid()}.npz")  # two runs may save at once
+    try:
+        with open(draft, "wb") as file:
+            np.savez(file, **arrays)
+            file.flush()
+            os.fsync(file.fileno())
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)
 
 
 def load(path: Path | BinaryIO) -> dict[str, Table]:
-    """Tables by name. Raises ValueError for a file that holds something else."""
+    """Tables by name. Raises InputError for a file that holds something else."""
+    try:
+        with np.load(path) as file:
+            return _tables(file)
+    except (OSError, ValueError, LookupError, TypeError, EOFError, BadZipFile) as error:
+        reason = getattr(error, "strerror", None) or "it is none, or not whole"
+        raise InputError(f"{path}: expected a file of visibility tables: {reason}") from None
+
+
+def _tables(file: Any) -> dict[str, Table]:
     tables: dict[str, Table] = {}
-    with np.load(path) as file:
-        for entry in file.files:
-            name, _, part = entry.rpartition("/")
-            if part != "keys":
-                continue
-            widths = file[f"{name}/widths"]
-            rows, ends = file[f"{name}/rows"], np.cumsum(widths[1:])
-            if rows.shape != (7, int(widths[1:].sum())):
-                raise ValueError(f"{path}: {name}: expected 7 rows of visibility")
-            starts = ends - widths[1:]
-            keys = [tuple(k) for k in file[entry].tolist()]
-            tables[name] = Table(
-                int(widths[0]),
-                {k: rows[:, a:b] for k, a, b in zip(keys, starts, ends, strict=True)},
-            )
+    for entry in file.files:
+        name, _, part = entry.rpartition("/")
+        if part not in ("keys", "widths", "rows"):
+            raise ValueError(f"{entry}: expected keys, widths and rows")
+        if part != "keys":
+            continue
+        widths = file[f"{name}/widths"]
+        rows, ends = file[f"{name}/rows"], np.cumsum(widths[1:])
+        if rows.shape != (7, int(widths[1:].sum())):
+            raise ValueError(f"{name}: expected 7 rows of visibility")
+        starts = ends - widths[1:]
+        keys = [tuple(k) for k in file[entry].tolist()]
+        tables[name] = Table(
+            int(widths[0]), {k: rows[:, a:b] for k, a, b in zip(keys, starts, ends, strict=True)}
+        )
     return tables
