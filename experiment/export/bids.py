@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from datetime import datetime
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -69,16 +70,28 @@ def _labels(participants: Sequence[str]) -> dict[str, str]:
 
 
 def _events(rows: Sequence[Row]) -> list[dict[str, str]]:
-    """Trials with their onset from the session's first, in the order of their onsets."""
-    starts = [datetime.fromisoformat(row["started"]) for row in rows]
+    """Trials with their onset from the session's first, in the order of their onsets.
+
+    Rows that do not say when they started (data mode's) follow in their order, without an onset.
+    """
+    starts = [datetime.fromisoformat(row["started"]) for row in rows if row["started"]]
+    onsets = [_onset(row["started"], starts) for row in rows]
     events = []
-    for start, row in sorted(zip(starts, rows, strict=True), key=lambda pair: pair[0]):
-        onset = (start - min(starts)).total_seconds()
+    for onset, row in sorted(zip(onsets, rows, strict=True), key=lambda pair: pair[0]):
         kind = f"{row['transparency']}_{row['scenario']}_{row['task']}"
-        first = {"onset": repr(onset), "duration": row["time"], "trial_type": kind}
+        first = {
+            "onset": "" if onset == inf else repr(onset),
+            "duration": row["time"],
+            "trial_type": kind,
+        }
         kept = {c.name: row[c.name] for c in KEPT}
         events.append({**first, "response_time": row["time"], **kept})
     return events
+
+
+def _onset(started: str, starts: Sequence[datetime]) -> float:
+    """Seconds from the first start; infinity where nothing says when."""
+    return (datetime.fromisoformat(started) - min(starts)).total_seconds() if started else inf
 
 
 def _presentation(data: Dataset, participant: str, session: str) -> dict[str, Any]:
