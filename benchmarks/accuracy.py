@@ -110,7 +110,8 @@ def wrong_order(
     wrong[np.setdiff1d(shown, there, assume_unique=True) // n] = True
     wrong = wrong.reshape(LOOK[::-1])
     frame = plan(scene, camera, technique, LOOK, renderer.without, LOOK[1] / SIZE[1])
-    for left, top, right, bottom in frame.exact.tolist():
+    parts = frame.doubtful.astype(int) if len(frame.doubtful) else frame.exact
+    for left, top, right, bottom in parts.tolist():
         wrong[top:bottom, left:right] = False
     return float(wrong.mean())
 

@@ -15,7 +15,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks, clusters, masks, order
+from renderer import clusters, masks, order
+from renderer import doubt as doubts
 from renderer.camera import Camera
 from renderer.projection import Boxes, screen_boxes
 from renderer.scene import Scene
@@ -61,8 +62,9 @@ class FramePlan:
 
     The first level holds masks only. `masked` are all targets that get a mask, `reach` (n, 4)
     what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
-    parts of the picture (left, top, right, bottom) to sort by pixel; objects that are `held` show
-    nowhere else and are drawn by that alone. `wide` are blended objects
+    parts of the picture (left, top, right, bottom) to sort by pixel, of each only the blocks that
+    `doubtful` (k, 4) touch if there are any; objects that are `held` show nowhere else and are
+    drawn by that alone. `wide` are blended objects
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
     else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
     are in levels. `boxes` are the extents of all objects. `reasons` (n,) say why each object is
@@ -83,6 +85,7 @@ class FramePlan:
     holes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 4), np.int64))
     clusters: tuple[Indices, ...] = ()
     held: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
+    doubtful: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 4)))
 
     @property
     def ordered(self) -> int:
@@ -261,21 +264,22 @@ def _with_levels(
     last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
     pairs = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
     levels = [Level(objects, targets) for objects, targets in pairs]
+    doubtful = doubts.chosen(doubtful, size, doubt)
     parts = merged_parts(doubtful, size)
-    if _union(doubtful, size) <= doubt * size[0] * size[1]:
-        parts = parts[:0]
     if "parts" in base.without and len(parts):
-        parts = np.array([[0, 0, *size]])
+        parts, doubtful = np.array([[0, 0, *size]]), doubtful[:0]
     keep = np.zeros(len(blended), dtype=bool)
     keep[base.opaque] = True
     holes = _holes(reach[masked], size)
-    if len(parts) and _area(parts) > MOSTLY * _area(merged_parts(reach[masked], size)):
-        return _held(base, merged_parts(reach[masked], size), triangles, size)
+    every = merged_parts(reach[masked], size)
+    if len(parts) and doubts.union(doubtful, size) > MOSTLY * _area(every):
+        return _held(base, every, triangles, size)
     return replace(
         base,
         opaque=np.nonzero(keep & opaque)[0],
         levels=tuple(levels),
         exact=parts,
+        doubtful=doubtful,
         wide=_wide(base, np.nonzero(blended & ~united.clustered)[0], holes, triangles, size),
         holes=holes,
         clusters=united.members,
@@ -316,14 +320,6 @@ def _held(
 
 def _area(parts: NDArray[np.int64]) -> int:
     return int((parts[:, 2:] - parts[:, :2]).prod(axis=1).sum())
-
-
-def _union(boxes: NDArray[np.float64], size: tuple[int, int]) -> int:
-    """Pixels that (k, 4) boxes cover together, to two pixels at their borders."""
-    fine = boxes * (blocks.BLOCK / 2)
-    shape = (size[1] // 2 + 1, size[0] // 2 + 1)
-    none = np.zeros(len(boxes), np.int64)
-    return int((blocks.covered(fine, none, shape) != 0).sum()) * 4
 
 
 def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:

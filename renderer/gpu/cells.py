@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer import blocks
 from renderer.blocks import BLOCK
 from renderer.gpu.programs import program
 
@@ -53,6 +54,17 @@ def touched(
     low, high = np.maximum(low, part[:2]), np.minimum(high, part[2:])
     rows = [low[:, 0] - part[0], part[3] - high[:, 1], high[:, 0] - part[0], part[3] - low[:, 1]]
     return np.stack([*rows, cells], axis=1)
+
+
+def within(part: NDArray[np.int64], boxes: NDArray[np.float64]) -> NDArray[np.int64]:
+    """(n, 4) pixels, none twice, of the blocks of a part that some boxes touch; all if none do."""
+    if not len(boxes):
+        return part[None]
+    shape = (int(part[3]) // BLOCK + 1, int(part[2]) // BLOCK + 1)
+    bits = blocks.covered(boxes, np.zeros(len(boxes), np.int64), shape)
+    found = blocks.runs(bits, bits, part)[0]
+    low, high = np.maximum(found[:, :2], part[:2]), np.minimum(found[:, 2:], part[2:])
+    return np.concatenate([low, high], axis=1)
 
 
 class Cells:

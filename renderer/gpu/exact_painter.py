@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer import blocks, order
+from renderer.blocks import BLOCK
 from renderer.camera import Camera
-from renderer.gpu.cells import MOST, Cells, height, touched
+from renderer.gpu.cells import MOST, Cells, height, touched, within
 from renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS, Filled, PixelSorter
 from renderer.gpu.mask_painter import MaskPainter
 from renderer.gpu.programs import Shader, program
@@ -75,8 +76,10 @@ class ExactPainter:
             target.use()
             filled, every = self._filled(job), len(job.frame.held) > 0
             for k, part in enumerate(parts):
-                target.scissor = _gl(part, job.size)
-                draws += self._sorter.sort(filled, part, k, self._bits[k], every)
+                bits = self._bits[k]
+                for place in within(part, job.frame.doubtful) if bits is None else part[None]:
+                    target.scissor = _gl(place, job.size)
+                    draws += self._sorter.sort(filled, part, k, bits, every)
             target.scissor = None
             passes += 2
         return passes, draws
@@ -212,6 +215,9 @@ class ExactPainter:
         near = self._masks.blocks
         boxes = job.frame.boxes.extents[objects] + _SLACK
         masks = blocks.covered(reach, mask, near.shape)
+        if len(job.frame.doubtful):
+            one = np.zeros(len(job.frame.doubtful), np.int64)
+            near = near & (blocks.covered(job.frame.doubtful, one, near.shape) != 0)
         return blocks.covered(boxes, which, near.shape), masks * near
 
     def _fill_slices(self, job, size, parts, corners, wiped):  # type: ignore[no-untyped-def]
@@ -353,7 +359,11 @@ class ExactPainter:
 def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The objects that a part of the picture shows, and the slice of each."""
     boxes = job.frame.boxes
-    objects = np.nonzero(boxes.inside & _overlapping(boxes.extents, part))[0]
+    here = boxes.inside & _overlapping(boxes.extents, part)
+    if len(job.frame.doubtful):
+        wider = job.frame.doubtful + BLOCK * _SLACK
+        here &= np.any([_overlapping(boxes.extents, box) for box in wider], axis=0)
+    objects = np.nonzero(here)[0]
     grown = np.ascontiguousarray(boxes.extents[objects] + _SLACK)
     return objects, order.apart(grown) if len(objects) else np.zeros(0, np.int64)
 
@@ -376,7 +386,7 @@ def bands(part: NDArray[np.int64], cells: int, tallest: int) -> list[NDArray[np.
 
 def _gl(part: NDArray[np.int64], size: tuple[int, int]) -> tuple[int, int, int, int]:
     """A part (left, top, right, bottom) as OpenGL's x, y (up), width, height."""
-    left, top, right, bottom = (int(v) for v in part)
+    left, top, right, bottom = part.tolist()
     return (left, size[1] - bottom, right - left, bottom - top)
 
 

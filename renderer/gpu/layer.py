@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import moderngl
@@ -98,6 +98,7 @@ class Layer:
     def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
         """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""
         camera = tight(camera, frame)
+        frame = replace(frame, doubtful=frame.doubtful[:0])  # all of the picture
         self._matrix = clip_from_offset(camera, size)
         return self._painter().layers(self._job(table, frame, camera, technique, scale, size))
 

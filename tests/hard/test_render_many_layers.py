@@ -75,6 +75,28 @@ def test_a_hundred_masks_in_one_line_of_sight(context, options):
     assert furthest(context, scene, technique) <= 1.5
 
 
+def test_a_hundred_panes_in_doubt_before_a_part_of_a_target(context):
+    """Only there are they sorted: a ball in the corner between them is neither lost nor unseen."""
+    target = Object(geometry.box(9, 7, 0.2), transforms.translation(0, 0, -4), (1, 0.1, 0), True)
+    ball = Object(geometry.sphere(0.5, 2), transforms.translation(0.9, -0.7, 0), (0, 0.4, 0.9))
+    crossed = [
+        replace(pane, transform=transforms.translation(*move) @ pane.transform @ np.diag(scale))
+        for scale, move in (((0.5, 0.1, 1, 1), (0, 1.2, 0)), ((0.1, 0.6, 1, 1), (-1.3, 0, 0)))
+        for pane in panes(36).objects[:-1]
+    ]
+    scene, size = Scene((*crossed, ball, target)), (100, 75)
+    renderer, sorted_ = Renderer(context, size), Renderer(context, size)
+    technique = replace(BASE, exact=False, doubt=0.0)
+    renderer.draw(scene, CAMERA, technique)
+    assert len(renderer.plan.doubtful) and len(renderer.plan.levels)
+    assert len(renderer.plan.exact) == 1
+    sorted_.draw(scene, CAMERA, BASE)
+    apart = np.abs(renderer.read().astype(int) - sorted_.read()).max(axis=2)
+    # A triangle's edge may fall to the other side of a pixel's centre in a cell.
+    assert (apart > 2).mean() <= 0.01
+    assert renderer.look(scene, CAMERA, technique, size).pixels[-2] > 50
+
+
 def test_what_a_hundred_layers_show_is_found_as_drawn(context):
     """The shares of a pixel come from the same program."""
     scene = panes(100)

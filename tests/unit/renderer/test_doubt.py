@@ -1,0 +1,51 @@
+"""Which places in doubt are sorted by pixel: none at first, then more and more, then all."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from renderer.doubt import RAMP, chosen, union
+
+SIZE, SHARE = (800, 600), 0.05
+
+
+def apart(count: int, side: float = 40.0) -> np.ndarray:
+    """Boxes of about that side, in a grid so that none overlap."""
+    row, column = np.divmod(np.arange(count), 15)
+    grown = side + 0.5 * np.arange(count) / count
+    low = np.stack([50.0 * column + 1, 50.0 * row + 1], axis=1)
+    return np.concatenate([low, low + grown[:, None]], axis=1)
+
+
+def test_what_is_allowed_stays():
+    assert not len(chosen(apart(14), SIZE, SHARE))  # 14 · 1600 < 24,000
+    assert not len(chosen(np.zeros((0, 4)), SIZE, 0.0))
+    assert len(chosen(apart(1), SIZE, 0.0)) == 1
+
+
+def test_overlapping_places_count_once():
+    same = np.repeat(apart(1), 30, axis=0)
+    assert union(same, SIZE) == pytest.approx(1600, rel=0.11)  # two pixels at each border
+    assert not len(chosen(same, SIZE, SHARE))
+
+
+def test_it_begins_with_the_largest_and_grows_without_a_leap():
+    """What is left is never more than allowed; one place more in doubt sorts two more at most."""
+    counts = []
+    for n in range(10, 70):
+        boxes = apart(n)
+        found = chosen(boxes, SIZE, SHARE)
+        counts.append(len(found))
+        area = (boxes[:, 2:] - boxes[:, :2]).prod(axis=1)
+        kept = (found[:, 2:] - found[:, :2]).prod(axis=1)
+        assert area.sum() - kept.sum() <= SHARE * SIZE[0] * SIZE[1]
+        assert not len(found) or kept.min() >= np.sort(area)[n - len(found)] - 1e-9
+    assert (np.diff(counts) >= 0).all() and np.diff(counts).max() <= 2
+    assert counts[0] == 0 and counts[-1] == 69  # 69 · 1600 > 4 · 24,000
+
+
+def test_far_beyond_the_ramp_nothing_is_left():
+    boxes = apart(100)
+    assert union(boxes, SIZE) > RAMP * SHARE * SIZE[0] * SIZE[1]
+    assert len(chosen(boxes, SIZE, SHARE)) == 100
