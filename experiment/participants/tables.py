@@ -164,8 +164,10 @@ def save(path: Path, tables: dict[str, Table]) -> None:
 def load(path: Path | BinaryIO) -> dict[str, Table]:
     """Tables by name. Raises InputError for a file that holds something else."""
     try:
-        with np.load(path) as file:
-            return _tables(file)
+        # Opened here: NumPy leaves a file open that turns out to be no archive.
+        with open(path, "rb") if isinstance(path, Path) else path as source:
+            with np.load(source) as file:
+                return _tables(file)
     except (OSError, ValueError, LookupError, TypeError, EOFError, BadZipFile) as error:
         reason = getattr(error, "strerror", None) or "it is none, or not whole"
         raise InputError(f"{path}: expected a file of visibility tables: {reason}") from None

@@ -7,6 +7,7 @@ import fastparquet
 import pytest
 
 from analysis.load.study import load_study
+from experiment import cli
 from experiment.chain import verify
 from experiment.config import load
 from experiment.errors import InputError
@@ -83,6 +84,18 @@ def test_the_chain_holds_and_a_changed_digit_breaks_it(tmp_path):
     table.write_text(table.read_text().replace("2.1,", "2.2,", 1))
     with pytest.raises(Exception, match="row 3: changed"):
         load_study(tmp_path)
+
+
+def test_bids_takes_rows_that_do_not_say_when_they_began(tmp_path):
+    fill(tmp_path / "d", 3)
+    out = tmp_path / "bids"
+    words = ["export", str(tmp_path / "d"), "--format", "bids", "--out", str(out)]
+    assert cli.main(words) == 0
+    for slot in (1, 2, 3):
+        folder = out / f"sub-S{slot:02d}" / "ses-1" / "beh"
+        (table,) = folder.glob("*_events.tsv")
+        (row,) = csv.DictReader(table.read_text("utf-8").splitlines(), delimiter="\t")
+        assert row["onset"] == "n/a" and float(row["duration"]) == 0.1 + slot
 
 
 def test_parquet_holds_the_same_rows_with_types(tmp_path):

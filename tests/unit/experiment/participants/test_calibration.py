@@ -1,5 +1,6 @@
 """Calibration against made-up data, and profiles as files."""
 
+import argparse
 from dataclasses import replace
 from itertools import pairwise
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from experiment.commands import calibrate as command
 from experiment.errors import InputError
 from experiment.participants.calibration import (
     LEVELS,
@@ -16,6 +18,7 @@ from experiment.participants.calibration import (
     published,
     table,
 )
+from experiment.participants.code_hash import code_sha256
 from experiment.participants.fitting import FREE, calibrate, with_free
 from experiment.participants.profile import AVERAGE
 from experiment.participants.profile_file import SHIPPED, find, read, write
@@ -135,3 +138,16 @@ def test_the_calibrated_profile_ships_with_its_provenance():
     assert profile.name == "calibrated" and profile != AVERAGE
     text = (SHIPPED / "calibrated.toml").read_text(encoding="utf-8")
     assert "never evidence" in text and "held_out" in text and "seethrough calibrate" in text
+
+
+def test_the_command_that_made_a_profile_can_be_given_again():
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    words = "demo --profile hasty --participants 5 --evaluations 7 --seed 3 --pool 2 --check 4"
+    files = ["--tables", "t.npz", "--out", "p.toml"]
+    arguments = parser.parse_args([*words.split(), "--check-seed", "9", *files])
+    told = command._provenance(arguments, "hasty", 1.0, [])
+    program, name, *again = told["command"].split()
+    assert (program, name) == ("seethrough", "calibrate")
+    assert parser.parse_args([*again, *files]) == arguments
+    assert code_sha256() in told["code"] and len(code_sha256()) == 12

@@ -1,0 +1,62 @@
+"""A session in a window, with a window that shows nothing: what its sidecar says, and when."""
+
+import json
+from dataclasses import asdict
+from types import SimpleNamespace
+
+import pytest
+
+from experiment import live
+from experiment.clock import RealClock
+from experiment.commands import simulate
+from experiment.config import load
+from experiment.errors import InputError
+from experiment.participants.profile_file import find
+
+STUDY = load("demo")
+
+
+class NoWindow:
+    """What `play_in_window` asks of a window."""
+
+    def __init__(self, *_):
+        self.stage, self.context, self.aspect = SimpleNamespace(), None, 4 / 3
+
+    def describe(self):
+        return {"window": "no"}
+
+    def close(self):
+        pass
+
+
+@pytest.fixture(autouse=True)
+def no_window(monkeypatch):
+    monkeypatch.setattr(live, "Window", NoWindow)
+    monkeypatch.setattr(live, "_simulated", lambda *_: None)
+    monkeypatch.setattr(live, "run_session", lambda *_: "complete")
+
+
+def test_a_model_that_cannot_be_kept_begins_no_session(tmp_path, monkeypatch):
+    def full(*_):
+        raise InputError("models/x.npz: cannot be written: No space left on device")
+
+    monkeypatch.setattr(live, "keep", full)
+    with pytest.raises(InputError, match="No space left"):
+        live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
+    assert not list(tmp_path.rglob("*_trials_data.*"))
+
+
+def test_a_watched_simulation_says_what_it_takes_to_simulate_it_again(tmp_path):
+    profile, without = find("hasty"), frozenset({"slips", "crowding"})
+    assert simulate._watch(STUDY, 1, 7, tmp_path, profile, without) == 0
+    (sidecar,) = tmp_path.glob("data/simulated/S01/*_trials_data.json")
+    told = json.loads(sidecar.read_text("utf-8"))["provenance"]
+    assert told["simulation_seed"] == 7 and told["without"] == ["crowding", "slips"]
+    assert told["profile"] == asdict(profile) and len(told["code"]) == 12
+    assert told["display"] == {"window": "no"} and told["speed"] == 1.0
+
+
+def test_a_person_s_session_says_nothing_of_a_simulation(tmp_path):
+    live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
+    (sidecar,) = tmp_path.glob("data/human/P01/*_trials_data.json")
+    assert not {"profile", "without"} & set(json.loads(sidecar.read_text("utf-8"))["provenance"])
