@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pandas as pd
 
 from analysis.figures.style import LEVEL_COLOUR, LEVELS, layer, layers, number
@@ -11,7 +13,7 @@ from analysis.page.numbers import significant
 
 def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
     """Geometric mean time by position, a line per transparency level."""
-    rows = [
+    rows: list[dict[str, Any]] = [
         {
             "level": level,
             "trial": int(trial),
@@ -23,8 +25,7 @@ def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
         )
     ]
     told = "; ".join(
-        f"{level}: "
-        + ", ".join(f"trial {r['trial']} {significant(float(str(r['time'])))} s" for r in own[:12])
+        f"{level}: " + ", ".join(f"trial {r['trial']} {significant(r['time'])} s" for r in own[:12])
         for level in LEVELS
         if (own := [r for r in rows if r["level"] == level])
     )

@@ -73,16 +73,16 @@ def _table(context: Context, found: Sequence[Balance], note: str) -> Table:
 
 def _sentence(table: Table, found: Sequence[Balance]) -> Prose:
     """The largest standardised difference by name, and which pass the usual limit."""
-    known = [b for b in found if is_defined(b.smd)]
+    known = [(abs(b.smd), b) for b in found if is_defined(b.smd)]
     if not known:
         return say("Difficulty: within each task all scenes are alike in what is known of them.")
-    worst = max(known, key=lambda b: abs(float(str(b.smd))))
+    _, worst = max(known, key=lambda pair: pair[0])
     runs: list[str | Cited] = [
         f"Difficulty: of {len(known)} comparisons of the scenes the largest difference is ",
         table.cite(worst.measure.key, "smd"),
         f" SD of scenes ({name_of(worst.task)}, {QUANTITIES[worst.quantity]})",
     ]
-    over = [b for b in known if abs(float(str(b.smd))) >= LARGE]
+    over = [b for smd, b in known if smd >= LARGE]
     if over:
         named = "; ".join(f"{name_of(b.task)}, {QUANTITIES[b.quantity]}" for b in over)
         runs.append(f". Apart by {LARGE} SD or more, so that times may differ for it: {named}.")

@@ -114,7 +114,8 @@ def friedman_sentence(table: Table, key: str, what: str, plan: Plan) -> Prose:
         table.cite(key, "w", "bound2"),
     )
     said = Prose((*said.runs[:-1], *corrected(table, key), "."))
-    if float(str(decisive(table.row(key))[1])) < plan.alpha:
+    _, deciding = decisive(table.row(key))
+    if is_defined(deciding) and deciding < plan.alpha:
         return said
     return Prose((*said.runs, *no_difference(table, key, plan.margin, plan.alpha)))
 

@@ -25,22 +25,22 @@ COLUMNS = (
 
 def sensitivity_section(context: Context, logs: Table | None) -> Section:
     """Mixed model beside the contrast scores' answer."""
-    row = _row(mixed_model(context.trials))
+    fit = mixed_model(context.trials)
     table = Table(
         "mixed_model",
         "Mixed model of log times, all trials",
         COLUMNS,
-        (row,),
+        (_row(fit),),
         note="log time ~ transparency × task + (1 + transparency | participant), REML; t on n − 1.",
     )
     blocks: list[Block] = []
-    if is_defined(row["p"]):
+    if is_defined(fit.p):
         p = table.cite("transparency", "p")
         blocks.append(
             say(
                 "With every trial as a row and a random slope of the technique for each "
                 f"participant: ratio {{}}, 95 % CI [{{}}, {{}}], t({{}}) = {{}}, p "
-                f"{'' if p.text.startswith('<') else '= '}{{}}. {_same(context, row, logs)}",
+                f"{'' if p.text.startswith('<') else '= '}{{}}. {_same(context, fit.p, logs)}",
                 table.cite("transparency", "ratio"),
                 table.cite("transparency", "low"),
                 table.cite("transparency", "high"),
@@ -69,7 +69,7 @@ def _row(fit: MixedEffect) -> dict[str, object]:
     }
 
 
-def _same(context: Context, row: dict[str, object], logs: Table | None) -> str:
+def _same(context: Context, p: float, logs: Table | None) -> str:
     """Whether the contrast scores' conclusion on log times is the same."""
     if logs is None or "time_overall" not in [r["measure"] for r in logs.rows]:
         return ""
@@ -77,7 +77,7 @@ def _same(context: Context, row: dict[str, object], logs: Table | None) -> str:
     if not is_defined(own["p"]):
         return ""
     alpha = context.plan.alpha
-    same = (own["p"] < alpha) == (float(str(row["p"])) < alpha)
+    same = (own["p"] < alpha) == (p < alpha)
     return (
         "The conclusion is that of the contrast scores."
         if same

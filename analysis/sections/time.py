@@ -103,7 +103,8 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
     if not is_defined(row["p"]):
         return say(f"{name}: {{}}.", logs.cite(m.key, "p"))
     faster = "faster" if row["ratio"] < 1 else "slower"
-    shown = float(str(decisive(row)[1])) < alpha
+    _, deciding = decisive(row)
+    shown = is_defined(deciding) and deciding < alpha
     verdict = f"participants were {faster} with dynamic transparency"
     verdict = verdict if shown else "no difference between the conditions was shown"
     sentence = say(
