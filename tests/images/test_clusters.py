@@ -14,10 +14,10 @@ from renderer.gpu.renderer import Renderer
 from renderer.reference import exact
 from renderer.scene import Object, Scene
 from renderer.techniques.dynamic import DynamicTransparency
+from renderer.visibility import SEEN
 
 SIZE = (120, 90)
 POLYGONS = DynamicTransparency(order="polygons", doubt=0.0, width=7)
-PIXELS = replace(POLYGONS, order="planes")
 # Half a step of rounding, and half floats blended a few times.
 STEP = 2
 # Corners are snapped to 1/256 pixel, also those of cuts: issue 3 allows one pixel in a thousand.
@@ -130,8 +130,18 @@ def test_an_object_that_moves_is_drawn_where_it_is(renderer):
     assert wrong(renderer, Scene((*things, WALL)), camera()) <= ALONG_CUTS
 
 
-def test_what_can_be_seen_does_not_depend_on_the_way(renderer):
-    scene = Scene((*crowd(1), WALL))
-    by_polygon, by_pixel = (renderer.look(scene, camera(), t) for t in (POLYGONS, PIXELS))
-    for what in ("pixels", "weight", "area"):
-        assert np.array_equal(getattr(by_polygon, what), getattr(by_pixel, what)), what
+@pytest.mark.parametrize("seed", range(2))
+def test_what_can_be_seen_is_what_the_reference_shows(renderer, seed):
+    """Pixels of each object, and the share of the picture; no order of objects would do."""
+    scene = Scene((*crowd(seed), WALL))
+    seen = renderer.look(scene, camera(), POLYGONS, SIZE)
+    by_centers = renderer.look(scene, camera(), replace(POLYGONS, order="centers"), SIZE)
+    truth = exact(scene, camera(), POLYGONS, SIZE)
+    shown = (truth.weights >= SEEN).sum(axis=(1, 2))
+    # The reference leaves out pixels near edges: there the GPU may fill one more, or one fewer.
+    doubtful = ((truth.weights >= SEEN) & truth.near_edge).sum(axis=(1, 2))
+    assert (np.abs(seen.pixels - shown) <= doubtful).all()
+    assert (np.abs(by_centers.pixels - shown) > doubtful).any()
+    share = truth.weights.mean(axis=(1, 2))
+    assert (np.abs(seen.area - share) <= doubtful / (SIZE[0] * SIZE[1])).all()
+    assert (doubtful <= 0.05 * shown).all()
