@@ -34,8 +34,9 @@ def play_in_window(
     watched: SimulatedParticipant | None = None,
     about: Mapping[str, Any] | None = None,
 ) -> str:
-    """Play a slot's session in a window: `complete`, `left` or `time limit`. Raises InputError.
+    """Play a slot's session in a window; how it ended. Raises InputError.
 
+    It is `complete`, `left`, `time limit` or `display lost` (experiment/session.py).
     An interrupted session of the participant is gone on with, in its own slot. With `watched`, a
     simulated participant, it plays and somebody looks on; without, the window's own events count.
     `about` is what the sidecar says of it besides (`SimulatedParticipant.about`).

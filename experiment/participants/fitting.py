@@ -108,8 +108,8 @@ def calibrate(
     """The best profile found in about so many evaluations of `play`, and its misfit.
 
     First the pace is corrected by how far the fitted means are off; where there are evaluations
-    for derivatives, scipy's least squares
-    (trust region reflective) moves all of `FREE`, with derivatives over `STEP`.
+    for derivatives, scipy's least squares (trust region reflective) moves all of `FREE`, with
+    derivatives over `STEP`.
     """
     best: list[Any] = [np.inf, start]
     number = 0
