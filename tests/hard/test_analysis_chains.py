@@ -1,0 +1,194 @@
+"""Recorded data that were changed after the session: found, and the file and row named."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from data_folders import edit, refused
+from made_data import Made, make_folder
+
+from analysis.load.chain import link, seal_of, start_of
+from analysis.load.study import load_study
+from analysis.page.markdown import as_markdown
+from analysis.report import Options, make_report
+
+TRIALS = "data/human/P01/study-made_subject-P01_session-1_trials_data.csv"
+ANSWERS = "data/human/P01/study-made_subject-P01_session-1_questionnaire_data.csv"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory) -> Path:
+    return make_folder(tmp_path_factory.mktemp("made") / "data", Made(participants=3, trials=2))
+
+
+@pytest.fixture
+def folder(made, tmp_path) -> Path:
+    return Path(shutil.copytree(made, tmp_path / "data"))
+
+
+def sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def chain(folder: Path) -> Path:
+    """Give P01's table a hash chain and traces, as the recorder does."""
+    path = folder / TRIALS
+    traces = path.parent / "traces"
+    traces.mkdir()
+    lines = path.read_text().rstrip("\n").split("\n")
+    names = lines[0].split(",")
+    header = lines[0] + ",events_sha256,camera_sha256,chain"
+    sidecar = path.with_suffix(".json")
+    about = {**json.loads(sidecar.read_text()), "chain": {}}
+    before = start_of(about, header)
+    sidecar.write_text(json.dumps({**about, "chain": {"start": before}}))
+    out = [header]
+    for number, line in enumerate(lines[1:], start=1):
+        cells = line.split(",")
+        for trace in ("events", "camera"):
+            name = f"traces/session-1_trial-{number:03d}_{trace}.csv"
+            (path.parent / name).write_text(f"t,{trace}\n{number},0.5\n")
+            cells[names.index(f"{trace}_file")] = name
+        cells += [
+            sha256(path.parent / cells[names.index(f"{t}_file")]) for t in ("events", "camera")
+        ]
+        before = link(before, ",".join(cells))
+        out.append(",".join([*cells, before]))
+    path.write_text("\n".join(out) + "\n")
+    training = traces / "session-1_training-101_events.csv"
+    training.write_text("t,event\n")
+    others = [p for p in (folder / ANSWERS, training) if p.is_file()]
+    files = {str(p.relative_to(path.parent)): sha256(p) for p in others}
+    end = path.with_name(path.name.replace("_trials_data.csv", "_end.json"))
+    about = {"status": "complete", "chain": before, "files": files}
+    end.write_text(json.dumps({**about, "seal": seal_of(about)}))
+    return end
+
+
+def test_a_good_chain_is_verified(folder):
+    end = chain(folder)
+    states = {c.file: c.state for c in load_study(folder).chains}
+    assert states[TRIALS] == "verified"
+    assert sorted(states.values()) == ["none", "none", "verified"]
+    end.unlink()
+    assert {c.file: c.state for c in load_study(folder).chains}[TRIALS] == "open"
+
+
+def test_one_changed_byte_is_found_and_named(folder):
+    chain(folder)
+    path = folder / TRIALS
+    lines = path.read_text().split("\n")
+    lines[9] = lines[9].replace("false", "true", 1)
+    path.write_text("\n".join(lines))
+    refused(folder, r"P01.*: row 10: changed, or a row before it removed")
+
+
+def test_rows_cut_off_at_the_end_are_found(folder):
+    chain(folder)
+    path = folder / TRIALS
+    path.write_text("\n".join(path.read_text().split("\n")[:-3]) + "\n")
+    refused(folder, r"P01.*: rows at its end were removed or added")
+
+
+def test_a_changed_sidecar_is_found(folder):
+    chain(folder)
+    sidecar = (folder / TRIALS).with_suffix(".json")
+    sidecar.write_text(sidecar.read_text().replace("0.1.0", "0.1.1"))
+    refused(folder, r"P01.*: row 1: this header, or its sidecar, was changed")
+
+
+def test_a_changed_questionnaire_is_found(folder):
+    chain(folder)
+    edit(folder / ANSWERS, 4, "value", "4")
+    refused(folder, r"P01.*questionnaire_data.csv: changed after the session")
+
+
+def test_a_forged_questionnaire_is_no_part_of_a_closed_session(folder):
+    """Its own answers were listed as it closed: those that lie there without were added later."""
+    answers = (folder / ANSWERS).read_bytes()
+    (folder / ANSWERS).unlink()
+    chain(folder)
+    states = {c.file: c.state for c in load_study(folder).chains}
+    assert states[TRIALS] == "verified"
+    (folder / ANSWERS).write_bytes(answers)
+    refused(folder, r"P01.*session-1_questionnaire_data\.csv: added after the session")
+    (folder / ANSWERS).unlink()
+    later = folder / ANSWERS.replace("session-1", "session-2")
+    later.write_bytes(answers)
+    refused(folder, r"P01.*session-2_questionnaire_data\.csv: expected its session's trial table")
+
+
+def test_a_trace_added_to_a_closed_session_is_named(folder):
+    chain(folder)
+    (folder / TRIALS).with_name("traces").joinpath("session-1_trial-999_events.csv").write_text("")
+    refused(folder, r"P01/traces/session-1_trial-999_events\.csv: added after the session")
+    (folder / TRIALS).with_name("traces").joinpath("session-1_trial-999_events.csv").unlink()
+    (folder / TRIALS).with_name("traces").joinpath("session-10_trial-1_events.csv").write_text("")
+    load_study(folder)  # another session's, not this one's
+
+
+def test_a_changed_byte_in_any_recorded_file_is_found_and_named(folder):
+    """Each file of a session in turn: tables, sidecar, traces of trials and of training."""
+    chain(folder)
+    load_study(folder)
+    for path in sorted((folder / TRIALS).parent.rglob("*")):
+        if not path.is_file():
+            continue
+        whole = path.read_bytes()
+        # the last letter or digit: still a table, still JSON, and no longer what was written
+        at = max(i for i, byte in enumerate(whole) if chr(byte).isalnum())
+        path.write_bytes(
+            whole[:at] + (b"1" if whole[at : at + 1] != b"1" else b"2") + whole[at + 1 :]
+        )
+        named = path.with_suffix(".csv") if path.name.endswith("_data.json") else path
+        refused(folder, f"{named.relative_to(folder)}: .*changed")
+        path.write_bytes(whole)
+    load_study(folder)
+
+
+def test_a_trace_names_its_trial(folder):
+    chain(folder)
+    (folder / TRIALS).parent.joinpath("traces/session-1_trial-003_camera.csv").write_text("")
+    refused(folder, r"trial-003_camera.csv: changed after .*the trial in row 4 of .*P01")
+
+
+def test_a_removed_trace_is_found_and_data_without_any_say_so(folder):
+    chain(folder)
+    traces = (folder / TRIALS).parent / "traces"
+    (traces / "session-1_trial-002_events.csv").unlink()
+    refused(folder, "trial-002_events.csv: removed after the session")
+    shutil.rmtree(traces)
+    text = as_markdown(make_report(folder, Options()))
+    assert "1 without their traces, which are not in this folder" in text
+
+
+def test_the_report_prints_what_the_chains_say(folder):
+    chain(folder)
+    text = as_markdown(make_report(folder, Options()))
+    rows = (folder / TRIALS).read_text().count("\n") - 1
+    assert "1 verified to the end of the session; 2 without a chain" in text
+    assert f"{2 * rows + 1} traces as they were recorded" in text
+
+
+def test_a_session_that_does_not_follow_the_one_before_is_found(folder):
+    """Session 2's chain goes on from session 1's end: exchanging or dropping a session shows."""
+    chain(folder)
+    first = folder / TRIALS
+    second = Path(str(first).replace("session-1", "session-2"))
+    header = first.read_text().split("\n")[0]
+    for follows, pattern in (("", "does not follow the session before"), (None, "")):
+        last = first.read_text().rstrip("\n").rpartition(",")[2] if follows is None else follows
+        about = {"chain": {"follows": last}}
+        start = start_of(about, header)
+        second.with_suffix(".json").write_text(
+            json.dumps({"chain": {**about["chain"], "start": start}})
+        )
+        second.write_text(header + "\n")
+        if pattern:
+            refused(folder, f"session-2.*: {pattern}")
+        else:
+            load_study(folder)
