@@ -160,11 +160,3 @@ class LazyDraw:
 
             self._renderer = Renderer(open_context(), self.size)
         return self._renderer.look(scene, camera, technique, self.size)
-
-
-def same(a: Any, b: Any) -> bool:
-    """Whether two looks are the same to the last bit."""
-    return all(
-        np.array_equal(getattr(a, n), getattr(b, n), equal_nan=True)
-        for n in ("pixels", "weight", "position", "contrast", "area")
-    )

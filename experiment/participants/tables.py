@@ -123,7 +123,6 @@ class TableEyes:
     def __init__(self, table: Table, scenario: str, draw: Draw | None = None) -> None:
         self.table = table
         self.draw = draw
-        self.drawn = 0
         orbits = scenario == "abstract"
         self._key = orbit_key if orbits else walk_key
         self._camera = orbit_camera if orbits else walk_camera
@@ -135,7 +134,6 @@ class TableEyes:
             if self.draw is None:
                 raise KeyError(f"viewpoint {key} is in no table and nothing can be drawn")
             self.table.put(key, self.draw(scene, self._camera(camera, key)))
-            self.drawn += 1
         return self.table.get(key)
 
 

@@ -11,7 +11,7 @@ from experiment.design import generator
 from experiment.participants.data_mode import play_session, play_trial
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.places import AHEAD, STRIDES
-from experiment.participants.pool import Pool, fingerprint, same
+from experiment.participants.pool import Pool, fingerprint
 from experiment.participants.tables import (
     PITCHES,
     YAWS,
@@ -30,6 +30,14 @@ from tasks.controls import orbit, walk
 from tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
+
+
+def same(a, b):
+    """Whether two looks are the same to the last bit."""
+    return all(
+        np.array_equal(getattr(a, n), getattr(b, n), equal_nan=True)
+        for n in ("pixels", "weight", "position", "contrast", "area")
+    )
 
 
 def random_sight(seed, n=12):
@@ -98,7 +106,7 @@ def test_eyes_draw_each_viewpoint_once_at_the_lattice_pose():
     first = walk(BuildingParameters(), (2.6, 2.4), 0.05).camera()
     second = walk(BuildingParameters(), (2.4, 2.7), -0.1).camera()
     assert same(eyes.look(None, first), eyes.look(None, second))
-    assert eyes.drawn == len(drawn) == 1
+    assert len(drawn) == 1
     assert_allclose(drawn[0].eye, (2.5, 3.2, 2.5))
     blind = TableEyes(Table(12), "walkthrough")
     with pytest.raises(KeyError, match=r"viewpoint \(0, 0, 0\) is in no table"):
