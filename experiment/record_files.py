@@ -16,6 +16,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from experiment.chain import link
 from experiment.columns import Column
 from experiment.private import FILE, refused, write, write_new
@@ -135,14 +137,14 @@ class Traces:
             kind = type(event).__name__
             names = ("x", "y", "dx", "dy", "dragging", "key")
             rest = ",".join(cell(values.get(n)) for n in names)
-        self.events.line(f"{event.time!r},{kind},{rest}")
+        self.events.line(f"{cell(event.time)},{kind},{rest}")
 
     def frame(self, time: float, view: View, digest: str) -> None:
         """One frame; a camera that stands is written once."""
         camera = view.camera
         values = [] if camera is self._last_camera else [*camera.eye, *camera.forward]
         cells = [repr(float(v)) for v in values] or [""] * 6
-        self.camera.line(",".join([repr(time), *cells, digest]))
+        self.camera.line(",".join([repr(float(time)), *cells, digest]))
         self._last_camera = camera
 
     def close(self) -> None:
@@ -162,6 +164,8 @@ def cell(value: Any) -> str:
     """A value as its column's type is written (CONVENTIONS.md, tables)."""
     if value is None:
         return ""
+    if isinstance(value, np.generic):
+        value = value.item()  # its own repr names its type
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):

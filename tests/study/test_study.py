@@ -10,6 +10,7 @@ import pytest
 
 from experiment import cli
 from experiment.config import load
+from experiment.replay import find_trial, replay
 
 PARTICIPANTS = 4  # one pass through the Latin square
 
@@ -61,6 +62,13 @@ def test_traces_and_sidecars_lie_beside_the_tables(data):
             for row in csv.DictReader(file):
                 assert (path.parent / row["events_file"]).stat().st_size > 0
                 assert (path.parent / row["camera_file"]).stat().st_size > 0
+
+
+def test_every_trace_of_a_simulated_session_can_be_replayed(data):
+    for row in tables(data, "trials"):
+        recorded = find_trial(data, row["participant"], int(row["trial"]))
+        frames = list(replay(recorded))
+        assert frames[-1].time - frames[0].time == pytest.approx(float(row["time"]), abs=1e-6)
 
 
 def test_the_report_is_made_from_the_folder_alone_and_says_that_nobody_was_there(data, tmp_path):

@@ -11,6 +11,7 @@ from experiment.columns import TABLES, TRIALS
 from experiment.design import Trial
 from experiment.errors import InputError
 from experiment.folders import check_participant, next_free, stem_of
+from experiment.record_files import cell
 from experiment.recorder import FileRecorder, Who
 from experiment.world import TrialRecord
 from renderer.camera import look_at
@@ -161,3 +162,8 @@ def test_answers_and_notes_are_on_disk_at_once(tmp_path):
     rec.close("complete")
     assert [(r["item"], r["value"]) for r in asked] == [("age", "30"), ("ease", "3")]
     assert (note["trial"], note["text"]) == ("5", 'a "phone", rang\nloudly')
+
+
+def test_numbers_of_numpy_are_written_as_numbers():
+    values = (np.float64(0.1), np.float32(0.5), np.int64(3), np.bool_(True), 0.1, True, None)
+    assert [cell(v) for v in values] == ["0.1", "0.5", "3", "true", "0.1", "true", ""]
