@@ -74,6 +74,7 @@ def _panel(axes: Axes, results: list[dict[str, Any]]) -> None:
             axes.plot(x, y, mark, color=color, ms=6, mec=PAPER, mew=0.5, label=r["way"])
     plain(axes)
     axes.set(xscale="log", yscale="log")
+    axes.xaxis.set_minor_formatter("")  # a span of one decade or two: its ends say enough
 
 
 def plain(axes: Axes) -> None:
