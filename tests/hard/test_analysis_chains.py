@@ -8,16 +8,13 @@ import shutil
 from pathlib import Path
 
 import pytest
-from data_folders import edit, refused
+from data_folders import ANSWERS, TRIALS, edit, refused
 from made_data import Made, make_folder
 
 from analysis.load.chain import link, seal_of, start_of
 from analysis.load.study import load_study
 from analysis.page.markdown import as_markdown
 from analysis.report import Options, make_report
-
-TRIALS = "data/human/P01/study-made_subject-P01_session-1_trials_data.csv"
-ANSWERS = "data/human/P01/study-made_subject-P01_session-1_questionnaire_data.csv"
 
 
 @pytest.fixture(scope="module")

@@ -8,16 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from data_folders import edit, refused
+from data_folders import ANSWERS, TRIALS, edit, refused
 from made_data import Made, make_folder
 
 from analysis.errors import SHOWN, DataError
 from analysis.load.study import load_study
 from analysis.report import Options, make_report
 from experiment.cli import main
-
-TRIALS = "data/human/P01/study-made_subject-P01_session-1_trials_data.csv"
-ANSWERS = "data/human/P01/study-made_subject-P01_session-1_questionnaire_data.csv"
 
 
 @pytest.fixture(scope="module")

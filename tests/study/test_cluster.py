@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import pytest
 from distributed import LocalCluster
+from small_study import SMALL
 
 from experiment import cli
 from experiment.config import load
@@ -17,31 +18,13 @@ from experiment.participants import batch, cluster
 from experiment.participants.batch_files import Results
 
 PEOPLE = 3
-STUDY = """
-[study]
-name = "small"
-title = "Small"
-description = "Both levels of one task, a small scene: what is tested is who simulates."
-participants = 3
-seed = 5
-[design]
-tasks = ["pattern"]
-trials = 1
-training = 0
-[abstract]
-side = 50.0
-objects = 60
-target_share = [0.3, 0.4]
-[session]
-questionnaire = ["comparison"]
-"""
 
 
 @pytest.fixture(scope="module")
 def job(tmp_path_factory):
     """A study's file, and its tables, made once."""
     folder = tmp_path_factory.mktemp("small")
-    (folder / "small.toml").write_text(STUDY, encoding="utf-8")
+    (folder / "small.toml").write_text(SMALL, encoding="utf-8")
     made = batch.Batch(str(folder / "small.toml"), 1, 1, folder / "small.npz")
     batch.fill(made)
     batch.play_chunk(range(1, PEOPLE + 1))

@@ -5,28 +5,11 @@ import csv
 import pytest
 from desktop import Desktop, Program, wait_until
 from player import ARTEFACTS, START, has_window
+from small_study import SMALL
 
 from experiment.config import load
 
 TITLE = load("demo").study.title
-STUDY = """
-[study]
-name = "watched"
-title = "Watched"
-description = "The smallest study: both levels of one task, a small scene."
-participants = 2
-seed = 5
-[design]
-tasks = ["pattern"]
-trials = 1
-training = 0
-[abstract]
-side = 50.0
-objects = 60
-target_share = [0.3, 0.4]
-[session]
-questionnaire = ["comparison"]
-"""
 
 
 @pytest.fixture
@@ -38,12 +21,12 @@ def desktop():
 def test_watched_at_real_speed_until_escape(desktop, tmp_path):
     """Its pointer moves, its events are recorded as they happen, and Esc ends the watching."""
     study = tmp_path / "watched.toml"
-    study.write_text(STUDY, encoding="utf-8")
+    study.write_text(SMALL, encoding="utf-8")
     data = tmp_path / "data"
     words = ["simulate", study, "--watch", "--participants", "1", "--seed", "3", "--out", data]
     program = Program(desktop, tmp_path / "watch.log", *words)
     try:
-        wait_until(lambda: has_window(desktop, "Watched"), START, "the window")
+        wait_until(lambda: has_window(desktop, "Small"), START, "the window")
         traces = data / "data" / "simulated" / "S01" / "traces"
         wait_until(lambda: list(traces.glob("*_trial-001_events.csv")), START, "the first trial")
         desktop.screenshot(ARTEFACTS / "watched.png")

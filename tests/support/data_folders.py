@@ -11,6 +11,9 @@ import pytest
 from analysis.errors import DataError
 from analysis.load.study import load_study
 
+TRIALS = "data/human/P01/study-made_subject-P01_session-1_trials_data.csv"
+ANSWERS = "data/human/P01/study-made_subject-P01_session-1_questionnaire_data.csv"
+
 
 def edit(path: Path, row: int, column: str, value: str) -> None:
     """Change one cell; rows are counted as a spreadsheet does, the header is row 1."""
