@@ -26,6 +26,7 @@ from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import LazyDraw, Pool
 from experiment.world import TrialRecord
 from renderer.gpu.renderer import Renderer
+from renderer.models.simple import simplified
 from renderer.techniques.standard import Standard
 from renderer.visibility import Visibility
 from tasks.base import View
@@ -46,14 +47,18 @@ class Eyes:
 class OpenEyes(Pool):
     """Looks from where the camera is, into a picture of a given size."""
 
-    def __init__(self, study: Study, size: int, renderer: Renderer, height: int) -> None:
+    def __init__(
+        self, study: Study, size: int, renderer: Renderer, height: int, simple: bool
+    ) -> None:
         super().__init__(study, size)
         self.renderer, self.picture = renderer, (round(height * ASPECT), height)
+        self.simple = simple
 
     def look(self, view: View, level: str) -> Visibility:
         """What is seen in the view, drawn anew."""
         technique = self.study.dynamic if level == "dynamic" else Standard()
-        return self.renderer.look(view.scene, view.camera, technique, self.picture)
+        scene = simplified(view.scene) if self.simple else view.scene
+        return self.renderer.look(scene, view.camera, technique, self.picture)
 
 
 def play(trials: Sequence[Trial], pool: Pool, name: str, repeats: int) -> Eyes:
@@ -90,9 +95,10 @@ def run(repeats: int) -> list[dict[str, Any]]:
     trials = [s.trials[0] for s in session_for(1, study.design.factors())]
     renderer = Renderer(open_context(), (800, 600))
     ways = []
-    for height in HEIGHTS:
-        pool = OpenEyes(study, 4, renderer, height)
-        ways.append(play(trials, pool, f"visual, {height} px", repeats))
+    for height, simple in ((HEIGHTS[0], False), (HEIGHTS[1], False), *((h, True) for h in HEIGHTS)):
+        pool = OpenEyes(study, 4, renderer, height, simple)
+        models = "" if simple else ", whole models"
+        ways.append(play(trials, pool, f"visual, {height} px{models}", repeats))
     pool = Pool(study, 4, LazyDraw(study, ASPECT))
     play(trials, pool, "making tables", repeats)
     ways.append(play(trials, pool, "data mode, 150 px", repeats))

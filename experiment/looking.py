@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from renderer.gpu.renderer import Renderer
+from renderer.models.simple import simplified
 from renderer.visibility import Visibility
 from tasks.base import View
 
@@ -12,9 +13,13 @@ HEIGHT = 150  # pixels of the id picture
 
 
 class Looking:
-    """Looks at views of one aspect ratio; a view that did not change is drawn only once."""
+    """Looks at views of one aspect ratio; a view that did not change is drawn only once.
 
-    def __init__(self, context: Any, aspect: float) -> None:
+    `simple` takes models of few triangles: in so small a picture nobody can tell.
+    """
+
+    def __init__(self, context: Any, aspect: float, simple: bool = False) -> None:
+        self.simple = simple
         self.size = (round(HEIGHT * aspect), HEIGHT)
         self._renderer = Renderer(context, self.size)
         self._seen: tuple[Any, Any, Any, Visibility] | None = None
@@ -26,7 +31,8 @@ class Looking:
         seen, technique = self._seen, self.technique
         if seen and (seen[0] is view.scene and seen[1] is view.camera and seen[2] is technique):
             return seen[3]
-        visibility = self._renderer.look(view.scene, view.camera, technique, self.size)
+        scene = simplified(view.scene) if self.simple else view.scene
+        visibility = self._renderer.look(scene, view.camera, technique, self.size)
         self._seen = (view.scene, view.camera, technique, visibility)
         self.looks += 1
         return visibility

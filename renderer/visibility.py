@@ -6,11 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 # An object with less than this share of a pixel is not seen there: 1 in 64 changes a display's
 # colour by at most 4 of 255 steps, about the smallest difference people notice side by side.
 SEEN = 1.0 / 64.0
+
+
+# What a layer drew: pixels (k,), counted row by row from the top, the object + 1 that shows there
+# (k,), and the opacity with which it was drawn (k,).
+Drawn = tuple[NDArray[np.int64], NDArray[np.integer], NDArray[np.floating]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,33 +43,28 @@ class Visibility:
 
 
 def shares(
-    layers: Sequence[tuple[NDArray[np.int64], NDArray[np.floating]]],
+    layers: Sequence[Drawn], pixels: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """Objects, pixels (flat) and shares from layers drawn from back to front.
+    """Objects, pixels (flat) and shares from layers drawn from back to front into so many pixels.
 
-    A layer is an id picture (object + 1, 0 where the layer drew nothing) and the opacity with
-    which it was drawn. Only shares of at least `SEEN` are kept.
+    Only shares of at least `SEEN` are kept.
     """
-    left = np.ones(layers[0][0].size)
+    left = np.ones(pixels)
     found = []
-    for ids, alpha in reversed(layers):
-        where = np.nonzero(ids.ravel())[0]
-        opacity = np.minimum(alpha.ravel()[where].astype(float), 1.0)
+    for where, ids, alpha in reversed(layers):
+        opacity = np.minimum(alpha.astype(float), 1.0)
         share = left[where] * opacity
         left[where] *= 1.0 - opacity
         seen = share >= SEEN
-        found.append((ids.ravel()[where[seen]] - 1, where[seen], share[seen]))
+        found.append((ids[seen] - 1, where[seen], share[seen]))
     parts = [np.concatenate([f[k] for f in found]) for k in range(3)]
-    return parts[0], parts[1], parts[2]
+    return parts[0].astype(np.int64), parts[1], parts[2]
 
 
-def visibility(
-    layers: Sequence[tuple[NDArray[np.int64], NDArray[np.floating]]],
-    picture: NDArray[np.uint8],
-    objects: int,
-) -> Visibility:
-    """Measure n = `objects` objects in a (h, w, 3) picture made of `layers` (see `shares`)."""
-    return _measured(*shares(layers), picture, objects)
+def visibility(layers: Sequence[Drawn], picture: NDArray[np.uint8], objects: int) -> Visibility:
+    """Measure n = `objects` objects in a (h, w, 3) picture made of `layers`."""
+    found = shares(layers, picture.shape[0] * picture.shape[1])
+    return _measured(*found, picture, objects)
 
 
 def visibility_of_shares(
@@ -90,15 +91,15 @@ def _measured(which, pixel, share, picture, objects):  # type: ignore[no-untyped
         x = np.bincount(which, share * (column + 0.5), objects) / total / height
         y = np.bincount(which, share * (row + 0.5), objects) / total / height
         weight = np.where(count > 0, total / np.maximum(count, 1), 0.0)
-    colors = picture.reshape(-1, 3) / 255.0
-    own = np.stack([np.bincount(which, share * colors[pixel, k], objects) for k in range(3)], 1)
-    contrast = _contrast(which, row, column, own, total, colors.reshape(height, width, 3))
+    colors = picture.reshape(-1, 3)[pixel] / 255.0
+    own = np.stack([np.bincount(which, share * colors[:, k], objects) for k in range(3)], 1)
+    contrast = _contrast(which, row, column, own, total, picture)
     return Visibility(count, weight, np.stack([x, y], axis=1), contrast, total / (width * height))
 
 
-def _contrast(which, row, column, own, total, colors):  # type: ignore[no-untyped-def]
+def _contrast(which, row, column, own, total, picture):  # type: ignore[no-untyped-def]
     """(n,) distance of an object's mean colour from the rest of its box, half as large again."""
-    height, width = colors.shape[:2]
+    height, width = picture.shape[:2]
     n = len(total)
     low = np.full((n, 2), np.iinfo(np.int64).max)
     high = np.full((n, 2), -1)
@@ -109,10 +110,7 @@ def _contrast(which, row, column, own, total, colors):  # type: ignore[no-untype
     margin = np.maximum(2, (high - low) // 4)[seen]
     low = np.maximum(low[seen] - margin, 0)
     high = np.minimum(high[seen] + margin + 1, [height, width])
-    sums = np.zeros((height + 1, width + 1, 3))
-    sums[1:, 1:] = colors.cumsum(axis=0).cumsum(axis=1)
-    box = sums[high[:, 0], high[:, 1]] - sums[low[:, 0], high[:, 1]]
-    box += sums[low[:, 0], low[:, 1]] - sums[high[:, 0], low[:, 1]]
+    box = _sums(picture, low, high) / 255.0
     area = (high - low).prod(axis=1)
     rest = np.maximum(area - total[seen], 1e-9)[:, None]
     surround = np.clip((box - own[seen]) / rest, 0, 1)
@@ -120,3 +118,24 @@ def _contrast(which, row, column, own, total, colors):  # type: ignore[no-untype
     contrast = np.zeros(n)
     contrast[seen] = np.where(area > total[seen] + 0.5, apart, 0.0)
     return contrast
+
+
+@njit(cache=True)
+def _sums(picture, low, high):  # type: ignore[no-untyped-def]
+    """(k, 3) sums of a (h, w, 3) picture over boxes from `low` to `high` (k, 2: row, column)."""
+    height, width = picture.shape[:2]
+    # Of all that lies above and to the left: whole numbers, so that nothing rounds.
+    total = np.zeros((height + 1, width + 1, 3), np.int64)
+    for row in range(height):
+        so_far = np.zeros(3, np.int64)
+        for column in range(width):
+            for c in range(3):
+                so_far[c] += picture[row, column, c]
+                total[row + 1, column + 1, c] = total[row, column + 1, c] + so_far[c]
+    sums = np.empty((len(low), 3))
+    for k in range(len(low)):
+        top, left, bottom, right = low[k, 0], low[k, 1], high[k, 0], high[k, 1]
+        for c in range(3):
+            across = total[bottom, right, c] - total[top, right, c]
+            sums[k, c] = across + total[top, left, c] - total[bottom, left, c]
+    return sums

@@ -18,11 +18,13 @@ from experiment.design import STUDY_SCENES, Trial, generator
 from experiment.participants.tables import Draw, Key, Table, TableEyes, load, save
 from experiment.scenes import StudyScenes
 from renderer.camera import Camera
+from renderer.models.simple import simplified
 from renderer.scene import Scene
 from renderer.visibility import Visibility
 from tasks.base import Task, View
 from tasks.catalog import TASKS
 
+SIMPLE = "simple models, "  # what tables were looked at with
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
 
 
@@ -127,7 +129,7 @@ class Pool(StudyScenes):
 
 def fingerprint(scene: Scene, technique: object) -> str:
     """What a table depends on besides its viewpoints: objects, their meshes, the technique."""
-    digest = hashlib.sha256(repr(technique).encode())
+    digest = hashlib.sha256(f"{SIMPLE}{technique!r}".encode())
     digest.update((np.round(scene.transforms, 6) + 0.0).astype("<f8").tobytes())
     for thing in scene.objects:
         digest.update(f"{thing.kind},{thing.color},{len(thing.mesh.triangles)};".encode())
@@ -159,4 +161,4 @@ class LazyDraw:
             from renderer.gpu.renderer import Renderer
 
             self._renderer = Renderer(open_context(), self.size)
-        return self._renderer.look(scene, camera, technique, self.size)
+        return self._renderer.look(simplified(scene), camera, technique, self.size)

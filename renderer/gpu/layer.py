@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from renderer.camera import Camera
 from renderer.gpu.exact_painter import ExactJob, ExactPainter
@@ -28,7 +29,7 @@ NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
 # The minimum takes no factors: colour stays because a mask's own is made to be larger.
-AfterLevel = Callable[[], None]
+AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,8 @@ class Layer:
         scale: float = 1.0,
         after_level: AfterLevel | None = None,
     ) -> FrameStats:
-        """Draw the plan. `scale` shrinks the masks' width; `after_level()` follows each level."""
+        """Draw the plan. `scale` shrinks the masks' width; `after_level` follows each level
+        and is told its objects, None for the opaque ones."""
         self._passes = self._draws = 0
         camera = tight(camera, frame)
         size = target.size
@@ -81,7 +83,7 @@ class Layer:
             self._draw_outside(frame, runs[1], size)
         self._pass(self._object, runs[0], OPAQUE)
         if after_level is not None:
-            after_level()
+            after_level(None)
         if frame.levels and isinstance(technique, DynamicTransparency):
             counts = self._looked_up(table, frame, camera, technique, rest, size)
             target.framebuffer.use()
@@ -250,7 +252,7 @@ class Layer:
                 target.framebuffer.scissor = None
             self._draw_clusters(table, camera, frame, level)
             if after_level is not None and len(level.objects):
-                after_level()
+                after_level(level.objects)
             if len(level.masks):
                 self._draw_masks(level.masks, technique.combine == "min")
 

@@ -18,7 +18,7 @@ from renderer.gpu.targets import FrameTarget
 from renderer.plan import SHORTCUTS, FramePlan, Technique, plan
 from renderer.scene import Scene
 from renderer.techniques.dynamic import DynamicTransparency
-from renderer.visibility import Visibility, visibility, visibility_of_shares
+from renderer.visibility import Drawn, Visibility, visibility, visibility_of_shares
 
 SCENES_KEPT = 4  # a trial's own, its inset's, and the last ones of both
 
@@ -147,18 +147,29 @@ class Renderer:
         where the layer drew anything, else 0, and the opacity (h, w) with which it did."""
         technique, scale = _by_object(technique), size[1] / self.size[1]
         frame = plan(scene, camera, technique, size, self.without | {"held"}, scale)
-        return self._layers(scene, camera, technique, size, frame)
+        found = []
+        for where, numbers, opacity in self._layers(scene, camera, technique, size, frame):
+            ids, alpha = np.zeros(size[::-1], np.int64), np.ones(size[::-1])
+            ids.flat[where], alpha.flat[where] = numbers, opacity
+            found.append((ids, alpha))
+        return found
 
-    def _layers(self, scene, camera, technique, size, frame):  # type: ignore[no-untyped-def]
+    def _layers(self, scene, camera, technique, size, frame) -> list[Drawn]:  # type: ignore[no-untyped-def]
         small, layer = self._looking(size)
-        found: list[tuple[NDArray[np.int64], NDArray[np.floating]]] = []
-        last = np.zeros(size[::-1], dtype=np.int64)
+        found: list[Drawn] = []
+        last = np.zeros(size[::-1], dtype=np.float32)
 
-        def keep() -> None:
-            nonlocal last
-            ids = small.read_ids()
-            found.append((np.where(ids != last, ids, 0), small.read_alpha()))
-            last = ids
+        def keep(objects: NDArray[np.int64] | None) -> None:
+            """Find what changed, which is nowhere but in the boxes of the objects drawn."""
+            left, top, right, bottom = part = _about(frame.boxes.extents, objects, size)
+            if left >= right or top >= bottom:
+                return
+            ids, before = small.read_ids(part), last[top:bottom, left:right]
+            row, column = np.nonzero((ids != before) & (ids > 0))
+            opacity = small.read_alpha(part)[row, column]
+            where = (row + top) * size[0] + column + left
+            found.append((where, ids[row, column].astype(np.int64), opacity))
+            before[...] = ids
 
         scale = size[1] / self.size[1]
         layer.draw(self._table(scene), frame, camera, technique, small, scale, keep)
@@ -202,6 +213,18 @@ class Renderer:
                 self._tables.pop(next(iter(self._tables))).release()
             self._tables[key] = SceneTable(self.context, self._store, scene)
         return self._tables[key]
+
+
+def _about(
+    extents: NDArray[np.float64], objects: NDArray[np.int64] | None, size: tuple[int, int]
+) -> tuple[int, int, int, int]:
+    """Left, top, right, bottom in pixels of what objects can cover; None: the whole picture."""
+    if objects is None:
+        return (0, 0, *size)
+    boxes = extents[objects]
+    low = np.clip(np.floor(boxes[:, :2].min(axis=0)) - 1, 0, size).astype(int).tolist()
+    high = np.clip(np.ceil(boxes[:, 2:].max(axis=0)) + 1, 0, size).astype(int).tolist()
+    return (*low, *high)
 
 
 def _by_object(technique: Technique) -> Technique:

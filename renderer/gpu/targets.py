@@ -63,18 +63,23 @@ class FrameTarget:
         """The picture's numbers as the driver holds them: RGBA half floats, bottom row first."""
         return self.resolved.read(components=4, alignment=1, dtype="f2")
 
-    def read_ids(self) -> NDArray[np.int64]:
-        """(h, w) object + 1, 0 where there is only background; row 0 on top."""
-        width, height = self.size
-        data = self.framebuffer.read(components=1, attachment=1, alignment=1, dtype="f4")
-        return np.frombuffer(data, "f4").reshape(height, width)[::-1].astype(np.int64)
+    def read_ids(self, part: tuple[int, int, int, int]) -> NDArray[np.float32]:
+        """(h, w) object + 1, 0 where there is only background, of a part of the picture (left, top,
+        right, bottom); row 0 on top."""
+        viewport = self._viewport(part)
+        data = self.framebuffer.read(viewport, 1, attachment=1, alignment=1, dtype="f4")
+        return np.frombuffer(data, "f4").reshape(viewport[:1:-1])[::-1]
 
-    def read_alpha(self) -> NDArray[np.float32]:
-        """(h, w) the frame's own alpha: how strongly the next object would show."""
-        width, height = self.size
+    def read_alpha(self, part: tuple[int, int, int, int]) -> NDArray[np.float16]:
+        """(h, w) a part of the frame's own alpha: how strongly the next object would show."""
+        viewport = self._viewport(part)
         # As the driver holds it: to make another type of it takes ten times as long.
-        data = self.framebuffer.read(components=4, alignment=1, dtype="f2")
-        return np.frombuffer(data, "f2").reshape(height, width, 4)[::-1, :, 3].astype("f4")
+        data = self.framebuffer.read(viewport, 4, alignment=1, dtype="f2")
+        return np.frombuffer(data, "f2").reshape(*viewport[:1:-1], 4)[::-1, :, 3]
+
+    def _viewport(self, part: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
+        left, top, right, bottom = part
+        return (left, self.size[1] - bottom, right - left, bottom - top)
 
     def release(self) -> None:
         """Give the GPU's memory back."""

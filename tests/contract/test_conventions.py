@@ -160,9 +160,9 @@ def test_view_units_grow_down_from_the_upper_left(renderer: Renderer) -> None:
 
 def test_id_pictures_hold_the_index_plus_one() -> None:
     """0 is background; alpha is opacity, so what is opaque in front leaves nothing behind it."""
-    behind, before = np.array([[1, 1, 0]]), np.array([[0, 2, 0]])
-    opaque = np.ones(behind.shape)
-    objects, pixels, share = shares([(behind, opaque), (before, opaque)])
+    behind = np.array([0, 1]), np.array([1, 1]), np.ones(2)
+    before = np.array([1]), np.array([2]), np.ones(1)
+    objects, pixels, share = shares([behind, before], 3)
     assert sorted(zip(objects, pixels, share, strict=True)) == [(0, 0, 1.0), (1, 1, 1.0)]
 
 

@@ -8,13 +8,16 @@ from renderer.visibility import SEEN, shares, visibility
 
 
 def layer(ids, alpha):
-    return np.array(ids), np.array(alpha, float)
+    """From pictures of object + 1 and of the opacity."""
+    ids, alpha = np.ravel(ids), np.ravel(alpha).astype(float)
+    where = np.nonzero(ids)[0]
+    return where, ids[where], alpha[where]
 
 
 def test_shares_are_what_the_layers_in_front_leave():
     """Object 1 opaque behind object 2 at .3 behind object 3 at .5: .35, .15, .5."""
     layers = [layer([[1, 1]], [[1, 1]]), layer([[2, 0]], [[0.3, 1]]), layer([[3, 0]], [[0.5, 1]])]
-    which, pixel, share = shares(layers)
+    which, pixel, share = shares(layers, 2)
     found = {(int(i), int(p)): s for i, p, s in zip(which, pixel, share, strict=True)}
     assert found == {(0, 0): 0.35, (1, 0): 0.15, (2, 0): 0.5, (0, 1): 1.0}
 
@@ -34,8 +37,23 @@ def test_position_area_and_contrast_of_a_square():
     ids = np.zeros((4, 6), int)
     ids[1:3, 3:5] = 1
     picture = np.where(ids[..., None] > 0, 255, 0).astype(np.uint8).repeat(3, axis=2)
-    seen = visibility([(ids, np.ones((4, 6)))], picture, 1)
+    seen = visibility([layer(ids, np.ones((4, 6)))], picture, 1)
     assert seen.pixels.tolist() == [4]
     np.testing.assert_allclose(seen.position, [[4 / 4, 2 / 4]])
     np.testing.assert_allclose(seen.area, [4 / 24])
     np.testing.assert_allclose(seen.contrast, [1.0])
+
+
+def test_contrast_is_to_the_rest_of_a_box_half_as_large_again():
+    """A grey square, off the middle of a picture of noise: its surround added up pixel by pixel."""
+    rng = np.random.default_rng(6)
+    picture = rng.integers(0, 256, (40, 60, 3)).astype(np.uint8)
+    ids = np.zeros((40, 60), int)
+    ids[20:28, 33:45] = 1
+    picture[ids > 0] = 90
+    seen = visibility([layer(ids, np.ones((40, 60)))], picture, 1)
+    box = np.zeros((40, 60), bool)
+    box[18:30, 31:47] = True  # a margin of two pixels, the least, or of a quarter
+    surround = picture[box & (ids == 0)].mean(axis=0)
+    expected = np.linalg.norm(surround - 90) / 255 / np.sqrt(3)
+    np.testing.assert_allclose(seen.contrast, [expected], rtol=1e-12)
