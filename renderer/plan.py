@@ -42,7 +42,7 @@ SHORTCUTS = {
 
 MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
 WORTH = 64  # pixels to save by drawing a triangle once more
-SORTED = 8  # pixels to sort more for a triangle less
+SORTED = 24  # pixels to sort more for a triangle less
 
 # Why an object is drawn as it is (FramePlan.reasons).
 OUTSIDE, OPAQUE, HARD, BLENDED = range(4)
@@ -152,18 +152,9 @@ def plan(
     if technique.per_pixel_only:
         parts = _parts(reach[masked], technique, size, without)
         return _held(base, parts, scene.triangle_counts, size)
-    return _with_levels(
-        base,
-        seen,
-        relation,
-        uncertain,
-        blended,
-        masked,
-        size,
-        scene.triangle_counts,
-        technique.doubt,
-        _fit(scene, technique),
-    )
+    what = _Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked)
+    counts = scene.triangle_counts
+    return _with_levels(base, what, size, counts, technique.doubt, _fit(scene, technique))
 
 
 def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-def]
@@ -235,52 +226,84 @@ def _behind(
     return np.where(over.any(axis=1), over.argmax(axis=1), -1) if len(over) else over.sum(axis=1)
 
 
+@dataclass(frozen=True, eq=False)
+class _Blending:
+    """What is put in order: see `plan` and order.decide."""
+
+    seen: Indices
+    extents: NDArray[np.float64]
+    reach: NDArray[np.float64]
+    relation: NDArray[np.int8]
+    uncertain: NDArray[np.bool_]
+    blended: NDArray[np.bool_]
+    masked: NDArray[np.bool_]
+
+    def levels(self) -> tuple[Indices, Indices, NDArray[np.bool_]]:
+        """See order.levels."""
+        return order.levels(
+            *(self.seen, self.extents, self.reach, self.relation, self.blended, self.masked)
+        )
+
+    def doubtful(
+        self, forced: NDArray[np.bool_], size: tuple[int, int], doubt: float
+    ) -> tuple[NDArray[np.float64], bool]:
+        """The parts to sort by pixel, and whether they are so much that all masks may be."""
+        every = (self.seen, self.extents, self.reach, self.relation, self.uncertain)
+        found = order.doubtful(*every, self.blended, self.masked, forced, np.array(size, float))
+        chosen = doubts.chosen(found, size, doubt)
+        if not len(chosen):
+            return chosen, False
+        return chosen, doubts.union(chosen) > MOSTLY * _area(self.parts(size))
+
+    def parts(self, size: tuple[int, int]) -> NDArray[np.int64]:
+        """Where masks can be."""
+        return merged_parts(self.reach[self.masked], size)
+
+
 def _with_levels(
     base: FramePlan,
-    seen: Indices,
-    relation: NDArray[np.int8],
-    uncertain: NDArray[np.bool_],
-    blended: NDArray[np.bool_],
-    masked: NDArray[np.bool_],
+    what: _Blending,
     size: tuple[int, int],
     triangles: Indices,
     doubt: float,
     fit: NDArray[np.bool_],
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right."""
-    reach, opaque = base.reach, ~blended
+    opaque, masked = ~what.blended, what.masked
     united = clusters.unite(
-        base.boxes.extents, relation, uncertain, blended, fit & ~masked, triangles
+        *(what.extents, what.relation, what.uncertain, what.blended, fit & ~masked, triangles)
     )
-    extents, relation = united.extents, united.relation
-    uncertain, blended = united.uncertain, united.blended
-    seen = seen[blended[seen] | masked[seen]]
-    of_object, of_mask, forced = order.levels(seen, extents, reach, relation, blended, masked)
-    doubtful = order.doubtful(
-        seen, extents, reach, relation, uncertain, blended, masked, forced, np.array(size, float)
+    seen = what.seen[united.blended[what.seen] | masked[what.seen]]
+    what = _Blending(
+        *(seen, united.extents, what.reach, united.relation, united.uncertain, united.blended),
+        masked,
     )
+    part_by_part = "parts" not in base.without
+    doubtful, much = what.doubtful(np.zeros(len(masked), bool), size, doubt)
+    if not (much and part_by_part):
+        of_object, of_mask, forced = what.levels()
+        if forced.any():
+            doubtful, much = what.doubtful(forced, size, doubt)
+    if much and part_by_part:
+        return _held(base, what.parts(size), triangles, size)
     if "levels" in base.without:
         of_object, of_mask = order.one_by_one(seen, of_object, of_mask)
     last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
     pairs = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
-    levels = [Level(objects, targets) for objects, targets in pairs]
-    doubtful = doubts.chosen(doubtful, size, doubt)
     parts = merged_parts(doubtful, size)
-    if "parts" in base.without and len(parts):
+    if len(parts) and not part_by_part:
         parts, doubtful = np.array([[0, 0, *size]]), doubtful[:0]
-    keep = np.zeros(len(blended), dtype=bool)
+    keep = np.zeros(len(masked), dtype=bool)
     keep[base.opaque] = True
-    holes = _holes(reach[masked], size)
-    every = merged_parts(reach[masked], size)
-    if len(parts) and doubts.union(doubtful, size) > MOSTLY * _area(every):
-        return _held(base, every, triangles, size)
+    holes = _holes(what.reach[masked], size)
+    alone = np.nonzero(what.blended & ~united.clustered)[0]
     return replace(
         base,
         opaque=np.nonzero(keep & opaque)[0],
-        levels=tuple(levels),
+        levels=tuple(Level(objects, targets) for objects, targets in pairs),
         exact=parts,
         doubtful=doubtful,
-        wide=_wide(base, np.nonzero(blended & ~united.clustered)[0], holes, triangles, size),
+        wide=_wide(base, alone, holes, triangles, size),
         holes=holes,
         clusters=united.members,
     )
@@ -365,6 +388,8 @@ def _parts(
 
 def merged_parts(boxes: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
     """(k, 4) whole pixels that hold all boxes and do not overlap; one for all if nearly all."""
+    if not len(boxes):
+        return np.zeros((0, 4), np.int64)
     low = np.maximum(np.floor(boxes[:, :2]) - 1, 0)
     high = np.minimum(np.ceil(boxes[:, 2:]) + 1, size)
     rows = np.concatenate([low, high], axis=1)[(low < high).all(axis=1)]
