@@ -34,8 +34,10 @@ def test_the_command_prints_rows_and_advice_and_writes_them(monkeypatch, tmp_pat
     assert len({(row["figure"], row["scene"]) for row in rows}) == len(rows)
     assert [row for row in rows if row["must"] is not None and not row["met"]] == []
     assert len(said) == len(rows) + 2
-    assert said[-1].startswith("Polygons that stand still, intersecting or not: bsp")
     results = ordering_accuracy.results_of(rows)
+    # Which of the exact ways is quickest is for the clock to say, on whatever machine this is.
+    assert said[-1].startswith("Polygons that stand still, intersecting or not: ")
+    assert said[-1] == advice(results)
     assert rows[6:] == list(ordering_accuracy.rows(results))
     by = {result["way"]: result for result in results}
     assert by["exact list"]["rmse"] == 0
