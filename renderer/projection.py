@@ -53,6 +53,32 @@ def to_pixels(
     return np.stack([x, y], axis=-1)
 
 
+@njit(cache=True)
+def clouds(points, spans, turns, moves, lens):  # type: ignore[no-untyped-def]
+    """(p, 2) pixels of the points of k objects one after the other, and where each object's begin
+    (k + 1,).
+
+    `spans` (k, 2) are rows of `points` (m, 3) in mesh space; `turns` (k, 3, 3), `moves` (k, 3):
+    camera ← mesh; `lens`: pixels for a slope of 1, the middle of the picture x, y. What does not
+    lie in front of the eye comes out as any number.
+    """
+    n = len(spans)
+    starts = np.zeros(n + 1, np.int64)
+    for k in range(n):
+        starts[k + 1] = starts[k] + spans[k, 1] - spans[k, 0]
+    pixels = np.empty((starts[n], 2))
+    for k in range(n):
+        m, v, row = turns[k], moves[k], starts[k]
+        for p in range(spans[k, 0], spans[k, 1]):
+            x, y, z = points[p, 0], points[p, 1], points[p, 2]
+            depth = -(m[2, 0] * x + m[2, 1] * y + m[2, 2] * z + v[2])
+            s = lens[0] / depth if depth > 0 else 0.0
+            pixels[row, 0] = lens[1] + s * (m[0, 0] * x + m[0, 1] * y + m[0, 2] * z + v[0])
+            pixels[row, 1] = lens[2] - s * (m[1, 0] * x + m[1, 1] * y + m[1, 2] * z + v[1])
+            row += 1
+    return pixels, starts
+
+
 def screen_boxes(corners: NDArray[np.float64], camera: Camera, size: tuple[int, int]) -> Boxes:
     """Extents on the screen of (n, 8, 3) world boxes, cut at the near plane.
 

@@ -10,7 +10,7 @@ from renderer import blocks
 from renderer.blocks import BLOCK
 from renderer.gpu.programs import program
 
-WIDTH = 2048  # texels; a row of cells is no wider unless one cell is
+WIDTH = 2072  # texels; a row of cells is no wider unless one cell is
 MOST = 64  # of slices or masks: the bits and arrays in shaders/exact.frag
 
 
@@ -162,3 +162,25 @@ class Cells:
         for texture in (self.color, self.depth, self.numbers):
             if texture is not None:
                 texture.release()
+
+
+def emptied(
+    context: moderngl.Context,
+    old: Cells | None,
+    size: tuple[int, int],
+    count: int,
+    kind: tuple[str, bool, bool, int],
+    wiped: NDArray[np.float64] | None,
+) -> Cells:
+    """Bound cells, empty where `wiped` (see `touched`) says, None for everywhere: the old ones if
+    they serve. Their `kind`: dtype, depth, numbers, components."""
+    dtype, depth, numbers, components = kind
+    if old is None or not old.lay_out(size, count, dtype, numbers, components):
+        if old is not None:
+            old.release()
+        old = Cells(context, size, count, dtype, depth, numbers, components)
+    if wiped is None:
+        old.clear()
+    else:
+        old.wipe(wiped[:, 4].astype(np.int64), wiped[:, :4])
+    return old

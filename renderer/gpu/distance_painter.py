@@ -14,7 +14,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import contours, masks
+from renderer import blocks, contours, masks
 from renderer.camera import Camera
 from renderer.gpu import tiles
 from renderer.gpu.mask_maker import MaskGeometry, outline_segments
@@ -51,12 +51,16 @@ class DistancePainter:
         technique: DynamicTransparency,
         width: float,
         size: tuple[int, int],
-        touched: NDArray[np.bool_],
+        numbers: NDArray[np.int64],
     ) -> None:
-        """Begin to find the outlines of closed meshes, beside whatever is drawn meanwhile; in the
-        end the blocks of pixels that they touch are set."""
+        """Begin to find the outlines of closed meshes, beside whatever is drawn meanwhile.
+
+        `numbers` (n objects,) are the bits that `marks` will have in the blocks that they touch.
+        """
         self._made, self._width, self._size = made, width, size
         self._jobs: list[Future[None]] = []
+        shape = blocks.shape(size)
+        self._bits = np.zeros((0, *shape), np.uint64)
         whole = (max(tiles.WIDTH, int(made.tile[:, 2].max(initial=0))), made.height)
         self._whole, used = whole, int(made.tile[:, 2].max(initial=1))
         if not len(made.looped) and not len(made.covered):
@@ -70,11 +74,18 @@ class DistancePainter:
         targets = made.looped.tolist()
         lens = (0.5 * size[1] / np.tan(camera.fov_y / 2), size[0] / 2, size[1] / 2)
         straight = 0.0 if technique.per_pixel_only else contours.STRAIGHT
-        self._jobs = table.outlines.start(
+        self._jobs, self._bits = table.outlines.start(
             [table.meshes[table.slot[t]] for t in targets],
-            [_pose(table, t, camera) for t in targets],
-            *(windows, tile[:, :2].copy(), lens, (width, straight), self._found, touched),
+            *_poses(table, made.looped, camera),
+            *(windows, tile[:, :2].copy(), lens, (width, straight), self._found),
+            *(numbers[made.looped], shape),
         )
+
+    def marks(self) -> NDArray[np.uint64]:
+        """(h, w) bits of the blocks that outlines touch."""
+        for job in self._jobs:
+            job.result()
+        return np.bitwise_or.reduce(self._bits, axis=0)
 
     def draw(
         self,
@@ -191,9 +202,8 @@ class DistancePainter:
         return sum(len(part) for part in runs) + 1
 
 
-def _pose(table: SceneTable, target: int, camera: Camera):  # type: ignore[no-untyped-def]
-    """The eye in mesh space, and turn and move from mesh to camera space."""
-    matrix = table.scene.transforms[target]
-    eye = table.inverse[target] @ (camera.eye - matrix[:3, 3])
-    turn = camera.rotation.T @ matrix[:3, :3]
-    return eye, turn, camera.rotation.T @ (matrix[:3, 3] - camera.eye)
+def _poses(table: SceneTable, targets: NDArray[np.int64], camera: Camera):  # type: ignore[no-untyped-def]
+    """The eye in mesh space (k, 3), and turns (k, 3, 3) and moves (k, 3): camera ← mesh."""
+    away = camera.eye - table.scene.transforms[targets, :3, 3]
+    eyes = np.einsum("kij,kj->ki", table.inverse[targets], away)
+    return eyes, *table.turned(targets, camera)

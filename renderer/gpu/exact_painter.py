@@ -8,40 +8,23 @@ list of fragments of every pixel, and the same goes for the masks. One shader so
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks, order
+from renderer import blocks, coverage, order
 from renderer.blocks import BLOCK
-from renderer.camera import Camera
-from renderer.gpu.cells import MOST, Cells, height, touched, within
-from renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS, Filled, PixelSorter
+from renderer.gpu.cells import MOST, Cells, emptied, height, touched, within
+from renderer.gpu.exact_masks import SLACK, ExactJob, ExactMasks
+from renderer.gpu.exact_sorter import Filled, PixelSorter
+from renderer.gpu.few_sorter import too_many
 from renderer.gpu.mask_painter import MaskPainter
-from renderer.gpu.programs import Shader, program
-from renderer.gpu.scene_table import SceneTable
-from renderer.plan import FramePlan, impenetrable
-from renderer.techniques.dynamic import DynamicTransparency
+from renderer.gpu.programs import program
+from renderer.plan import impenetrable
 
 TEXELS = 24_000_000  # of all slices of one part: what is larger is drawn in bands
-# Rasterisation may reach a pixel beyond the box of the exact coordinates.
-_SLACK = np.array([-1.0, -1.0, 1.0, 1.0])
 _PER_ROW, _SURFACES_PER_ROW = 1024, 4096
-
-
-@dataclass(frozen=True, eq=False)
-class ExactJob:
-    """All that one frame's exact parts need: `clip` is clip ← (world − eye) for GLSL."""
-
-    table: SceneTable
-    frame: FramePlan
-    camera: Camera
-    technique: DynamicTransparency
-    width: float
-    size: tuple[int, int]
-    clip: bytes
 
 
 class ExactPainter:
@@ -54,10 +37,9 @@ class ExactPainter:
             flag: program(context, "object.vert", "slice.frag", ["WITH_SURFACES"] * flag)
             for flag in (False, True)
         }
-        self._painters: dict[bool, MaskPainter] = {}
+        self._masks = ExactMasks(context)
         self._sorter = PixelSorter(context)
         self._slices: Cells | None = None
-        self._entries: Cells | None = None
         self._textures: dict[str, moderngl.Texture] = {}
 
     def draw(
@@ -65,7 +47,7 @@ class ExactPainter:
     ) -> tuple[int, int]:
         """Draw the plan's exact parts over the frame, with the masks already `made` for it if
         there are any. Returns passes and draw calls."""
-        self._prepare(job, made)
+        self._masks.prepare(job, made)
         passes = draws = 0
         whole = job.frame.exact
         self._set_parts(job, None)
@@ -74,6 +56,9 @@ class ExactPainter:
         for parts in self._batches(job, whole):
             draws += self._fill(job, parts)
             target.use()
+            # A point whose middle lies beyond the view is not drawn, whatever of it lies within.
+            wide, high = blocks.whole(job.size)
+            target.viewport = (0, job.size[1] - high, wide, high)
             filled, every = self._filled(job), len(job.frame.held) > 0
             for k, part in enumerate(parts):
                 bits = self._bits[k]
@@ -81,12 +66,13 @@ class ExactPainter:
                     target.scissor = _gl(place, job.size)
                     draws += self._sorter.sort(filled, part, k, bits, every)
             target.scissor = None
+            target.viewport = (0, 0, *job.size)
             passes += 2
         return passes, draws
 
     def layers(self, job: ExactJob) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
         """Objects + 1 and shares (h, w) of the frame, from the front: eight at a time."""
-        self._prepare(job)
+        self._masks.prepare(job)
         self._set_parts(job, None)
         whole = np.array([[0, 0, *job.size]])
         if job.technique.granularity != "pixel":
@@ -107,36 +93,6 @@ class ExactPainter:
         for texture in textures:
             texture.release()
         return found
-
-    def _prepare(self, job: ExactJob, made: MaskPainter | None = None) -> None:
-        """Make the masks' geometry, and begin the distances that they look up."""
-        caps = job.technique.min_transmittance > 0
-        if caps not in self._painters:
-            defines = ["CELLS"] + ["WITH_CAPS"] * caps
-            self._painters[caps] = MaskPainter(self._context, defines)
-        self._masks = self._painters[caps]
-        self._covers: list[NDArray[np.int64]] | None = None
-        if made is not None:
-            self._masks.adopt(made)
-            return
-        self._covers = self._masks.prepare(
-            job.table, job.frame, job.camera, job.technique, job.width, job.size
-        )
-
-    def _look_up(self, job: ExactJob) -> int:
-        """Draw the pictures of distances, if that is still to do. Returns the draw calls."""
-        if self._covers is None:
-            return 0
-        sequence, runs = job.table.sequence(self._covers, job.camera)
-        self._covers = None
-        self._use(self._masks.cover, job, sequence)
-        return self._masks.draw_distances(job.table, runs, job.camera)
-
-    def _use(self, shader: Shader, job: ExactJob, sequence: moderngl.Texture) -> None:
-        job.table.table.use(0)
-        sequence.use(1)
-        shader["clip_from_offset"].write(job.clip)
-        shader.set(table=0, sequence=1)
 
     def _batches(self, job: ExactJob, parts: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
         """The parts, cut into bands that fit into memory, as many at a time as fit together."""
@@ -188,7 +144,7 @@ class ExactPainter:
             owners += [slice_of[targets[mask == k]] for k in range(count)]
             bases += [(self._slice_base[-1], int(which.max(initial=-1)) + 1)] * count
             shown.append((objects, which, reach, mask))
-            boxes = job.frame.boxes.extents[objects] + _SLACK
+            boxes = job.frame.boxes.extents[objects] + SLACK
             emptied[0].append(touched(boxes, which + self._slice_base[-1], part))
             emptied[1].append(touched(reach, mask + self._mask_base[-1], part))
             for found, cells, numbers, where, base in (
@@ -203,34 +159,55 @@ class ExactPainter:
         many = [max(w.max(initial=0), m.max(initial=0)) >= MOST for _, w, _, m in shown]
         whole |= any(many)
         wiped = [None if whole else np.concatenate(rows) for rows in emptied]
-        draws = self._fill_slices(job, size, slices, corners[0], wiped[0])
-        draws += self._look_up(job)
-        self._bits = [
-            None if m else self._bits_of(job, *row) for m, row in zip(many, shown, strict=True)
+        covering = [
+            None if m else self._cover(job, part, *row[:2])
+            for m, part, row in zip(many, parts, shown, strict=True)
         ]
-        return draws + self._fill_masks(job, size, entries, corners[1], owners, bases, wiped[1])
+        draws = self._fill_slices(job, size, slices, corners[0], wiped[0])
+        draws += self._masks.look_up(job)
+        self._looked_up = None if whole else self._masks.looked_up(job)
+        self._bits = [
+            None if begun is None else self._bits_of(job, begun, *row[2:])
+            for begun, row in zip(covering, shown, strict=True)
+        ]
+        if self._looked_up is not None and not any(too_many(*b[:2]) for b in self._bits):
+            return draws
+        args = (job, size, entries, corners[1], owners, bases, wiped[1])
+        return draws + self._masks.fill(*args, self._slices, self._textures["parts"])
 
-    def _bits_of(self, job, objects, which, reach, mask):  # type: ignore[no-untyped-def]
-        """(h, w) of each block, which slices and which masks can show in it."""
-        near = self._masks.blocks
-        boxes = job.frame.boxes.extents[objects] + _SLACK
-        masks = blocks.covered(reach, mask, near.shape)
+    def _cover(self, job, part, objects, which):  # type: ignore[no-untyped-def]
+        """Begin to find which slices can show in each block of a part, beside the drawing."""
+        table, bits = job.table, np.zeros(blocks.shape(job.size), np.uint64)
+        every = table.triangles
+        turns, moves = table.poses(objects, job.camera)
+        spans, boxes = every.spans[objects], job.frame.boxes.extents[objects] + SLACK
+        lens = coverage.lens(job.camera, job.size)
+        args = (every.points, every.corners, spans, which, turns, moves, lens, boxes, part, bits)
+        return bits, table.outlines.beside(coverage.cover, *args)
+
+    def _bits_of(self, job, covering, reach, mask):  # type: ignore[no-untyped-def]
+        """(h, w) of each block: which slices can show in it, which masks by their numbers, and
+        which cells of masks."""
+        marks = self._masks.marks()
         if len(job.frame.doubtful):
             one = np.zeros(len(job.frame.doubtful), np.int64)
-            near = near & (blocks.covered(job.frame.doubtful, one, near.shape) != 0)
-        return blocks.covered(boxes, which, near.shape), masks * near
+            marks *= blocks.covered(job.frame.doubtful, one, marks.shape)
+        slices, begun = covering
+        begun.result()
+        return slices, marks, blocks.covered(reach, mask, marks.shape) * (marks != 0)
 
     def _fill_slices(self, job, size, parts, corners, wiped):  # type: ignore[no-untyped-def]
         surfaces = job.technique.granularity == "surface"
         # 16-bit floats hold whole numbers up to 2048.
         dtype = "f2" if len(job.table.scene.objects) <= 2048 else "f4"
-        self._slices = self._cells(self._slices, size, len(parts), dtype, True, surfaces, wiped)
+        kind = (dtype, True, surfaces, 4)
+        self._slices = emptied(self._context, self._slices, size, len(parts), kind, wiped)
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = "<"
         base = job.table.first_triangle.astype(float)
         sequence, runs = job.table.sequence(parts, job.camera, [base] * len(parts))
         shader = self._slice[surfaces]
-        self._use(shader, job, sequence)
+        job.use(shader, sequence)
         for k, part in enumerate(runs):
             self._slices.select(k, corners[k], job.size)
             for mesh, start, count in part:
@@ -238,53 +215,12 @@ class ExactPainter:
         self._slices.framebuffer.scissor = None
         return sum(len(part) for part in runs)
 
-    def _fill_masks(self, job, size, parts, corners, owners, bases, wiped):  # type: ignore[no-untyped-def]
-        """Draw the entries of all masks, which look up where their targets show."""
-        components = 2 if job.technique.granularity == "pixel" else 4
-        self._entries = self._cells(
-            self._entries, size, len(parts), "f4", False, False, wiped, components
-        )
-        self._context.enable_only(moderngl.NOTHING)
-        painter, slices = self._masks, self._slices
-        depths, extents = _window_depth(job), job.frame.boxes.extents + _SLACK
-        painter.begin()
-        slices.depth.use(DEPTHS)
-        slices.color.use(COLORS)
-        self._textures["parts"].use(PARTS)
-        painter.set(depths=DEPTHS, colors=COLORS, parts=PARTS)
-        painter.set(cell=size, row_end=slices.columns * size[0])
-        painter.set(per_pixel=components == 2, additive=job.technique.model == "additive")
-        for k, targets in enumerate(parts):
-            self._entries.select(k, corners[k], job.size)
-            x, y = self._entries.framebuffer.scissor[:2]
-            painter.set(shift=(corners[k][0] - x, corners[k][1] - y))
-            painter.set(first_way=slices.way(bases[k][0], corners[k]), slices=bases[k][1])
-            for t, owner in zip(targets.tolist(), owners[k].tolist(), strict=True):
-                place = extents[t].tolist() if owner >= 0 else (0.0, 0.0, 0.0, 0.0)
-                shader = painter.shader_of(t)
-                shader.set(beside=float(depths[t]), target=t, extents=tuple(place))
-                shader.set(way=slices.way(max(owner, 0), corners[k]))
-                painter.draw_one(t)
-        self._entries.framebuffer.scissor = None
-        return sum(len(targets) for targets in parts)
-
-    def _cells(self, old, size, count, dtype, depth, numbers, wiped, components=4):  # type: ignore[no-untyped-def]
-        """Empty, bound cells: the old ones if they serve."""
-        if old is None or not old.lay_out(size, count, dtype, numbers, components):
-            if old is not None:
-                old.release()
-            old = Cells(self._context, size, count, dtype, depth, numbers, components)
-        if wiped is None:
-            old.clear()
-        else:
-            old.wipe(wiped[:, 4].astype(np.int64), wiped[:, :4])
-        return old
-
     def _set_parts(self, job: ExactJob, opacity: NDArray[np.float64] | None) -> None:
         """Upload for each object whether it is impenetrable, and its opacity as a whole."""
         n = len(job.table.scene.objects)
         rows = np.zeros((-(-max(n, 1) // _PER_ROW) * _PER_ROW, 2), dtype="f4")
         rows[:n, 0] = impenetrable(job.table.scene, job.camera, job.technique)
+        self._hard = bool(rows[:n, 0].any())
         rows[:n, 1] = 1.0 if opacity is None else opacity
         self._upload("parts", rows, _PER_ROW)
 
@@ -349,10 +285,10 @@ class ExactPainter:
         return light, np.frombuffer(data, "f4")[3::4]
 
     def _filled(self, job: ExactJob) -> Filled:
-        assert self._slices is not None and self._entries is not None
+        assert self._slices is not None
         return Filled(
-            *(self._slices, self._entries, self._slice_base, self._mask_base, self._textures),
-            *(job.technique, job.table.scene.background, job.size),
+            *(self._slices, self._masks.entries, self._slice_base, self._mask_base, self._textures),
+            *(job.technique, job.table.scene.background, job.size, self._hard, self._looked_up),
         )
 
 
@@ -361,10 +297,10 @@ def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], ND
     boxes = job.frame.boxes
     here = boxes.inside & _overlapping(boxes.extents, part)
     if len(job.frame.doubtful):
-        wider = job.frame.doubtful + BLOCK * _SLACK
+        wider = job.frame.doubtful + BLOCK * SLACK
         here &= np.any([_overlapping(boxes.extents, box) for box in wider], axis=0)
     objects = np.nonzero(here)[0]
-    grown = np.ascontiguousarray(boxes.extents[objects] + _SLACK)
+    grown = np.ascontiguousarray(boxes.extents[objects] + SLACK)
     return objects, order.apart(grown) if len(objects) else np.zeros(0, np.int64)
 
 
@@ -388,11 +324,3 @@ def _gl(part: NDArray[np.int64], size: tuple[int, int]) -> tuple[int, int, int, 
     """A part (left, top, right, bottom) as OpenGL's x, y (up), width, height."""
     left, top, right, bottom = part.tolist()
     return (left, size[1] - bottom, right - left, bottom - top)
-
-
-def _window_depth(job: ExactJob) -> NDArray[np.float64]:
-    """(n,) depth-buffer value of each object's centre; −1 behind the eye."""
-    depth = job.camera.depth(job.table.scene.centers)
-    near, far = job.camera.near, job.camera.far
-    safe = np.where(depth > 0, depth, 1.0)
-    return np.where(depth > 0, far / (far - near) * (1 - near / safe), -1.0)

@@ -13,12 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer import blocks
+from renderer.blocks import BLOCK
 from renderer.gpu.cells import MOST, Cells
+from renderer.gpu.few_sorter import FewSorter
+from renderer.gpu.looked_up import LookedUp
 from renderer.gpu.programs import Shader, program
 from renderer.techniques.dynamic import DynamicTransparency
 
-COLORS, DEPTHS, MASKS, PARTS, NUMBERS, SURFACES = 5, 6, 7, 8, 9, 10  # texture units
-_CORNERS = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
+# Texture units.
+COLORS, DEPTHS, MASKS, PARTS, NUMBERS, SURFACES, DISTANCES = 5, 6, 7, 8, 9, 10, 11
+_ROW = np.dtype([("place", "f4", 2), ("which", "u8", 2)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,13 +31,54 @@ class Filled:
     begin in both, and textures by name."""
 
     slices: Cells
-    entries: Cells
+    entries: Cells | None
     slice_base: list[int]
     mask_base: list[int]
     textures: dict[str, moderngl.Texture]
     technique: DynamicTransparency
     background: tuple[float, float, float]
     size: tuple[int, int]
+    hard: bool
+    looked_up: LookedUp | None
+
+    @property
+    def few(self) -> bool:
+        """Whether exact_few.frag knows what the technique asks for."""
+        technique = self.technique
+        plain = technique.granularity == "pixel" and technique.model == "multiplicative"
+        return plain and technique.layers is None
+
+    def bind(self) -> None:
+        """Bind what the sorters look up."""
+        textures = (
+            (COLORS, self.slices.color),
+            (DEPTHS, self.slices.depth),
+            (DISTANCES, self.looked_up.distances if self.looked_up else None),
+            (MASKS, self.entries.color if self.entries else None),
+            (PARTS, self.textures["parts"]),
+            (NUMBERS, self.slices.numbers),
+            (SURFACES, self.textures.get("surfaces")),
+        )
+        for unit, texture in textures:
+            if texture is not None:
+                texture.use(unit)
+
+    def look_up(self, shader: Shader) -> None:
+        """Tell a shader where to look these up, and how masks add up."""
+        shader.set(
+            colors=COLORS,
+            depths=DEPTHS,
+            distances=DISTANCES,
+            masks=MASKS,
+            parts=PARTS,
+            numbers=NUMBERS,
+            surfaces=SURFACES,
+            cell=self.slices.size,
+            background=self.background,
+            least=self.technique.combine == "min",
+        )
+        if self.looked_up is not None:
+            self.looked_up.set(shader)
 
 
 class PixelSorter:
@@ -42,42 +87,52 @@ class PixelSorter:
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._programs: dict[tuple[str, bool, bool], tuple[Shader, moderngl.VertexArray]] = {}
-        self._set_up: dict[tuple[str, bool, bool], Filled] = {}
         self._places = context.buffer(reserve=1 << 14, dynamic=True)
+        self._few = FewSorter(context)
+        self._filled: Filled | None = None
 
     def sort(
         self,
         filled: Filled,
         part: NDArray[np.int64],
         number: int,
-        bits: tuple[NDArray[np.uint64], NDArray[np.uint64]] | None,
+        bits: tuple[NDArray[np.uint64], ...] | None,
         every: bool,
     ) -> int:
-        """Draw a part, the batch's `number`th, into the bound framebuffer; `bits` are which slices
-        and masks can show in a block, None where they are too many for that. With `every`, also
-        where no mask is. Returns the draws."""
+        """Draw a part, the batch's `number`th, into the bound framebuffer. `bits` say which slices
+        can show in a block, which masks, and which cells of masks; None where they are too many for
+        that. With `every`, also where no mask is. Returns the draws."""
+        self._bind(filled)
         if bits is None:
             shader, array = self._bound(filled, part, number, "OUTPUT_PICTURE", many=True)
             shader.set(every=every)
             array.render(moderngl.TRIANGLES, 3)
             return 1
-        found, which = blocks.runs(*bits, part)
+        slices, masks, cells = bits
+        looked_up = filled.looked_up is not None
+        found, which = blocks.shown(slices, masks if looked_up else cells, part)
         by_pixel = filled.technique.granularity == "pixel"
-        masked = (which[:, 1] != 0) | (not by_pixel)
         draws = 0
+        if filled.few:
+            bases = (filled.slice_base[number], filled.mask_base[number])
+            drawn, draws = self._few.draw(filled, part, bases, found, which, every)
+            found, which = found[~drawn], which[~drawn]
+            which[:, 1] = cells[found[:, 1] // BLOCK, found[:, 0] // BLOCK]
+        masked = (which[:, 1] != 0) | (not by_pixel)
         for output, chosen in (("OUTPUT_PICTURE", masked), ("OUTPUT_NEAREST", ~masked)):
             if chosen.any() and (every or output == "OUTPUT_PICTURE"):
-                rows = _vertices(found[chosen], which[chosen])
+                rows = np.zeros(chosen.sum(), dtype=_ROW)
+                rows["place"], rows["which"] = found[chosen], which[chosen]
                 if rows.nbytes > self._places.size:
                     self._places.release()
                     self._places = self._context.buffer(reserve=2 * rows.nbytes, dynamic=True)
                     self._programs.clear()
-                    self._set_up.clear()
                 shader, array = self._bound(filled, part, number, output)
                 self._places.orphan()
                 self._places.write(rows)
-                shader.set(size=filled.size, every=every)
-                array.render(moderngl.TRIANGLES, len(rows))
+                shader.set(size=blocks.whole(filled.size), every=every)
+                self._context.enable_only(moderngl.PROGRAM_POINT_SIZE)
+                array.render(moderngl.POINTS, len(rows))
                 draws += 1
         return draws
 
@@ -85,6 +140,7 @@ class PixelSorter:
         self, filled: Filled, part: NDArray[np.int64], number: int, output: str, first: int = 0
     ) -> None:
         """Fill the bound framebuffer with the shares from the `first`th on, or with light."""
+        self._bind(filled)
         bases = (filled.slice_base, filled.mask_base)
         counts = [base[number + 1] - base[number] for base in bases]
         many = max(counts) > MOST
@@ -92,6 +148,11 @@ class PixelSorter:
         which = tuple(((1 << n) - 1) >> k & 0xFFFFFFFF for n in counts for k in (0, 32))
         shader.set(which=which, **{"from": first})
         array.render(moderngl.TRIANGLES, 3)
+
+    def _bind(self, filled: Filled) -> None:
+        if self._filled is not filled:
+            filled.bind()
+            self._filled = filled
 
     def _bound(
         self, filled: Filled, part: NDArray[np.int64], number: int, output: str, many: bool = False
@@ -107,9 +168,7 @@ class PixelSorter:
             content = [(self._places, "2f 4u", "in_place", "in_which")] if placed else []
             self._programs[key] = (shader, self._context.vertex_array(shader.program, content))
         shader, array = self._programs[key]
-        if self._set_up.get(key) is not filled:  # the first part of a batch to ask for this one
-            self._set(filled, shader, output == "OUTPUT_LIGHT")
-            self._set_up[key] = filled
+        self._set(filled, shader, output == "OUTPUT_LIGHT")
         a, b = filled.slice_base[number : number + 2]
         c, d = filled.mask_base[number : number + 2]
         origin = (int(part[0]), int(filled.size[1] - part[3]))
@@ -118,26 +177,12 @@ class PixelSorter:
         return shader, array
 
     def _set(self, filled: Filled, shader: Shader, light: bool) -> None:
-        slices, entries, technique = filled.slices, filled.entries, filled.technique
-        textures = (
-            ("colors", COLORS, slices.color),
-            ("depths", DEPTHS, slices.depth),
-            ("masks", MASKS, entries.color),
-            ("parts", PARTS, filled.textures["parts"]),
-            ("numbers", NUMBERS, slices.numbers),
-            ("surfaces", SURFACES, filled.textures.get("surfaces")),
-        )
-        for name, unit, texture in textures:
-            if texture is not None:
-                texture.use(unit)
-            shader.set(**{name: unit})
+        technique = filled.technique
+        filled.look_up(shader)
         values: dict[str, Any] = {
-            "cell": slices.size,
-            "columns": slices.columns,
-            "mask_columns": entries.columns,
-            "background": filled.background,
+            "columns": filled.slices.columns,
+            "mask_columns": filled.entries.columns if filled.entries else 1,
             "per_pixel": technique.granularity == "pixel",
-            "least": technique.combine == "min",
             "additive": technique.model == "additive",
             "limit": 1_000_000 if technique.layers is None else technique.layers,
             "tau": technique.min_transmittance,
@@ -145,11 +190,3 @@ class PixelSorter:
         if light:
             values["tau"] = max(1.0 - technique.alpha_target, 1e-6)
         shader.set(**values)
-
-
-def _vertices(found: NDArray[np.int64], which: NDArray[np.uint64]) -> NDArray[np.void]:
-    """Two triangles for each rectangle: x, y as float32, and the bits."""
-    rows = np.zeros((len(found), 6), dtype=[("place", "f4", 2), ("which", "u8", 2)])
-    rows["place"] = found[:, _CORNERS]
-    rows["which"] = which[:, None]
-    return rows.reshape(-1)

@@ -7,11 +7,13 @@ drawn into a picture of distances beforehand, and a rectangle looks it up.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer import masks, projection
+from renderer.blocks import BLOCK
 from renderer.camera import Camera
 from renderer.gpu import tiles
 from renderer.gpu.scene_table import SceneTable
@@ -92,10 +94,10 @@ def mask_geometry(
 def _tiles(
     pictured: NDArray[np.int64], frame: FramePlan, size: tuple[int, int]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], int]:
-    """Tiles, shifts and the texture's height for what the masks of targets can cover."""
+    """Tiles, shifts and the texture's height for the blocks that the masks of targets can cover."""
     reach = frame.reach[pictured]
-    low = np.clip(np.floor(reach[:, :2]), 0, size).astype(np.int64)
-    high = np.clip(np.ceil(reach[:, 2:]), 0, size).astype(np.int64)
+    low = np.clip(np.floor(reach[:, :2] / BLOCK) * BLOCK, 0, size).astype(np.int64)
+    high = np.clip(np.ceil(reach[:, 2:] / BLOCK) * BLOCK, 0, size).astype(np.int64)
     extent = np.maximum(high - low, 0)
     corners, height = tiles.shelves(extent)
     tile = np.zeros((len(frame.reach), 4), np.int64)
@@ -156,22 +158,18 @@ def _outline_points(
 
 
 def _hulls(table, targets, frame, camera, width, size):  # type: ignore[no-untyped-def]
-    clouds: list[NDArray[np.float64] | None] = [None] * len(targets)
+    points, spans = table.points(targets)
+    scale = 0.5 * size[1] / np.tan(camera.fov_y / 2)
+    lens = np.array([scale, size[0] / 2, size[1] / 2])
     cut = frame.boxes.crosses[targets]
-    for slot in np.unique(table.slot[targets]).tolist():
-        mine = np.nonzero((table.slot[targets] == slot) & ~cut)[0]
-        points = table.meshes[slot].topology.points
-        matrix = table.scene.transforms[targets[mine]]
-        turn = camera.rotation.T @ matrix[:, :3, :3]
-        move = (matrix[:, :3, 3] - camera.eye) @ camera.rotation
-        seen = points @ turn.transpose(0, 2, 1) + move[:, None]
-        for k, cloud in zip(mine.tolist(), projection.to_pixels(seen, camera, size), strict=True):
-            clouds[k] = cloud
-    for k in np.nonzero(cut)[0].tolist():
-        cloud = _outline_points(table, int(targets[k]), frame, camera, size)
-        clouds[k] = cloud if len(cloud) else np.full((1, 2), -1e6)
-    starts = np.cumsum([0] + [len(c) for c in clouds])  # type: ignore[arg-type]
-    pixels = np.concatenate([*clouds, np.zeros((0, 2))])  # type: ignore[list-item]
+    pixels, starts = projection.clouds(points, spans, *table.turned(targets, camera), lens)
+    if cut.any():
+        clouds = [pixels[a:b] for a, b in pairwise(starts.tolist())]
+        for k in np.nonzero(cut)[0].tolist():
+            cloud = _outline_points(table, int(targets[k]), frame, camera, size)
+            clouds[k] = cloud if len(cloud) else np.full((1, 2), -1e6)
+        starts = np.cumsum([0] + [len(c) for c in clouds])
+        pixels = np.concatenate(clouds)
     vertices, firsts = masks.hulls_with_skirts(pixels, starts, width)
     rows = np.zeros((len(vertices), VERTEX), vertices.dtype)
     rows[:, : vertices.shape[1]] = vertices

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer import blocks
-from renderer.blocks import BLOCK
 from renderer.camera import Camera
 from renderer.gpu.distance_painter import DistancePainter
 from renderer.gpu.mask_maker import MaskGeometry, mask_geometry
@@ -22,7 +21,10 @@ _FORMAT = ("2f 2f 1f 2f", "in_place", "in_offset", "in_kind", "in_extra")
 _UNITS = {"distances": 2, "rings": 3, "counts": 4}
 
 
-_PREPARED = ("_distances", "_technique", "_width", "_size", "_first", "_count", "_pictured")
+_PREPARED = (
+    *("_boxed", "_distances", "_technique", "_width", "_size", "_first", "_count", "_pictured"),
+)
+BITS = 64
 
 
 class MaskPainter:
@@ -69,7 +71,7 @@ class MaskPainter:
 
     def adopt(self, other: MaskPainter) -> None:
         """Take over what another has prepared and drawn for the same frame."""
-        for name in ("geometry", "blocks", *_PREPARED):
+        for name in ("geometry", "numbers", *_PREPARED):
             setattr(self, name, getattr(other, name))
         self._draw_from(other._vertices)
 
@@ -82,12 +84,23 @@ class MaskPainter:
     def _begin(self, table: SceneTable, frame: FramePlan, camera: Camera) -> None:
         """Find the blocks that masks touch, those of outlines beside the drawing that follows."""
         made, size = self.geometry, self._size
-        shape = (-(-size[1] // BLOCK), -(-size[0] // BLOCK))
-        looped = np.zeros(len(frame.reach), dtype=bool)
-        looped[made.looped] = True
-        boxes = frame.reach[made.targets[~looped[made.targets]]]
-        self.blocks = blocks.covered(boxes, np.zeros(len(boxes), np.int64), shape) != 0
-        self._distances.begin(table, made, camera, self._technique, self._width, size, self.blocks)
+        self.numbers = np.zeros(len(frame.reach), np.int64)
+        self.numbers[made.targets] = np.arange(len(made.targets)) % BITS
+        boxed = np.ones(len(frame.reach), dtype=bool)
+        boxed[made.looped] = False
+        others = made.targets[boxed[made.targets]]
+        self._boxed = blocks.covered(frame.reach[others], self.numbers[others], blocks.shape(size))
+        args = (table, made, camera, self._technique, self._width, size, self.numbers)
+        self._distances.begin(*args)
+
+    @property
+    def distances(self) -> moderngl.Texture | None:
+        """The picture that masks without a hull look up."""
+        return self._distances.texture("distances")
+
+    def marks(self) -> NDArray[np.uint64]:
+        """(h, w) of each block, the `numbers` of the masks that can show in it, modulo 64."""
+        return self._boxed | self._distances.marks()
 
     def draw_distances(self, table: SceneTable, runs: list[list[Run]], camera: Camera) -> int:
         """Draw what the masks without a hull look up. Returns the draw calls made."""

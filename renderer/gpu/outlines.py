@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from renderer.gpu.meshes import GpuMesh
 
 
+_CORES = os.cpu_count() or 1
 _WORTH = 30_000  # edges to look at for which a second thread is worth waking
 
 
@@ -45,19 +46,23 @@ class Outlines:
     def start(
         self,
         meshes: Sequence[GpuMesh],
-        poses: Sequence[tuple[NDArray[np.float64], ...]],
+        eyes: NDArray[np.float64],
+        turns: NDArray[np.float64],
+        moves: NDArray[np.float64],
         windows: NDArray[np.int64],
         corners: NDArray[np.int64],
         lens: tuple[float, float, float],
         limits: tuple[float, float],
         out: NDArray[np.float32],
-        touched: NDArray[np.bool_],
-    ) -> list[Future[None]]:
-        """Begin to fill `out` (rows upwards), and the blocks that are `touched`.
+        numbers: NDArray[np.int64],
+        shape: tuple[int, int],
+    ) -> tuple[list[Future[None]], NDArray[np.uint64]]:
+        """Begin to fill `out` (rows upwards), and the bits of the blocks that masks touch: an array
+        of that `shape` for each thread.
 
-        For each target: its mesh, its pose (contours.distances), the window it is found for
-        (left, top, width, height) and where that goes in `out` (left, bottom). `limits` are the
-        masks' width and by how much an outline may be straightened.
+        For each target: its mesh, its pose (contours.outline_distances), the window it is found for
+        (left, top, width, height), where that goes in `out` (left, bottom), and the number of its
+        bit. `limits` are the masks' width and by how much an outline may be straightened.
         """
         new = [mesh for mesh in meshes if id(mesh) not in self._place]
         for mesh in new:
@@ -68,28 +73,31 @@ class Outlines:
             self._join()
         count = len(meshes)
         which = np.array([self._place[id(mesh)] for mesh in meshes])
-        eyes = np.array([pose[0] for pose in poses]).reshape(count, 3)
-        turns = np.array([pose[1] for pose in poses]).reshape(count, 3, 3)
-        moves = np.array([pose[2] for pose in poses]).reshape(count, 3)
         work = int(np.diff(self._starts[:, 2])[which].sum())  # edges
-        threads = min(count, os.cpu_count() or 1, 8, 1 + work // _WORTH)
-        if self._threads is None:
-            self._threads = ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1))
+        threads = min(count, _CORES, 8, 1 + work // _WORTH)
+        bits = np.zeros((threads, *shape), np.uint64)
         jobs = [
-            self._threads.submit(
+            self.beside(
                 *(_fill, *self._arrays, self._starts, which, eyes, turns, moves, np.array(lens)),
-                *(windows, corners, *limits, out, touched, k, threads),
+                *(windows, corners, *limits, out, numbers, bits[k], k, threads),
             )
             for k in range(threads)
         ]
-        time.sleep(0)  # let them begin: once in the kernel they need no lock
-        return jobs
+        return jobs, bits
+
+    def beside(self, kernel: Callable[..., None], *args: object) -> Future[None]:
+        """Begin a kernel that needs no lock, beside the drawing."""
+        if self._threads is None:
+            self._threads = ThreadPoolExecutor(max_workers=min(8, _CORES))
+        job = self._threads.submit(kernel, *args)
+        time.sleep(0)  # let it begin: once in the kernel it needs no lock
+        return job
 
 
 @njit(cache=True, nogil=True)
 def _fill(
     points, planes, ends, first, faces, signs, starts, which, eyes, turns, moves, lens, windows,
-    corners, width, straight, out, touched, begin, step,
+    corners, width, straight, out, numbers, bits, begin, step,
 ):  # type: ignore[no-untyped-def]  # fmt: skip
     for t in range(begin, len(which), step):
         a, b = starts[which[t]], starts[which[t] + 1]
@@ -104,4 +112,4 @@ def _fill(
             for column in range(found.shape[1]):
                 line = corners[t, 1] + height - 1 - row
                 out[line, corners[t, 0] + column] = found[row, column]
-        blocks.mark(found, window[0], window[1], width, touched)
+        blocks.mark(found, window[0], window[1], width, numbers[t], bits)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
+from renderer.coverage import Triangles, triangles
 from renderer.gpu.meshes import GpuMesh, MeshStore
 from renderer.scene import Scene
 
@@ -38,8 +41,42 @@ class SceneTable:
         rows[:n, 3, :3] = np.array([o.color for o in scene.objects]).reshape(n, 3)
         self.table = _texture(context, (4, max(n, 1)))
         self.table.write(rows.tobytes())
+        self._points: dict[tuple[int, ...], tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
         self._context = context
         self._sequence = _texture(context, (2, max(n, 1)))
+
+    @cached_property
+    def triangles(self) -> Triangles:
+        """All triangles of the scene."""
+        return triangles(self.scene)
+
+    def points(self, objects: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """(p, 3) the points of the objects' meshes, and which rows are each object's (k, 2)."""
+        slots = self.slot[objects]
+        key = tuple(np.unique(slots).tolist())
+        if key not in self._points:
+            parts = [self.meshes[slot].topology.points for slot in key]
+            ends = np.cumsum([0, *(len(p) for p in parts)])
+            rows = np.zeros((len(self.meshes), 2), np.int64)
+            rows[list(key)] = np.stack([ends[:-1], ends[1:]], axis=1)
+            self._points[key] = np.concatenate([*parts, np.zeros((0, 3))]), rows
+        points, rows = self._points[key]
+        return points, rows[slots]
+
+    def turned(
+        self, objects: NDArray[np.int64], camera: Camera
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Turns (k, 3, 3) and moves (k, 3) of objects: camera ← mesh."""
+        matrix = self.scene.transforms[objects]
+        turns = camera.rotation.T @ matrix[:, :3, :3]
+        return turns, (matrix[:, :3, 3] - camera.eye) @ camera.rotation
+
+    def poses(
+        self, objects: NDArray[np.int64], camera: Camera
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Turns (k, 3, 3) and moves (k, 3) of objects: camera ← mesh about its centre."""
+        turns = camera.rotation.T @ self.scene.transforms[objects, :3, :3]
+        return turns, (self.scene.centers[objects] - camera.eye) @ camera.rotation
 
     def sequence(
         self,

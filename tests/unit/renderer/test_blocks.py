@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.blocks import BLOCK, covered, mark, runs
+from renderer.blocks import BLOCK, covered, lowest, mark, most, runs, shown
 
 SHAPE = (9, 13)
 
@@ -45,8 +45,39 @@ def test_a_mask_touches_the_blocks_within_its_width():
     """One pixel of the target, and a width of 3: blocks of pixels at most 3 away."""
     rows, columns = np.mgrid[0:40, 0:40]
     distance = np.hypot(rows - 17, columns - 14).astype(np.float32)
-    touched = np.zeros(SHAPE, bool)
-    mark(distance, 8, 16, 3.0, touched)
+    bits = np.zeros(SHAPE, np.uint64)
+    mark(distance, 8, 16, 3.0, 63, bits)
+    touched = bits == np.uint64(1) << np.uint64(63)
+    assert (touched == (bits != 0)).all()
     near = distance <= 3
     expected = {(int(r + 16) // BLOCK, int(c + 8) // BLOCK) for r, c in np.argwhere(near)}
     assert {tuple(b) for b in np.argwhere(touched).tolist()} == expected
+
+
+def test_blocks_of_a_part_come_with_their_bits():
+    """Those with an object, once each, row by row; a picture that ends within a block counts."""
+    rng = np.random.default_rng(5)
+    objects = rng.integers(0, 2, SHAPE).astype(np.uint64) << np.uint64(40)
+    masks = rng.integers(0, 5, SHAPE).astype(np.uint64)
+    part = np.array([BLOCK, 2 * BLOCK, 13 * BLOCK - 3, 9 * BLOCK])
+    found, bits = shown(objects, masks, part)
+    inside = np.zeros(SHAPE, bool)
+    inside[2:9, 1:13] = True
+    rows, columns = np.nonzero(inside & (objects != 0))
+    np.testing.assert_array_equal(found, np.stack([columns, rows], axis=1) * BLOCK)
+    np.testing.assert_array_equal(bits, np.stack([objects, masks], axis=2)[rows, columns])
+
+
+def test_numbers_of_bits_come_lowest_first():
+    """Two of three asked for, of one with five bits, one with the highest alone, and none."""
+    bits = np.array([0b1011011 << 3, 1 << 63, 0], np.uint64)
+    numbers, counts = lowest(bits, 3)
+    assert numbers.tolist() == [[3, 4, 6], [63, -1, -1], [-1, -1, -1]]
+    assert counts.tolist() == [5, 1, 0]
+
+
+def test_the_most_bits_are_counted_where_there_are_both():
+    slices = np.array([[0b111, 0b11111, 0b1]], np.uint64)
+    masks = np.array([[0b1, 0, 0b1111]], np.uint64)
+    assert most(slices, masks).tolist() == [3, 4]
+    assert most(slices, np.zeros_like(masks)).tolist() == [0, 0]
