@@ -30,11 +30,7 @@ def find(data: Path, wanted: str = "") -> URL:
     if not wanted:
         return noted or store.sqlite_url(data / FILE)
     url = store.parse_url(wanted)
-    if noted and store.shown(noted) != store.shown(url):
-        raise InputError(
-            f"--ledger = {store.shown(url)}: expected {store.shown(noted)}, "
-            f"where this study's ledger is ({data / POINTER})"
-        )
+    _same(data, url)
     return url
 
 
@@ -51,9 +47,23 @@ def settle(data: Path, url: URL, engine: Engine) -> None:
     if old.exists():
         _move(old, engine)
         os.replace(old, data / MOVED)
-    if not (data / POINTER).exists():
-        make_folder(data)
+    if (data / POINTER).exists():
+        return
+    make_folder(data)
+    try:
         write_new(data / POINTER, store.shown(url) + "\n")
+    except FileExistsError:  # another station was first, just now
+        _same(data, url)
+
+
+def _same(data: Path, url: URL) -> None:
+    """Raises InputError for an address other than the noted one."""
+    noted = _noted(data)
+    if noted and store.shown(noted) != store.shown(url):
+        raise InputError(
+            f"--ledger = {store.shown(url)}: expected {store.shown(noted)}, "
+            f"where this study's ledger is ({data / POINTER})"
+        )
 
 
 def _noted(data: Path) -> URL | None:

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
+from experiment import ledger_place, ledger_store
 from experiment.config import load, parse
 from experiment.errors import InputError
 from experiment.ledger import Ledger
@@ -276,3 +277,22 @@ def test_a_server_that_does_not_answer_is_one_line_without_the_password(tmp_path
     with pytest.raises(InputError, match=r"^postgresql://u@127\.0\.0\.1:1/d: the") as told:
         opened(tmp_path, url="postgresql://u:secret@127.0.0.1:1/d?sslpassword=secret")
     assert "\n" not in str(told.value) and "secret" not in str(told.value)
+
+
+@pytest.mark.parametrize("same", [True, False])
+def test_another_station_may_note_the_address_first(tmp_path, monkeypatch, same):
+    """Between the look for the note and its writing: fine if it says the same."""
+    url = ledger_store.parse_url("postgresql://u@host/db")
+    other = url if same else ledger_store.parse_url("postgresql://u@host/other")
+    note = tmp_path / ledger_place.POINTER
+    monkeypatch.setattr(
+        ledger_place,
+        "make_folder",
+        lambda data: note.write_text(ledger_store.shown(other) + "\n", encoding="utf-8"),
+    )
+    if same:
+        ledger_place.settle(tmp_path, url, None)
+    else:
+        with pytest.raises(InputError, match="expected postgresql://u@host/other"):
+            ledger_place.settle(tmp_path, url, None)
+    assert note.read_text("utf-8").strip() == ledger_store.shown(other)
