@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer import clusters, masks, order
-from renderer import doubt as doubts
+from renderer.blending import Blending, merged_parts
 from renderer.camera import Camera
 from renderer.projection import Boxes, screen_boxes
 from renderer.scene import Scene
@@ -40,7 +40,6 @@ SHORTCUTS = {
     "still": "a frame in which nothing changed is shown again",
 }
 
-MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
 WORTH = 64  # pixels to save by drawing a triangle once more
 SORTED = 24  # pixels to sort more for a triangle less
 
@@ -152,7 +151,7 @@ def plan(
     if technique.per_pixel_only:
         parts = _parts(reach[masked], technique, size, without)
         return _held(base, parts, scene.triangle_counts, size)
-    what = _Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked)
+    what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked)
     counts = scene.triangle_counts
     return _with_levels(base, what, size, counts, technique.doubt, _fit(scene, technique))
 
@@ -226,43 +225,9 @@ def _behind(
     return np.where(over.any(axis=1), over.argmax(axis=1), -1) if len(over) else over.sum(axis=1)
 
 
-@dataclass(frozen=True, eq=False)
-class _Blending:
-    """What is put in order: see `plan` and order.decide."""
-
-    seen: Indices
-    extents: NDArray[np.float64]
-    reach: NDArray[np.float64]
-    relation: NDArray[np.int8]
-    uncertain: NDArray[np.bool_]
-    blended: NDArray[np.bool_]
-    masked: NDArray[np.bool_]
-
-    def levels(self) -> tuple[Indices, Indices, NDArray[np.bool_]]:
-        """See order.levels."""
-        return order.levels(
-            *(self.seen, self.extents, self.reach, self.relation, self.blended, self.masked)
-        )
-
-    def doubtful(
-        self, forced: NDArray[np.bool_], size: tuple[int, int], doubt: float
-    ) -> tuple[NDArray[np.float64], bool]:
-        """The parts to sort by pixel, and whether they are so much that all masks may be."""
-        every = (self.seen, self.extents, self.reach, self.relation, self.uncertain)
-        found = order.doubtful(*every, self.blended, self.masked, forced, np.array(size, float))
-        chosen = doubts.chosen(found, size, doubt)
-        if not len(chosen):
-            return chosen, False
-        return chosen, doubts.union(chosen) > MOSTLY * _area(self.parts(size))
-
-    def parts(self, size: tuple[int, int]) -> NDArray[np.int64]:
-        """Where masks can be."""
-        return merged_parts(self.reach[self.masked], size)
-
-
 def _with_levels(
     base: FramePlan,
-    what: _Blending,
+    what: Blending,
     size: tuple[int, int],
     triangles: Indices,
     doubt: float,
@@ -274,7 +239,7 @@ def _with_levels(
         *(what.extents, what.relation, what.uncertain, what.blended, fit & ~masked, triangles)
     )
     seen = what.seen[united.blended[what.seen] | masked[what.seen]]
-    what = _Blending(
+    what = Blending(
         *(seen, united.extents, what.reach, united.relation, united.uncertain, united.blended),
         masked,
     )
@@ -341,10 +306,6 @@ def _held(
     )
 
 
-def _area(parts: NDArray[np.int64]) -> int:
-    return int((parts[:, 2:] - parts[:, :2]).prod(axis=1).sum())
-
-
 def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
     """(k, 4) whole pixels that each mask can cover."""
     low = np.clip(np.floor(reach[:, :2]), 0, size)
@@ -384,16 +345,3 @@ def _parts(
     if technique.granularity != "pixel" or "parts" in without:
         return np.array([[0, 0, *size]])
     return merged_parts(reach, size)
-
-
-def merged_parts(boxes: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
-    """(k, 4) whole pixels that hold all boxes and do not overlap; one for all if nearly all."""
-    if not len(boxes):
-        return np.zeros((0, 4), np.int64)
-    low = np.maximum(np.floor(boxes[:, :2]) - 1, 0)
-    high = np.minimum(np.ceil(boxes[:, 2:]) + 1, size)
-    rows = np.concatenate([low, high], axis=1)[(low < high).all(axis=1)]
-    parts = order.merge(np.ascontiguousarray(rows)).astype(np.int64)
-    if (parts[:, 2:] - parts[:, :2]).prod(axis=1).sum() > 0.6 * size[0] * size[1]:
-        return np.array([[0, 0, *size]])
-    return parts

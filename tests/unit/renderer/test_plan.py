@@ -9,9 +9,10 @@ import pytest
 from sample_scenes import SHAPES, before_column, column, room
 
 from renderer import geometry, transforms
+from renderer.blending import merged_parts
 from renderer.camera import look_at
 from renderer.explain import explain
-from renderer.plan import BLENDED, HARD, OUTSIDE, merged_parts, plan
+from renderer.plan import BLENDED, HARD, OUTSIDE, plan
 from renderer.scene import Object, Scene
 from renderer.techniques.dynamic import DynamicTransparency
 from renderer.techniques.standard import Standard
