@@ -7,6 +7,7 @@ to be in costs a look at its picture at every pixel.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numba import njit
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from renderer.blocks import BLOCK
 from renderer.camera import Camera
+from renderer.geometry import Mesh
 from renderer.scene import Scene
 
 SLACK = 1.0  # pixels: what 32 bits on the GPU may round to
@@ -30,18 +32,23 @@ class Triangles:
 
 
 def triangles(scene: Scene) -> Triangles:
-    """All of a scene, each mesh once."""
-    points, corners, places = [np.zeros((0, 3))], [np.zeros((0, 3), np.int64)], {}
-    p = t = 0
-    for thing in scene.objects:
-        mesh = thing.mesh
-        if id(mesh) not in places:
-            places[id(mesh)] = ((p, p + len(mesh.vertices)), (t, t + len(mesh.triangles)))
-            points.append(mesh.vertices - mesh.center)
-            corners.append(mesh.triangles.astype(np.int64) + p)
-            p, t = p + len(mesh.vertices), t + len(mesh.triangles)
-    spans = np.array([places[id(o.mesh)] for o in scene.objects]).reshape(-1, 2, 2)
-    return Triangles(np.concatenate(points), np.concatenate(corners), spans)
+    """All of a scene, each mesh once; what scenes of the same meshes share is made once."""
+    meshes = tuple(dict.fromkeys(thing.mesh for thing in scene.objects))
+    points, corners, spans = _joined(meshes)
+    place = {mesh: k for k, mesh in enumerate(meshes)}
+    mine = [place[thing.mesh] for thing in scene.objects]
+    return Triangles(points, corners, spans[mine])
+
+
+@lru_cache(maxsize=8)
+def _joined(meshes: tuple[Mesh, ...]) -> tuple[NDArray, NDArray, NDArray]:
+    """Points and corners of all meshes, and where each one's begin and end."""
+    points = [mesh.vertices - mesh.center for mesh in meshes]
+    ends = np.cumsum([[0, 0], *((len(m.vertices), len(m.triangles)) for m in meshes)], axis=0)
+    corners = [m.triangles + np.int64(p) for m, p in zip(meshes, ends[:, 0], strict=False)]
+    spans = np.stack([ends[:-1], ends[1:]], axis=2)
+    none = np.zeros((0, 3))
+    return np.concatenate([none, *points]), np.concatenate([none.astype(int), *corners]), spans
 
 
 def lens(camera: Camera, size: tuple[int, int]) -> NDArray[np.float64]:
