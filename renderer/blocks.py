@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+NONE = 0xFFFFFFFF  # a word for no cell, or no target
 BLOCK = 8  # pixels, on each side: also in shaders/block.vert and few.vert
 
 
@@ -97,35 +98,71 @@ def shown(objects, masks, part):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
+def _count(bits):  # type: ignore[no-untyped-def]
+    count = 0
+    while bits != 0:
+        bits &= bits - np.uint64(1)
+        count += 1
+    return count
+
+
+@njit(cache=True)
 def most(slices, masks):  # type: ignore[no-untyped-def]
     """The most bits of `slices` (h, w) and of `masks` (h, w) in any block that has both."""
     found = np.zeros(2, np.int64)
     for row in range(slices.shape[0]):
         for column in range(slices.shape[1]):
-            bits = slices[row, column], masks[row, column]
-            if bits[0] == 0 or bits[1] == 0:
-                continue
-            for k in range(2):
-                left, count = bits[k], 0
-                while left != 0:
-                    left &= left - np.uint64(1)
-                    count += 1
-                found[k] = max(found[k], count)
+            if slices[row, column] != 0 and masks[row, column] != 0:
+                found[0] = max(found[0], _count(slices[row, column]))
+                found[1] = max(found[1], _count(masks[row, column]))
     return found
 
 
 @njit(cache=True)
-def lowest(bits, most):  # type: ignore[no-untyped-def]
-    """(k, most) the numbers of the lowest of each one's bits (k,), then −1; and how many bits each
-    has (k,), which may be more than `most`."""
-    numbers, counts = np.full((len(bits), most), -1, np.int64), np.zeros(len(bits), np.int64)
-    for i in range(len(bits)):
-        left, number = bits[i], 0
+def grouped(found, which, corners, words, slices, masks, every):  # type: ignore[no-untyped-def]
+    """Blocks (k, 2) with their bits (k, 2), as `shown` gives them, grouped by how many bits they
+    have of both kinds: the least of `slices` and of `masks` (ascending) that is enough.
+
+    Returns for each block that has not too many, and a mask unless `every` is wanted, a row of
+    words: left and top as float32; for each of its slices the word in `corners` (s,), then as many
+    as the last of `slices` says in all; and three times the same for masks, from a column of
+    `words` (m + 1, 3), whose last row is for none. Then the first row of each group and their
+    number, and of which blocks there were too many (k,).
+    """
+    groups, most = len(slices) * len(masks), (slices[-1], masks[-1])
+    group, over = np.full(len(found), -1), np.zeros(len(found), np.bool_)
+    starts = np.zeros(groups + 1, np.int64)
+    for i in range(len(found)):
+        n, m = _count(which[i, 0]), _count(which[i, 1])
+        over[i] = n > most[0] or m > most[1]
+        if not over[i] and (every or m > 0):
+            group[i] = np.searchsorted(slices, n) * len(masks) + np.searchsorted(masks, m)
+            starts[group[i] + 1] += 1
+    starts = np.cumsum(starts)
+    rows = np.empty((starts[-1], 2 + most[0] + 3 * most[1]), np.uint32)
+    places, free = rows.view(np.float32), starts.copy()
+    for i in range(len(found)):
+        if group[i] < 0:
+            continue
+        r = free[group[i]]
+        free[group[i]] += 1
+        places[r, 0], places[r, 1] = found[i, 0], found[i, 1]
+        rows[r, 2 : 2 + most[0]] = NONE
+        at, number, left = 2, 0, which[i, 0]
         while left != 0:
             if left & np.uint64(1):
-                if counts[i] < most:
-                    numbers[i, counts[i]] = number
-                counts[i] += 1
+                rows[r, at] = corners[number]
+                at += 1
             left >>= np.uint64(1)
             number += 1
-    return numbers, counts
+        at, number, left = 2 + most[0], 0, which[i, 1]
+        for row in range(3):
+            rows[r, at + row * most[1] : at + (row + 1) * most[1]] = words[-1, row]
+        while left != 0:
+            if left & np.uint64(1):
+                for row in range(3):
+                    rows[r, at + row * most[1]] = words[number, row]
+                at += 1
+            left >>= np.uint64(1)
+            number += 1
+    return rows, starts, over

@@ -115,8 +115,8 @@ class PixelSorter:
         draws = 0
         if filled.few:
             bases = (filled.slice_base[number], filled.mask_base[number])
-            drawn, draws = self._few.draw(filled, part, bases, found, which, every)
-            found, which = found[~drawn], which[~drawn]
+            over, draws = self._few.draw(filled, part, bases, found, which, every)
+            found, which = found[over], which[over]
             which[:, 1] = cells[found[:, 1] // BLOCK, found[:, 0] // BLOCK]
         masked = (which[:, 1] != 0) | (not by_pixel)
         for output, chosen in (("OUTPUT_PICTURE", masked), ("OUTPUT_NEAREST", ~masked)):

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer import blocks
-from renderer.gpu.cells import Cells
+from renderer.gpu.cells import MOST, Cells
 from renderer.gpu.programs import Shader, program
 
 if TYPE_CHECKING:
@@ -23,11 +23,8 @@ if TYPE_CHECKING:
 # Numbers that there is a program for: each takes its time to compile, at first use.
 SLICES = np.array([1, 2, 3, 4, 6, 8, 12, 16])
 MASKS = np.array([0, 1, 2, 4, 8])
-# A block: its left and top, where cells with fragments begin, and three words for each mask.
-_ROW = np.dtype([("place", "f4", 2), ("slices", "u4", SLICES[-1]), ("masks", "u4", (3, MASKS[-1]))])
 _SLICE_GROUPS = [f"slices{k}" for k in range(SLICES[-1] // 4)]
 _MASK_GROUPS = [f"masks{k}" for k in range(3 * MASKS[-1] // 4)]
-_NONE = 0xFFFFFFFF
 
 Key = tuple[int, int, bool, bool]  # objects, masks, any is impenetrable, masks are looked up
 
@@ -57,35 +54,27 @@ class FewSorter:
         every: bool,
     ) -> tuple[NDArray[np.bool_], int]:
         """Draw those of the blocks `found` (k, 2) in which few can show. `bases` are the first
-        cells of the part. Returns which of them these are (k,), and the draws."""
-        slices, n = blocks.lowest(which[:, 0], SLICES[-1])
-        masks, m = blocks.lowest(which[:, 1], MASKS[-1])
-        few = (n <= SLICES[-1]) & (m <= MASKS[-1])
-        kind = np.searchsorted(SLICES, n) * len(MASKS) + np.searchsorted(MASKS, m)
-        chosen = np.nonzero(few & (every | (m > 0)))[0]
-        chosen = chosen[np.argsort(kind[chosen], kind="stable")]
-        rows = np.zeros(len(chosen), dtype=_ROW)
-        rows["place"] = found[chosen]
-        rows["slices"] = _corners(slices[chosen], filled.slices, bases[0])
-        if filled.looked_up is not None:
-            rows["masks"] = filled.looked_up.columns(masks[chosen])
-        elif filled.entries is not None:
-            rows["masks"][:, 0] = _corners(masks[chosen], filled.entries, bases[1])
+        cells of the part. Returns of which there are too many (k,), and the draws."""
+        looked_up = filled.looked_up is not None
+        words = filled.looked_up.words if looked_up else _cell_words(filled.entries, bases[1])
+        rows, starts, over = blocks.grouped(
+            *(found, which, _corners(filled.slices, bases[0]), words, SLICES, MASKS, every)
+        )
         self._write(rows)
         self._context.enable_only(moderngl.PROGRAM_POINT_SIZE)
         origin = (int(part[0]), int(filled.size[1] - part[3]))
-        starts = np.nonzero(np.diff(kind[chosen], prepend=-1))[0]
-        ends = np.append(starts[1:], len(chosen))[: len(starts)]
-        for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
-            i, j = divmod(int(kind[chosen[a]]), len(MASKS))
-            masked = j > 0 and filled.looked_up is not None
-            shader, array = self._program((int(SLICES[i]), int(MASKS[j]), filled.hard, masked))
+        used = np.nonzero(np.diff(starts))[0]
+        for k, a, b in zip(
+            used.tolist(), starts[used].tolist(), starts[used + 1].tolist(), strict=True
+        ):
+            n, m = int(SLICES[k // len(MASKS)]), int(MASKS[k % len(MASKS)])
+            shader, array = self._program((n, m, filled.hard, looked_up and m > 0))
             filled.look_up(shader)
             shader.set(origin=origin, size=blocks.whole(filled.size), every=every)
             array.render(moderngl.POINTS, b - a, first=a)
-        return few, len(starts)
+        return over, len(used)
 
-    def _write(self, rows: NDArray[np.void]) -> None:
+    def _write(self, rows: NDArray[np.uint32]) -> None:
         if rows.nbytes > self._places.size:
             self._places.release()
             self._places = self._context.buffer(reserve=2 * rows.nbytes, dynamic=True)
@@ -124,8 +113,16 @@ class FewSorter:
         return self._programs[key]
 
 
-def _corners(numbers: NDArray[np.int64], cells: Cells, base: int) -> NDArray[np.uint32]:
-    """(k, n) where cells begin, x and y in 16 bits each; all bits for number −1."""
-    row, column = np.divmod(numbers + base, cells.columns)
-    corner = column * cells.size[0] | row * cells.size[1] << 16
-    return np.where(numbers < 0, _NONE, corner).astype(np.uint32)
+def _corners(cells: Cells, base: int) -> NDArray[np.uint32]:
+    """(64,) where the cells from `base` on begin, x and y in 16 bits each."""
+    row, column = np.divmod(np.arange(MOST) + base, cells.columns)
+    return (column * cells.size[0] | row * cells.size[1] << 16).astype(np.uint32)
+
+
+def _cell_words(entries: Cells | None, base: int) -> NDArray[np.uint32]:
+    """(65, 3) where the cells of masks begin, in the first column."""
+    words = np.zeros((MOST + 1, 3), np.uint32)
+    words[-1, 0] = blocks.NONE
+    if entries is not None:
+        words[:-1, 0] = _corners(entries, base)
+    return words

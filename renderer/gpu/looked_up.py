@@ -9,9 +9,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.blocks import NONE
 from renderer.gpu.programs import Shader
-
-_NONE = 0xFFFFFFFF
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,20 +29,17 @@ class LookedUp:
     alpha_edge: float
 
     @cached_property
-    def _rows(self) -> NDArray[np.uint32]:
-        """(k + 1, 3) shift in 16 bits each, target, depth; the last for none."""
+    def words(self) -> NDArray[np.uint32]:
+        """(k + 1, 3) what shaders/exact_few.frag wants of each: shift in 16 bits each, target,
+        depth; the last for none."""
         rows = np.empty((len(self.targets) + 1, 3), np.uint32)
         shift = self.shifts & 0xFFFF
         rows[:-1, 0] = shift[:, 0] | shift[:, 1] << 16
         rows[:-1, 1] = self.targets
         rows[:-1, 2] = self.depths.astype(np.float32).view(np.uint32)
-        rows[-1] = 0, _NONE, 0
+        rows[-1] = 0, NONE, 0
         return rows
 
     def set(self, shader: Shader) -> None:
         """Tell a shader of what kind they are."""
         shader.set(width=self.width, alpha_target=self.alpha_target, alpha_edge=self.alpha_edge)
-
-    def columns(self, numbers: NDArray[np.int64]) -> NDArray[np.uint32]:
-        """(n, 3, m) what shaders/exact_few.frag wants of (n, m) masks, −1: none."""
-        return self._rows[numbers].transpose(0, 2, 1)

@@ -106,7 +106,7 @@ def test_few_and_many_draw_the_same_picture(context, monkeypatch):
     renderer.draw(scene, CAMERA, EXACT)
     few = renderer.read()
     monkeypatch.setattr(exact_painter, "too_many", lambda *bits: True)
-    monkeypatch.setattr(FewSorter, "draw", lambda *a: (np.zeros(len(a[4]), bool), 0))
+    monkeypatch.setattr(FewSorter, "draw", lambda *a: (np.ones(len(a[4]), bool), 0))
     other = Renderer(context, SIZE)
     other.draw(scene, CAMERA, EXACT)
     assert np.abs(few.astype(int) - other.read()).max() <= 1

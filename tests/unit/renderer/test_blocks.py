@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.blocks import BLOCK, covered, lowest, mark, most, runs, shown
+from renderer.blocks import BLOCK, NONE, covered, grouped, mark, most, runs, shown
 
 SHAPE = (9, 13)
 
@@ -68,12 +68,38 @@ def test_blocks_of_a_part_come_with_their_bits():
     np.testing.assert_array_equal(bits, np.stack([objects, masks], axis=2)[rows, columns])
 
 
-def test_numbers_of_bits_come_lowest_first():
-    """Two of three asked for, of one with five bits, one with the highest alone, and none."""
-    bits = np.array([0b1011011 << 3, 1 << 63, 0], np.uint64)
-    numbers, counts = lowest(bits, 3)
-    assert numbers.tolist() == [[3, 4, 6], [63, -1, -1], [-1, -1, -1]]
-    assert counts.tolist() == [5, 1, 0]
+@pytest.mark.parametrize("every", [False, True])
+def test_blocks_are_grouped_by_how_much_they_hold(every):
+    """Every block once, in the least group that has room, with its words in the order of its bits;
+    those with too many, and without `every` those without a mask, in none."""
+    rng = np.random.default_rng(7)
+    slices, masks = np.array([1, 2, 4]), np.array([0, 1, 3])
+    found = rng.integers(0, 100, (200, 2)) * BLOCK
+    bits = [
+        [rng.choice([0, 3, 40, 63], n, False) for n in row] for row in rng.integers(0, 5, (200, 2))
+    ]
+    bits = [(a if len(a) else np.array([5]), b) for a, b in bits]
+    which = np.array([[sum(1 << int(k) for k in a) for a in row] for row in bits], np.uint64)
+    corners = np.arange(100, 164).astype(np.uint32)
+    words = np.arange(195).reshape(65, 3).astype(np.uint32) + 1000
+    rows, starts, over = grouped(found, which, corners, words, slices, masks, every)
+    none, missing = words[-1], NONE
+    expected = {}
+    for k, (a, b) in enumerate(bits):
+        assert over[k] == (len(a) > 4 or len(b) > 3)
+        if over[k] or not (every or len(b)):
+            continue
+        key = np.searchsorted(slices, len(a)) * 3 + np.searchsorted(masks, len(b))
+        row = [corners[i] for i in sorted(a)] + [missing] * (4 - len(a))
+        for c in range(3):
+            row += [words[i, c] for i in sorted(b)] + [none[c]] * (3 - len(b))
+        expected.setdefault(int(key), []).append((*found[k].tolist(), *map(int, row)))
+    assert len(starts) == 10 and starts[-1] == len(rows)
+    for key in range(9):
+        mine = rows[starts[key] : starts[key + 1]]
+        place = mine[:, :2].copy().view(np.float32).astype(int)
+        got = [(*p, *r) for p, r in zip(place.tolist(), mine[:, 2:].tolist(), strict=True)]
+        assert got == expected.get(key, [])
 
 
 def test_the_most_bits_are_counted_where_there_are_both():
