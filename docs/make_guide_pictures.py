@@ -11,12 +11,11 @@ from types import SimpleNamespace
 import numpy as np
 from PIL import Image
 
-from experiment import questionnaire
 from experiment.config import load
 from experiment.design import Trial, session_for
-from experiment.display import Leave
 from experiment.page_drawing import Form
 from experiment.pages import Page
+from experiment.questionnaire import after, asked, before
 from experiment.session import _instruction, _page
 from experiment.stage import Stage
 from experiment.texts import Texts
@@ -68,10 +67,7 @@ def main() -> None:
     camera = Camera()
     study = camera.study
     camera.page(_page("welcome"))
-    try:
-        questionnaire.before(study, 1, camera)  # type: ignore[arg-type]
-    except Leave:
-        raise AssertionError("the first option was to agree") from None
+    list(asked(before(study, 1), camera))  # type: ignore[arg-type]
     run = TrialRun(study, SimpleNamespace(scenes=None, display=camera.stage, tasks=TASKS))  # type: ignore[arg-type]
     task_sets = session_for(1, study.design.factors())
     shown = set()
@@ -85,7 +81,7 @@ def main() -> None:
     for page in (_page("ready"), _page("pause"), LEAVE, MENU):
         camera.page(page)
     camera.stage.done = 1.0
-    questionnaire.after(study, camera, camera.stage.aspect)  # type: ignore[arg-type]
+    list(asked(after(study, camera.stage.aspect), camera))  # type: ignore[arg-type]
     camera.page(_page("thanks"))
 
 

@@ -54,7 +54,7 @@ def play_in_window(
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts)
         world = World(window, person, clock, recorder, TASKS, say)
-        return run_session(study, start.slot, world, start.done)
+        return run_session(study, start.slot, world, start.done, start.given)
     finally:
         window.close()
 

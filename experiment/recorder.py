@@ -147,11 +147,18 @@ class FileRecorder:
 
     def answers(self, rows: list[Mapping[str, str]]) -> None:
         """Append rows of the questionnaire; they are on disk when this returns."""
-        for row in rows:
-            if self._questions is None:
-                self._questions = self._another("questionnaire", QUESTIONNAIRE)
-            self._asked += 1
-            self._questions.append({**self._identity(f"question{self._asked:03d}"), **row})
+        if not rows:
+            return
+        if self._questions is None:
+            self._questions = self._another("questionnaire", QUESTIONNAIRE)
+        first = self._asked + 1
+        self._asked += len(rows)
+        self._questions.append(
+            *(
+                {**self._identity(f"question{number:03d}"), **row}
+                for number, row in enumerate(rows, start=first)
+            )
+        )
 
     def note(self, trial: Trial | None, text: str) -> None:
         """Append a note of the experimenter's; it is on disk when this returns."""
