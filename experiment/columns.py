@@ -61,7 +61,12 @@ TRIALS = (
     Column("time_clean", "number", "time, less what passed while the window had no focus", "s"),
     Column("timed_out", "boolean", "whether the trial ended at its time limit"),
     Column("frames", "integer", "frames shown", "frames"),
-    Column("frames_missed", "integer", "frames that took over 1.5 display periods", "frames"),
+    Column(
+        "frames_missed",
+        "integer",
+        "frames that took over 1.5 periods of the display, as measured",
+        "frames",
+    ),
     Column("worst_frame", "number", "longest time between two frames", "s"),
     Column("path_length", "number", "how far the viewer moved", "world units"),
     Column("turned", "number", "how far the view direction turned", "rad"),

@@ -21,6 +21,7 @@ class NoWindow:
 
     def __init__(self, *_):
         self.stage, self.context, self.aspect = SimpleNamespace(), None, 4 / 3
+        self.declared, self.measured, self.period = 60.0, 75.0, 1 / 75
 
     def describe(self):
         return {"window": "no"}
@@ -60,3 +61,14 @@ def test_a_person_s_session_says_nothing_of_a_simulation(tmp_path):
     live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
     (sidecar,) = tmp_path.glob("data/human/P01/*_trials_data.json")
     assert not {"profile", "without"} & set(json.loads(sidecar.read_text("utf-8"))["provenance"])
+
+
+def test_the_measured_period_counts_and_a_rate_that_was_not_declared_is_said(
+    tmp_path, monkeypatch, capsys
+):
+    worlds = []
+    monkeypatch.setattr(live, "run_session", lambda *words: worlds.append(words[2]) or "complete")
+    live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
+    assert worlds[0].period == 1 / 75
+    said = "display: 75.0 Hz measured, 60 declared: NOT AS DECLARED"
+    assert said in capsys.readouterr().err
