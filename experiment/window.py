@@ -21,7 +21,7 @@ from pyglet.window import key, mouse
 from experiment.clock import Clock
 from experiment.config import DisplayTable
 from experiment.display import DisplayLost, Leave
-from experiment.driver import describe, samples_for
+from experiment.driver import describe, samples_for, window_context
 from experiment.errors import InputError
 from experiment.event_time import EventTime, x11_stamp
 from experiment.key_names import KEY_NAMES
@@ -60,7 +60,7 @@ class Window:
         self._window = _open(table, title)
         if _ON_X11:
             _say_when_the_server_goes()
-        self.context = moderngl.create_context(require=330)
+        self.context = window_context()
         self.declared, self.measured = table.refresh, rate_of(self._bare_flips())  # Hz
         self.period = 1.0 / (self.measured or self.declared)
         samples = samples_for(table.samples, self.context)
