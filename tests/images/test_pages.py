@@ -5,6 +5,7 @@ import pytest
 from scipy import ndimage
 
 from experiment import blocks
+from experiment.hud_drawing import ACCENT, PILOT
 from experiment.page_drawing import Form
 from experiment.pages import Page, Paragraph, TextField
 from experiment.stage import Stage
@@ -124,6 +125,14 @@ def test_a_page_that_is_too_long_scrolls(screen):
         screen.draw(form, 1)
     screen.click(form, *button(screen.draw(form)))
     assert screen.pressed
+
+
+@pytest.mark.parametrize(("pilot", "color"), [(False, ACCENT), (True, PILOT)])
+def test_the_progress_line_is_as_long_as_what_is_done_and_orange_in_a_pilot(screen, pilot, color):
+    screen.stage.done, screen.stage.pilot = 0.25, pilot
+    line = screen.draw(Form(Page("x", "welcome.title")))[-2].astype(int)
+    drawn = (np.abs(line - np.round(np.array(color) * 255)) < 3).all(axis=1)
+    assert drawn.sum() == drawn[:201].sum() and abs(drawn.sum() - 200) <= 1
 
 
 def test_text_scales_with_the_screen(context):

@@ -6,6 +6,7 @@ sets apart; what is recorded must lie between those, give or take what is stated
 """
 
 import csv
+import subprocess
 import time
 from pathlib import Path
 
@@ -39,6 +40,8 @@ PAPER = bytes((250, 247, 247))  # a page's, as blue, green, red: 0.98, 0.97, 0.9
 CORNER = (3, 3)  # a page's paper or a view's background
 # From the frame that is seen to the first key, in s: incommensurable with the frames.
 THINKING = (0.3137, 0.7619, 1.2391, 0.5273)
+NO_WINDOW = 0  # X11's None: nobody has the focus
+AWAY = 0.4391  # s without it
 APART = 0.0713  # s between an answer's keys: not a whole number of frames either
 
 
@@ -46,16 +49,26 @@ def is_page(pixel):
     return all(abs(a - b) < 3 for a, b in zip(pixel, PAPER, strict=True))
 
 
-def play(server, trials):
-    """Answer every trial; for each the brackets of its first frame and of its two keys."""
+def play(server, trials, window):
+    """Answer every trial; for each the brackets of its first frame, focus lost and had, two keys.
+
+    In the last, another window has the focus for a while.
+    """
     brackets = []
+    server.focus(window)
     for trial, thinking in zip(trials, THINKING, strict=True):
         server.seen(*CORNER, is_page, TRIAL)
         first = begin(server)
         time.sleep(thinking)
+        away = None
+        if trial is trials[-1]:
+            lost = server.focus(NO_WINDOW)
+            time.sleep(AWAY)
+            away = lost, server.focus(window)
+            time.sleep(APART)
         answer = server.key("3" if trial.task == "count" else "k")
         time.sleep(APART)
-        brackets.append((first, answer, server.key("Return")))
+        brackets.append((first, away, answer, server.key("Return")))
     return brackets
 
 
@@ -80,7 +93,9 @@ def played(tmp_path_factory):
     study.write_text(STUDY, encoding="utf-8")
     with Desktop() as desktop, open_session(desktop, study, folder / "data", TITLE) as program:
         server = XServer(desktop.env["DISPLAY"])
-        brackets = play(server, trials_of(study))
+        search = ["xdotool", "search", "--onlyvisible", "--name", TITLE]
+        found = subprocess.run(search, env=desktop.env, capture_output=True, check=True)
+        brackets = play(server, trials_of(study), int(found.stdout.split()[0]))
         wait_until(lambda: server.key("Return") and not program.running(), START, "the end")
         server.close()
         assert program.process.returncode == 0, program.said()
@@ -91,17 +106,23 @@ def played(tmp_path_factory):
 
 
 def test_the_completion_time_is_right_to_one_frame(played):
-    for (first, _, answer), row, _ in played:
+    for (first, *_, answer), row, _ in played:
         shortest, longest = answer[0] - first[1], answer[1] - first[0]
         assert shortest - PERIOD <= float(row["time"]) <= longest + PERIOD
 
 
 def test_keys_carry_the_systems_time_and_not_a_frames(played):
-    for (_, *sent), _, events in played:
+    for (_, _, *sent), _, events in played:
         pressed = [float(e["time"]) for e in events if e["event"] == "KeyPress"]
         for (before, after), found in zip(sent, pressed[-2:], strict=True):
             assert before - STAMP <= found <= after + STAMP
 
 
-def test_the_clean_time_of_an_undisturbed_trial_is_the_same(played):
-    assert all(row["time"] == row["time_clean"] for _, row, _ in played)
+def test_time_without_the_windows_focus_is_subtracted_from_the_clean_time(played):
+    *undisturbed, ((_, (lost, had), *_), row, _) = played
+    assert all(row["time"] == row["time_clean"] for _, row, _ in undisturbed)
+    away = float(row["time"]) - float(row["time_clean"])
+    # X11 does not say when the focus changed: each change counts from when it was dispatched,
+    # which is up to a frame later.
+    late = float(row["worst_frame"]) + PERIOD
+    assert had[0] - lost[1] - late <= away <= had[1] - lost[0] + late

@@ -48,6 +48,13 @@ class XServer:
         self._test.XTestFakeKeyEvent(self._display, code, down, ctypes.c_ulong(0))
         self._x.XSync(self._display, 0)  # returns when the server has made the event
 
+    def focus(self, window):
+        """Give a window, by its number, the keyboard's focus; (before, after) in s, monotonic."""
+        before = time.monotonic()
+        self._x.XSetInputFocus(self._display, ctypes.c_ulong(window), 1, ctypes.c_ulong(0))
+        self._x.XSync(self._display, 0)
+        return before, time.monotonic()
+
     def pixel(self, x, y):
         """The bytes of a pixel: blue, green, red."""
         words = (x, y, 1, 1, ALL_PLANES, Z_PIXMAP)
