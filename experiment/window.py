@@ -63,6 +63,7 @@ class Window:
         self.context = window_context()
         self.declared, self.measured = table.refresh, rate_of(self._bare_flips())  # Hz
         self.period = 1.0 / (self.measured or self.declared)
+        self._pace = min(self.period, 1.0 / self.declared)  # a display that waits does the rest
         samples = samples_for(table.samples, self.context)
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, samples)
         self.technique: Any = None  # what the view shown last was drawn with
@@ -226,7 +227,7 @@ class Window:
         with self._graphics():
             self._window.flip()
         shown = self.clock.now()
-        early = self._flipped + self.period - time.perf_counter()
+        early = self._flipped + self._pace - time.perf_counter()
         if early > 0:
             time.sleep(early)
         now = time.perf_counter()

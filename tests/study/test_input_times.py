@@ -6,9 +6,9 @@ sets apart; what is recorded must lie between those, give or take what is stated
 """
 
 import csv
+import json
 import subprocess
 import time
-from pathlib import Path
 
 import pytest
 from desktop import Desktop, wait_until
@@ -86,9 +86,13 @@ def begin(server):
 
 
 @pytest.fixture(scope="module")
-def played(tmp_path_factory):
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("times")
+
+
+@pytest.fixture(scope="module")
+def played(folder):
     """(brackets, row, events) of each trial: what was done, and what was recorded of it."""
-    folder = tmp_path_factory.mktemp("times")
     study = folder / "times.toml"
     study.write_text(STUDY, encoding="utf-8")
     with Desktop() as desktop, open_session(desktop, study, folder / "data", TITLE) as program:
@@ -99,7 +103,7 @@ def played(tmp_path_factory):
         wait_until(lambda: server.key("Return") and not program.running(), START, "the end")
         server.close()
         assert program.process.returncode == 0, program.said()
-    (table,) = Path(folder).rglob("*_trials_data.csv")
+    (table,) = folder.rglob("*_trials_data.csv")
     rows = list(csv.DictReader(table.read_text(encoding="utf-8").splitlines()))
     traces = [(table.parent / row["events_file"]).read_text().splitlines() for row in rows]
     return list(zip(brackets, rows, [list(csv.DictReader(t)) for t in traces], strict=True))
@@ -116,6 +120,14 @@ def test_keys_carry_the_systems_time_and_not_a_frames(played):
         pressed = [float(e["time"]) for e in events if e["event"] == "KeyPress"]
         for (before, after), found in zip(sent, pressed[-2:], strict=True):
             assert before - STAMP <= found <= after + STAMP
+
+
+def test_the_sidecar_says_how_far_times_can_be_trusted(played, folder):
+    (sidecar,) = folder.rglob("*_trials_data.json")
+    display = json.loads(sidecar.read_text(encoding="utf-8"))["provenance"]["display"]
+    assert display["input_time"] == "X11 event time, 1 ms"
+    assert display["refresh_declared"] == "60"
+    assert display["refresh_measured"] == "does not wait"  # a virtual screen has no retrace
 
 
 def test_time_without_the_windows_focus_is_subtracted_from_the_clean_time(played):

@@ -47,6 +47,15 @@ def test_flips_that_do_not_wait_have_no_rate():
     assert refresh.rate_of([]) is None and refresh.rate_of([1.0]) is None
 
 
+@pytest.mark.parametrize("seed", range(50))
+def test_flips_that_other_programs_hold_up_do_not_pass_for_a_display(seed):
+    """Each takes next to nothing, or waits for its turn on the processor: 1 to 20 ms."""
+    rng = np.random.default_rng(seed)
+    held_up = rng.random(25) < rng.uniform(0.3, 1.0)
+    took = np.where(held_up, rng.exponential(4e-3, 25) + 1e-3, 2e-4)
+    assert refresh.rate_of(np.cumsum(took)) is None
+
+
 class Measured:
     """A window whose display has that rate."""
 
