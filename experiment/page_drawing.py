@@ -83,7 +83,10 @@ class PageDrawing:
         return pressed
 
     def _scroll(self, form: Form, height: int) -> None:
-        """Scroll as far as keys say that were pressed since the last frame."""
+        """Scroll as far as keys say that were pressed since the last frame.
+
+        In a form's first frame ImGui knows no height yet: keys from before it scroll nothing.
+        """
         most = imgui.get_scroll_max_y()
         self.interface.reading = most > 0 and not form.page.asks
         if self.interface.scroll:

@@ -203,3 +203,14 @@ def test_sliders_by_keyboard_alone(screen):
     assert form.answers == {item: str(10 + n) for n, item in enumerate(blocks.TLX)}
     screen.key(form, "enter")
     assert screen.pressed
+
+
+def test_keys_of_a_trial_do_not_scroll_the_page_after_it(screen):
+    def page():
+        return Form(Page("x", "consent.title", (Paragraph("A line.\n" * 80),)))
+
+    top = seen(screen, page())
+    for name in ("pagedown", "down", "down"):  # walking, while the last page drawn was a long text
+        for down in (True, False):
+            screen.stage.interface.key(name, down)
+    assert (seen(screen, page()) == top).all()
