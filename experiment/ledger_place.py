@@ -44,7 +44,10 @@ def exists(data: Path, wanted: str = "") -> bool:
 
 
 def settle(data: Path, url: URL, engine: Engine) -> None:
-    """Note a database's address in the folder; what its SQLite file holds moves there."""
+    """Note a database's address in the folder; what its SQLite file holds moves there.
+
+    Raises InputError where another station notes another address at the same moment.
+    """
     if url.get_backend_name() == "sqlite":
         return
     old = data / FILE
@@ -53,7 +56,10 @@ def settle(data: Path, url: URL, engine: Engine) -> None:
         os.replace(old, data / MOVED)
     if not (data / POINTER).exists():
         make_folder(data)
-        write_new(data / POINTER, store.shown(url) + "\n")
+        try:
+            write_new(data / POINTER, store.shown(url) + "\n")
+        except FileExistsError:  # another station noted one at the same moment
+            find(data, store.shown(url))
 
 
 def _noted(data: Path) -> URL | None:

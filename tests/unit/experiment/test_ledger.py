@@ -12,11 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
+from experiment import ledger_place, ledger_store
 from experiment.config import load, parse
 from experiment.errors import InputError
 from experiment.ledger import Ledger
 from experiment.ledger_plan import Plan, plan_of
 from experiment.ledger_slots import last_open, next_slot
+from experiment.private import write_new
 
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
 STALE = 3600.0
@@ -276,3 +278,22 @@ def test_a_server_that_does_not_answer_is_one_line_without_the_password(tmp_path
     with pytest.raises(InputError, match=r"^postgresql://u@127\.0\.0\.1:1/d: the") as told:
         opened(tmp_path, url="postgresql://u:secret@127.0.0.1:1/d?sslpassword=secret")
     assert "\n" not in str(told.value) and "secret" not in str(told.value)
+
+
+@pytest.mark.parametrize(("other", "alike"), [("b", True), ("c", False)])
+def test_a_station_that_begins_at_the_same_moment_notes_the_same_address(
+    tmp_path, monkeypatch, other, alike
+):
+    """Between looking for the note and making it, another station makes it."""
+
+    def second(path, content):
+        write_new(path, f"postgresql://a@h/{other}\n")
+        write_new(path, content)
+
+    monkeypatch.setattr(ledger_place, "write_new", second)
+    url = ledger_store.parse_url("postgresql://a@h/b")
+    if alike:
+        ledger_place.settle(tmp_path, url, None)
+    else:
+        with pytest.raises(InputError, match=r"--ledger = .*h/b: expected postgresql://a@h/c"):
+            ledger_place.settle(tmp_path, url, None)
