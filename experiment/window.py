@@ -118,6 +118,7 @@ class Window:
             "refresh_of_screen": str(rate or "unknown"),
             "window": "yes",
             "input_time": "X11 event time, 1 ms" if _ON_X11 else "dispatch, one frame",
+            "focus_time": "dispatch, one frame",
         }
 
     # Input
