@@ -11,17 +11,19 @@ from types import SimpleNamespace
 import numpy as np
 from PIL import Image
 
-from experiment import questionnaire
+from experiment import blocks
 from experiment.config import load
 from experiment.design import Trial, session_for
-from experiment.display import Leave
 from experiment.page_drawing import Form
 from experiment.pages import Page
-from experiment.session import _instruction, _page
+from experiment.questionnaire import after, asked, before
+from experiment.session import _feedback, _instruction, _page
 from experiment.stage import Stage
 from experiment.texts import Texts
 from experiment.trial import LEAVE, MENU, TrialRun
+from experiment.world import TrialRecord
 from renderer.gpu.context import standalone
+from tasks.base import Outcome
 from tasks.catalog import TASKS
 from tasks.events import KeyPress
 
@@ -68,10 +70,7 @@ def main() -> None:
     camera = Camera()
     study = camera.study
     camera.page(_page("welcome"))
-    try:
-        questionnaire.before(study, 1, camera)  # type: ignore[arg-type]
-    except Leave:
-        raise AssertionError("the first option was to agree") from None
+    list(asked(before(study, 1), camera))  # type: ignore[arg-type]
     run = TrialRun(study, SimpleNamespace(scenes=None, display=camera.stage, tasks=TASKS))  # type: ignore[arg-type]
     task_sets = session_for(1, study.design.factors())
     shown = set()
@@ -82,10 +81,19 @@ def main() -> None:
             shown.add(trial.task)
             camera.page(_instruction(trial, 8, run), f"instruction-{trial.task}")
             _task(camera, run, trial)
-    for page in (_page("ready"), _page("pause"), LEAVE, MENU):
+    for page in (_page("ready"), _page("pause"), _page("time"), LEAVE, MENU):
         camera.page(page)
+    wrong = Outcome("12", "14", False, count_error=-2)
+    trial = task_sets[0].trials[0]
+    record = TrialRecord(trial, wrong, 14, 0.0, 30.0, 0.0, False, 1800, 0, 0.0, 0.0, 0.0)
+    camera.page(_feedback(record))
     camera.stage.done = 1.0
-    questionnaire.after(study, camera, camera.stage.aspect)  # type: ignore[arg-type]
+    camera.page(blocks.tlx("dynamic"), "tlx")
+    camera.page(blocks.sus("dynamic"), "sus")
+    camera.stage.pilot = True
+    camera.page(_page("pause"), "pilot")
+    camera.stage.pilot = False
+    list(asked(after(study, camera.stage.aspect), camera))  # type: ignore[arg-type]
     camera.page(_page("thanks"))
 
 

@@ -3,7 +3,8 @@
 Each row's last cell is SHA-256(the cell before it in the chain + the row's text without its own
 cell and the comma before that), in hexadecimal. The chain starts with a hash of the sidecar and the
 table's header, ends in the session's end file, and goes on from one session of a participant to
-the next. A row holds the hashes of its traces; the end file those of the session's other tables.
+the next. A row holds the hashes of its traces; the end file those of the session's other tables,
+or, for a session that was killed, the sidecar of the one that goes on.
 """
 
 from __future__ import annotations
@@ -49,6 +50,18 @@ def end_of(table: Path) -> str:
     return lines[-1].rpartition(",")[2] if lines else start
 
 
+def loose_files(table: Path) -> dict[str, str]:
+    """{name: SHA-256} of a session's files that its rows do not hold."""
+    stem = table.name.removesuffix(TRIALS_TABLE)
+    traces = (table.parent / "traces").glob(f"session-{_session(table)[0]}_*")
+    chained = {table.name, stem + SIDECAR, *_traces_of(table)}
+    names = {
+        path.relative_to(table.parent).as_posix(): path
+        for path in sorted([*table.parent.glob(f"{stem}_*"), *traces])
+    }
+    return {name: file_hash(path) for name, path in names.items() if name not in chained}
+
+
 def latest_table(folder: Path) -> Path | None:
     """The trial table of a participant's latest session."""
     return max(folder.glob(f"*{TRIALS_TABLE}"), key=_session, default=None)
@@ -60,7 +73,7 @@ def verify(folder: Path) -> list[str]:
     A table that a crash left without an end file is verified as far as it goes.
     """
     problems: list[str] = []
-    before = ""
+    before, last = "", None
     tables = sorted(folder.glob(f"*{TRIALS_TABLE}"), key=_session)
     for table in tables:
         sidecar = _json(table.with_suffix(".json"))
@@ -71,8 +84,10 @@ def verify(folder: Path) -> list[str]:
         if found.get("follows", "") != before:
             name = table.with_suffix(".json").name
             problems.append(f"{name}: does not follow the session before")
+        if last is not None and "holds" in found:
+            problems += _verify_files(last, found["holds"])
         problems += _verify_table(table, sidecar)
-        before = end_of(table)
+        before, last = end_of(table), table
         problems += _verify_end(folder, table, before)
     if tables:
         problems += _answers_alone(folder)
@@ -119,11 +134,16 @@ def _verify_end(folder: Path, table: Path, last: str) -> Iterator[str]:
         yield f"{path.name}: changed"
     if end.get("chain") != last:
         yield f"{table.name}: rows at the end removed or added, or {path.name} changed"
-    for name, digest in end.get("files", {}).items():
-        other = folder / name
+    yield from _verify_files(table, end.get("files", {}))
+
+
+def _verify_files(table: Path, files: Mapping[str, str]) -> Iterator[str]:
+    """The files of a session that its rows do not hold: as they were, and no others."""
+    for name, digest in files.items():
+        other = table.parent / name
         if not other.is_file() or file_hash(other) != digest:
             yield f"{name}: {'changed' if other.is_file() else 'missing'}"
-    yield from _added(table, {*end.get("files", {}), table.name, *_traces_of(table)})
+    yield from _added(table, {*files, table.name, *_traces_of(table)})
 
 
 def _traces_of(table: Path) -> set[str]:

@@ -61,7 +61,12 @@ TRIALS = (
     Column("time_clean", "number", "time, less what passed while the window had no focus", "s"),
     Column("timed_out", "boolean", "whether the trial ended at its time limit"),
     Column("frames", "integer", "frames shown", "frames"),
-    Column("frames_missed", "integer", "frames that took over 1.5 display periods", "frames"),
+    Column(
+        "frames_missed",
+        "integer",
+        "frames that took over 1.5 periods of the display, as measured",
+        "frames",
+    ),
     Column("worst_frame", "number", "longest time between two frames", "s"),
     Column("path_length", "number", "how far the viewer moved", "world units"),
     Column("turned", "number", "how far the view direction turned", "rad"),
@@ -79,7 +84,8 @@ QUESTIONNAIRE = (
         "item",
         "text",
         "efficiency, ease, enjoy (0–4, per condition), preference (1 dynamic, 0 not), "
-        "depth_self_report (0–4), depth_test (correct of 3), consent, age (years), gender, "
+        "depth_self_report (0–4), depth_pair_1 … 3 (1: right), depth_test (right of 3), consent, "
+        "age (years), gender, "
         "color_plate_1 … 4 (1: read), tlx_… (0–20), sus_1 … sus_10 (0–4), sus (0–100), remarks",
     ),
     *_CELL,

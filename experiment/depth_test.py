@@ -51,9 +51,9 @@ class DepthTest:
             for n, pair in enumerate(self.pairs)
         ]
 
-    def score(self, answers: dict[str, str]) -> int:
-        """How many pairs are right, of three."""
-        return sum(answers[f"pair_{n}"] == str(near) for n, near in enumerate(self.nearer))
+    def right(self, number: int, answers: dict[str, str]) -> bool:
+        """Whether the answers of a pair's page (from 0) name the nearer one."""
+        return answers[f"pair_{number}"] == str(self.nearer[number])
 
 
 def depth_test(study: Study, aspect: float) -> DepthTest:

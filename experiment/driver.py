@@ -38,3 +38,16 @@ def open_context() -> Any:
         return standalone()
     except RuntimeError as error:
         raise InputError(str(error)) from None
+
+
+def window_context() -> Any:
+    """The context of the window that was opened last. Raises InputError, one line, without one."""
+    import moderngl
+
+    try:
+        return moderngl.create_context(require=330)
+    except Exception as error:  # glcontext raises bare Exception
+        said = str(error).strip().partition("\n")[0]
+        raise InputError(
+            f"display: OpenGL 3.3 is not available in a window ({said}), expected a graphics driver"
+        ) from None

@@ -27,8 +27,6 @@ KEYS = {
     "tab": imgui.Key.tab,
     "home": imgui.Key.home,
     "end": imgui.Key.end,
-    "pageup": imgui.Key.page_up,
-    "pagedown": imgui.Key.page_down,
     "shift": imgui.Key.left_shift,
     "a": imgui.Key.a,
     "c": imgui.Key.c,
@@ -36,6 +34,10 @@ KEYS = {
     "x": imgui.Key.x,
     "z": imgui.Key.z,
 }
+
+# Screens that a key scrolls a page on. ImGui's own way jumps from button to button over the text.
+SCREENS = {"pagedown": 0.85, "pageup": -0.85}
+LINES = {"down": 0.25, "up": -0.25}  # where there is nothing but text to move over
 
 
 class Interface:
@@ -50,6 +52,8 @@ class Interface:
         self.io.backend_flags |= imgui.BackendFlags_.renderer_has_textures
         self.io.config_flags |= imgui.ConfigFlags_.nav_enable_keyboard
         self.regular = self.io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto-Regular.ttf"), 20.0)
+        self.reading = False  # the page is text that is longer than the screen
+        self.scroll = 0.0  # screens to scroll on
         self.bold = self.io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto-Bold.ttf"), 20.0)
         _style()
 
@@ -108,7 +112,10 @@ class Interface:
 
     def key(self, name: str, down: bool) -> None:
         """A key of tasks/events.py; those that forms do not use are ignored."""
-        if name in KEYS:
+        scroll = {**SCREENS, **LINES} if self.reading else SCREENS
+        if name in scroll:
+            self.scroll += scroll[name] if down else 0.0
+        elif name in KEYS:
             self.io.add_key_event(KEYS[name], down)
         if name == "shift":
             self.io.add_key_event(imgui.Key.mod_shift, down)

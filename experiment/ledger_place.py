@@ -30,7 +30,11 @@ def find(data: Path, wanted: str = "") -> URL:
     if not wanted:
         return noted or store.sqlite_url(data / FILE)
     url = store.parse_url(wanted)
-    _same(data, url)
+    if noted and store.shown(noted) != store.shown(url):
+        raise InputError(
+            f"--ledger = {store.shown(url)}: expected {store.shown(noted)}, "
+            f"where this study's ledger is ({data / POINTER})"
+        )
     return url
 
 
@@ -40,30 +44,22 @@ def exists(data: Path, wanted: str = "") -> bool:
 
 
 def settle(data: Path, url: URL, engine: Engine) -> None:
-    """Note a database's address in the folder; what its SQLite file holds moves there."""
+    """Note a database's address in the folder; what its SQLite file holds moves there.
+
+    Raises InputError where another station notes another address at the same moment.
+    """
     if url.get_backend_name() == "sqlite":
         return
     old = data / FILE
     if old.exists():
         _move(old, engine)
         os.replace(old, data / MOVED)
-    if (data / POINTER).exists():
-        return
-    make_folder(data)
-    try:
-        write_new(data / POINTER, store.shown(url) + "\n")
-    except FileExistsError:  # another station was first, just now
-        _same(data, url)
-
-
-def _same(data: Path, url: URL) -> None:
-    """Raises InputError for an address other than the noted one."""
-    noted = _noted(data)
-    if noted and store.shown(noted) != store.shown(url):
-        raise InputError(
-            f"--ledger = {store.shown(url)}: expected {store.shown(noted)}, "
-            f"where this study's ledger is ({data / POINTER})"
-        )
+    if not (data / POINTER).exists():
+        make_folder(data)
+        try:
+            write_new(data / POINTER, store.shown(url) + "\n")
+        except FileExistsError:  # another station noted one at the same moment
+            find(data, store.shown(url))
 
 
 def _noted(data: Path) -> URL | None:

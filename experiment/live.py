@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from experiment import refresh
 from experiment.clock import RealClock
 from experiment.config import Study
 from experiment.display import Input
@@ -47,14 +48,16 @@ def play_in_window(
     texts = Texts(study.study.language, study.texts)
     window = Window(study.display, texts, clock, study.study.title)
     window.stage.pilot = source == "pilot"
+    if not refresh.fits(window.measured, window.declared):
+        print(f"display: {refresh.said(window.measured, window.declared)}", file=sys.stderr)
     try:
         described = provenance(study, window.describe(), speed=clock.speed, **(about or {}))
         who = Who(study.study.name, participant, source, start.slot, described, start.session)
         person: Input = window if watched is None else _simulated(watched, window)
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts)
-        world = World(window, person, clock, recorder, TASKS, say)
-        return run_session(study, start.slot, world, start.done)
+        world = World(window, person, clock, recorder, TASKS, say, period=window.period)
+        return run_session(study, start.slot, world, start.done, start.given)
     finally:
         window.close()
 

@@ -8,7 +8,7 @@ from itertools import count
 
 from imgui_bundle import imgui
 
-from experiment.interface import Interface
+from experiment.interface import SCREENS, Interface
 from experiment.pages import (
     Answers,
     Choice,
@@ -68,6 +68,7 @@ class PageDrawing:
             None,
             flags.no_decoration & ~flags.no_scrollbar | flags.no_move | flags.no_saved_settings,
         )
+        self._scroll(form, height)
         imgui.push_font(self.interface.bold, 0.058 * height)
         imgui.text_wrapped(self.texts.get(form.page.title))
         imgui.pop_font()
@@ -80,6 +81,18 @@ class PageDrawing:
         imgui.pop_font()
         form.was_complete = form.complete
         return pressed
+
+    def _scroll(self, form: Form, height: int) -> None:
+        """Scroll as far as keys say that were pressed since the last frame.
+
+        In a form's first frame ImGui knows no height yet: keys from before it scroll nothing.
+        """
+        most = imgui.get_scroll_max_y()
+        self.interface.reading = most > 0 and not form.page.asks
+        if self.interface.scroll:
+            to = imgui.get_scroll_y() + self.interface.scroll * height
+            imgui.set_scroll_y(min(max(to, 0.0), most))
+            self.interface.scroll = 0.0
 
     def _block(self, block: object, form: Form, column: float, height: int) -> None:
         match block:
@@ -124,7 +137,12 @@ class PageDrawing:
         answered = scale.name in form.answers
         value = int(form.answers.get(scale.name, (scale.steps - 1) // 2))
         changed, value = imgui.slider_int(
-            f"##{scale.name}", value, 0, scale.steps - 1, "%d" if answered else "?"
+            f"##{scale.name}",
+            value,
+            0,
+            scale.steps - 1,
+            "%d" if answered else "?",
+            imgui.SliderFlags_.always_clamp,  # a number may be typed as well
         )
         if changed or imgui.is_item_activated():
             form.answers[scale.name] = str(value)
@@ -157,20 +175,28 @@ class PageDrawing:
         form.answers[field_.name] = text
 
     def _buttons(self, form: Form) -> bool:
-        """The page's buttons; Enter presses the focused one, or else the first."""
+        """The page's buttons; Enter presses the focused one, or else the first.
+
+        Nobody agrees by a key to what they have not seen: in a long text, Enter goes on reading.
+        """
         chosen = focused = None
+        most = imgui.get_scroll_max_y()
         imgui.begin_disabled(not form.complete)
         imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(1, 1, 1, 1))
         for number, text in enumerate(form.page.buttons):
             if number:
                 imgui.same_line()
-            if imgui.button(f"{self.texts.get(text)}##button{number}"):
+            if imgui.button(f"{self.texts.get(text)}##button{number}") and imgui.is_item_visible():
                 chosen = number
-            focused = number if imgui.is_item_focused() else focused
+            if imgui.is_item_focused() and imgui.is_item_visible():
+                focused = number
         imgui.pop_style_color()
         imgui.end_disabled()
         if chosen is None and self._enter(form):
-            chosen = focused or 0
+            if focused is None and self.interface.reading and imgui.get_scroll_y() < 0.99 * most:
+                self.interface.scroll += SCREENS["pagedown"]
+            else:
+                chosen = focused or 0
         if chosen is not None:
             form.answers["button"] = str(chosen)
         return chosen is not None

@@ -88,6 +88,11 @@ class Page:
     buttons: tuple[str, ...] = ("continue",)
 
     @property
+    def asks(self) -> bool:
+        """Whether there is anything to fill in."""
+        return any(isinstance(b, Scale | Choice | TextField) for b in self.blocks)
+
+    @property
     def required(self) -> tuple[str, ...]:
         """Names that need an answer."""
         return tuple(

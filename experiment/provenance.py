@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+import hashlib
 import platform
 from collections.abc import Mapping
+from functools import cache
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 from experiment.config import Study
 
 PACKAGES = ("seethrough", "moderngl", "pyglet", "numpy", "imgui-bundle", "pydantic")
+
+
+OURS = ("experiment", "tasks", "renderer")  # what a session runs
+ROOT = Path(__file__).parent.parent
+
+
+@cache
+def program_sha256(root: Path = ROOT) -> str:
+    """SHA-256 of the program's files and their names: a version number stays while code changes."""
+    digest = hashlib.sha256()
+    for path in sorted(p for package in OURS for p in (root / package).rglob("*.py")):
+        digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
 
 
 def provenance(study: Study, display: Mapping[str, str], **more: Any) -> dict[str, Any]:
@@ -18,6 +34,7 @@ def provenance(study: Study, display: Mapping[str, str], **more: Any) -> dict[st
         "study": study.resolved(),
         "study_sha256": study.digest(),
         "seed": study.study.seed,
+        "program_sha256": program_sha256(),
         "versions": {name: metadata.version(name) for name in PACKAGES},
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.release()} {platform.machine()}",

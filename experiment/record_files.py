@@ -37,25 +37,28 @@ class Table:
         write_new(path, header_of(columns) + "\n")
         self._file: int | None = os.open(path, os.O_WRONLY | os.O_APPEND)
 
-    def append(self, row: Mapping[str, Any]) -> None:
-        """One row; columns that are not given stay empty. Unknown columns raise KeyError."""
-        unknown = set(row) - set(self._names)
-        if unknown:
-            raise KeyError(f"columns not declared: {sorted(unknown)}")
-        cells = [cell(row.get(name)) for name in self._names]
-        if self.chain is None:
-            self._write(csv_line(cells))
-            return
-        text = csv_line(cells[:-1])
-        value = link(self.chain, text)
-        self._write(f"{text},{value}")
+    def append(self, *rows: Mapping[str, Any]) -> None:
+        """Rows at once; columns that are not given stay empty. Unknown columns raise KeyError."""
+        lines, value = [], self.chain
+        for row in rows:
+            unknown = set(row) - set(self._names)
+            if unknown:
+                raise KeyError(f"columns not declared: {sorted(unknown)}")
+            cells = [cell(row.get(name)) for name in self._names]
+            if value is None:
+                lines.append(csv_line(cells))
+                continue
+            text = csv_line(cells[:-1])
+            value = link(value, text)
+            lines.append(f"{text},{value}")
+        self._write("".join(f"{line}\n" for line in lines))
         self.chain = value
 
-    def _write(self, line: str) -> None:
+    def _write(self, text: str) -> None:
         assert self._file is not None
         size = os.fstat(self._file).st_size
         try:
-            write(self._file, (line + "\n").encode("utf-8", "replace"))
+            write(self._file, text.encode("utf-8", "replace"))
             os.fsync(self._file)
         except OSError as error:
             with suppress(OSError):  # the disk is gone altogether: nothing can be taken back
@@ -177,8 +180,19 @@ def cell(value: Any) -> str:
 def csv_line(cells: list[str]) -> str:
     """A row, quoted where it must be, without its line's end."""
     text = io.StringIO()
-    csv.writer(text, lineterminator="").writerow(cells)
-    return text.getvalue()
+    # Before Python 3.13 a line break is quoted only where it is part of the line's end.
+    csv.writer(text, lineterminator="\r\n").writerow(cells)
+    return text.getvalue()[:-2]
+
+
+def whole_rows(data: bytes) -> int:
+    """Bytes of a table's whole rows: the line breaks in a quoted text end no row."""
+    end = len(data)
+    while (at := data.rfind(b"\n", 0, end)) >= 0:
+        if data.count(b'"', 0, at) % 2 == 0:
+            return at + 1
+        end = at
+    return 0
 
 
 def mend(folder: Path) -> dict[str, int]:
@@ -186,7 +200,7 @@ def mend(folder: Path) -> dict[str, int]:
     cut = {}
     for path in sorted(folder.glob("*_data.csv")):
         data = path.read_bytes()
-        whole = data.rfind(b"\n") + 1
+        whole = whole_rows(data)
         if whole < len(data):
             os.truncate(path, whole)
             cut[path.name] = len(data) - whole

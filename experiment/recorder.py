@@ -9,14 +9,22 @@ from __future__ import annotations
 import errno
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from experiment.chain import end_of, file_hash, latest_table, seal_of, start_of
+from experiment.chain import (
+    END,
+    TRIALS_TABLE,
+    end_of,
+    latest_table,
+    loose_files,
+    seal_of,
+    start_of,
+)
 from experiment.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
 from experiment.dataset import describe_dataset
 from experiment.design import Trial
@@ -74,7 +82,6 @@ class FileRecorder:
             raise InputError(f"{self.folder}: cannot be written: {error.strerror}") from None
         self._questions: Table | None = None
         self._notes: Table | None = None
-        self._chained = {self._file("trials_data.csv").name, self._file("trials_data.json").name}
         self._rows = self._asked = self._noted = 0
         self._traces: Traces | None = None
         self._started = ""
@@ -90,6 +97,8 @@ class FileRecorder:
         if before is not None:
             content["mended"] = mend(self.folder)
             content["chain"]["follows"] = end_of(before)
+            if not before.with_name(before.name.replace(TRIALS_TABLE, END)).exists():
+                content["chain"]["holds"] = loose_files(before)  # it was killed: nothing else does
         start = start_of(content, header_of(TRIALS))
         content["chain"]["start"] = start
         write_new(sidecar, _json(content))
@@ -129,7 +138,6 @@ class FileRecorder:
         number = record.trial.number
         self._rows += 1
         events, camera = self._traces.events, self._traces.camera
-        self._chained |= {events.path.name, camera.path.name}
         self._attempts[number] = attempt = self._attempts.get(number, 0) + 1
         self._trials.append(
             {
@@ -147,11 +155,18 @@ class FileRecorder:
 
     def answers(self, rows: list[Mapping[str, str]]) -> None:
         """Append rows of the questionnaire; they are on disk when this returns."""
-        for row in rows:
-            if self._questions is None:
-                self._questions = self._another("questionnaire", QUESTIONNAIRE)
-            self._asked += 1
-            self._questions.append({**self._identity(f"question{self._asked:03d}"), **row})
+        if not rows:
+            return
+        if self._questions is None:
+            self._questions = self._another("questionnaire", QUESTIONNAIRE)
+        first = self._asked + 1
+        self._asked += len(rows)
+        self._questions.append(
+            *(
+                {**self._identity(f"question{number:03d}"), **row}
+                for number, row in enumerate(rows, start=first)
+            )
+        )
 
     def note(self, trial: Trial | None, text: str) -> None:
         """Append a note of the experimenter's; it is on disk when this returns."""
@@ -179,22 +194,14 @@ class FileRecorder:
 
     def _end(self, status: str) -> None:
         """The end file: how it ended, the chain's end, and hashes of what is not in the chain."""
-        mine = [*self.folder.glob(f"{self.stem}_*"), *self._all_traces()]
-        files = {
-            path.relative_to(self.folder).as_posix(): file_hash(path)
-            for path in sorted(mine)
-            if path.name not in self._chained
-        }
         how = {"ended": self._now(), "status": status, "trials": self._rows}
+        files = loose_files(self._trials.path)
         content = {**how, "chain": self._trials.chain, "files": files}
         path = self._file("end.json")
         try:
             write_new(path, _json({**content, "seal": seal_of(content)}))
         except OSError as error:
             raise refused(error, path) from None
-
-    def _all_traces(self) -> Iterator[Path]:
-        return (self.folder / "traces").glob(f"session-{self.who.session}_*")
 
     def _file(self, name: str) -> Path:
         return self.folder / f"{self.stem}_{name}"

@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from experiment.chain import ANSWERS_TABLE
 from experiment.config import Study
 from experiment.design import TaskSet, session_for
 from experiment.errors import InputError
 from experiment.folders import folder_of, next_free
+from experiment.questionnaire import Given, Item, item_of
+from experiment.record_files import whole_rows
 
 
 @dataclass(frozen=True)
 class Past:
-    """What a participant's folder says: sessions begun, how often each trial was completed."""
+    """What a participant's folder says: sessions begun, how often each trial was completed, and
+    what was answered on the pages around them."""
 
     sessions: int
     complete: bool
     attempts: Mapping[int, int]
+    given: Given
     slot: int
     digest: str
 
@@ -45,6 +51,7 @@ def past(data: Path, source: str, participant: str) -> Past | None:
         sessions=max(int(s.get("session", 1)) for s in said),
         complete=any(e.get("status") == "complete" for e in ends),
         attempts=dict(attempts),
+        given=_given(folder),
         slot=int(said[0]["slot"]),
         digest=str(said[0]["provenance"].get("study_sha256", "")),
     )
@@ -52,12 +59,13 @@ def past(data: Path, source: str, participant: str) -> Past | None:
 
 @dataclass(frozen=True)
 class Start:
-    """Where a session starts: its number, its slot, what need not be played again."""
+    """Where a session starts: its number, its slot, what need not be played or asked again."""
 
     session: int
     slot: int
     done: frozenset[int]
     attempts: Mapping[int, int]
+    given: Given
 
 
 def starting_point(study: Study, data: Path, source: str, participant: str, slot: int) -> Start:
@@ -67,7 +75,7 @@ def starting_point(study: Study, data: Path, source: str, participant: str, slot
     """
     before = past(data, source, participant)
     if before is None:
-        return Start(1, slot, frozenset(), {})
+        return Start(1, slot, frozenset(), {}, {})
     folder = folder_of(data, source, participant)
     if before.complete:
         raise InputError(
@@ -81,7 +89,7 @@ def starting_point(study: Study, data: Path, source: str, participant: str, slot
         )
     task_sets = session_for(before.slot, study.design.factors())
     done = already_done(task_sets, before, study.session.resume)
-    return Start(before.sessions + 1, before.slot, done, before.attempts)
+    return Start(before.sessions + 1, before.slot, done, before.attempts, before.given)
 
 
 def going_on(study: Study, start: Start) -> str:
@@ -113,16 +121,30 @@ def already_done(task_sets: tuple[TaskSet, ...], past_: Past, policy: str) -> fr
 
 
 def _completed(table: Path) -> list[int]:
-    """Trial numbers of a table's whole rows; a row that a crash cut short does not count."""
-    with open(table, encoding="utf-8", newline="") as file:
-        rows = csv.reader(file.read().rpartition("\n")[0].splitlines())
-        header = next(rows, [])
-        if "trial" not in header:
-            raise InputError(
-                f"{table}: expected a column trial, found {', '.join(header) or 'none'}"
-            )
-        at = header.index("trial")
-        return [int(row[at]) for row in rows if len(row) == len(header)]
+    """Trial numbers of a table's whole rows."""
+    return [int(row["trial"]) for row in _rows(table, ("trial",))]
+
+
+def _given(folder: Path) -> Given:
+    """What was answered in the sessions so far, the first answer to each item."""
+    given: dict[Item, str] = {}
+    for table in sorted(folder.glob(f"*{ANSWERS_TABLE}")):
+        for row in _rows(table, ("item", "transparency", "scenario", "value")):
+            given.setdefault(item_of(row), row["value"])
+    return given
+
+
+def _rows(table: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
+    """A table's whole rows; one that a crash cut short does not count. Raises InputError."""
+    data = table.read_bytes()
+    text = data[: whole_rows(data)].decode("utf-8", "replace")
+    rows = csv.reader(io.StringIO(text, newline=""))
+    header = next(rows, [])
+    for name in columns:
+        if name not in header:
+            found = ", ".join(header) or "none"
+            raise InputError(f"{table}: expected a column {name}, found {found}")
+    return [dict(zip(header, row, strict=True)) for row in rows if len(row) == len(header)]
 
 
 def _json(path: Path) -> dict:  # type: ignore[type-arg]

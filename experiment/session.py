@@ -7,11 +7,14 @@ offscreen, and in tests.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from experiment import questionnaire
 from experiment.config import Study
 from experiment.design import TaskSet, Trial, session_for
 from experiment.display import DisplayLost, Leave
 from experiment.pages import Page, Paragraph, Picture
+from experiment.questionnaire import Given, Step
 from experiment.trial import TrialRun
 from experiment.world import TrialRecord, World
 
@@ -20,14 +23,21 @@ class TimeIsUp(Leave):
     """The session's own time limit ended it."""
 
 
-def run_session(study: Study, slot: int, world: World, done: frozenset[int] = frozenset()) -> str:
+def run_session(
+    study: Study,
+    slot: int,
+    world: World,
+    done: frozenset[int] = frozenset(),
+    given: Given | None = None,
+) -> str:
     """Run a slot's session: `complete`, `left` or `time limit`. Raises DisplayLost.
 
-    Trials numbered in `done` are not played again (experiment/resume.py).
+    Trials numbered in `done` are not played again, and what was answered in `given` is not asked
+    again (experiment/resume.py).
     """
     status = "left"
     try:
-        _run(study, slot, world, done)
+        _run(study, slot, world, done, given or {})
         status = "complete"
     except TimeIsUp:
         status = "time limit"
@@ -41,14 +51,14 @@ def run_session(study: Study, slot: int, world: World, done: frozenset[int] = fr
     return status
 
 
-def _run(study: Study, slot: int, world: World, done: frozenset[int]) -> None:
+def _run(study: Study, slot: int, world: World, done: frozenset[int], given: Given) -> None:
     start = world.clock.now()
     task_sets = session_for(slot, study.design.factors())
     total = sum(len(s.trials) for s in task_sets)
     world.display.progress(len(done) / total)
     world.input.ask(_page("welcome"))
     if not done:
-        world.recorder.answers(questionnaire.before(study, slot, world.input))
+        _ask(questionnaire.before(study, slot), world, given)
     run = TrialRun(study, world)
     block = None
     for task_set in task_sets:
@@ -62,8 +72,14 @@ def _run(study: Study, slot: int, world: World, done: frozenset[int]) -> None:
         if _over(world.clock.now() - start, study.session.session_limit):
             world.input.ask(_page("time"))
             raise TimeIsUp
-    world.recorder.answers(questionnaire.after(study, world.input, world.display.aspect))
+    _ask(questionnaire.after(study, world.display.aspect), world, given)
     world.input.ask(_page("thanks"))
+
+
+def _ask(steps: Iterator[Step], world: World, given: Given) -> None:
+    """Each page's answers are on disk before the next page is shown."""
+    for rows in questionnaire.asked(steps, world.input, given):
+        world.recorder.answers(rows)
 
 
 def _page(name: str) -> Page:

@@ -122,7 +122,7 @@ class Running:
         self._world, self._task = run.world, run.world.tasks[trial.task]
         self._technique = run.technique(trial)
         self._trial, self._state, self._limit = trial, state, limit
-        self._watch = _Watch(1.0 / run.study.display.refresh)
+        self._watch = _Watch(run.world.period or 1.0 / run.study.display.refresh)
         self.first = self._confirmed = 0.0
         self._digested = -inf
         self._away = 0.0

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import moderngl
 import pyglet
 
 pyglet.options.shadow_window = False
-from pyglet.window import NoSuchConfigException, NoSuchDisplayException, key, mouse
+from pyglet.window import key, mouse
 
+from experiment.driver import window_context
 from experiment.errors import InputError
 from experiment.viewer import Viewer, ViewState
 from renderer.models.translucent.scenes import TranslucentScene
@@ -24,10 +24,10 @@ def show(scene: TranslucentScene, prepared: Prepared, method: str, size: tuple[i
     """Open a window and run until it is closed (Esc). Raises InputError without a display."""
     try:
         window = pyglet.window.Window(*size, caption=f"{scene.name} – {method}", vsync=True)
-    except (NoSuchDisplayException, NoSuchConfigException) as error:
+    except Exception as error:  # pyglet raises a different class on each platform
         problem = str(error) or "no display"
         raise InputError(f"view: {problem}, expected a display (or --picture FILE)") from error
-    context = moderngl.create_context(require=330)
+    context = window_context()
     viewer = Viewer(context, window.get_framebuffer_size(), scene, prepared)
     label = pyglet.text.Label(
         "\n".join(

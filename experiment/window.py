@@ -21,12 +21,13 @@ from pyglet.window import key, mouse
 from experiment.clock import Clock
 from experiment.config import DisplayTable
 from experiment.display import DisplayLost, Leave
-from experiment.driver import describe, samples_for
+from experiment.driver import describe, samples_for, window_context
 from experiment.errors import InputError
 from experiment.event_time import EventTime, x11_stamp
 from experiment.key_names import KEY_NAMES
 from experiment.page_drawing import Form
 from experiment.pages import Answers, Page
+from experiment.refresh import rate_of
 from experiment.stage import Stage
 from experiment.texts import Texts
 from experiment.trial import LEAVE
@@ -42,6 +43,7 @@ from tasks.events import (
     Tick,
 )
 
+FLIPS = 30  # that measure the refresh rate: half a second at 60 Hz
 _KEYS = {getattr(key, theirs): ours for theirs, ours in KEY_NAMES.items()}
 
 # What the driver's refusals are raised as, and the errors after which no picture can be trusted:
@@ -55,11 +57,13 @@ class Window:
 
     def __init__(self, table: DisplayTable, texts: Texts, clock: Clock, title: str) -> None:
         self.clock = clock
-        self.period = 1.0 / table.refresh
         self._window = _open(table, title)
         if _ON_X11:
             _say_when_the_server_goes()
-        self.context = moderngl.create_context(require=330)
+        self.context = window_context()
+        self.declared, self.measured = table.refresh, rate_of(self._bare_flips())  # Hz
+        self.period = 1.0 / (self.measured or self.declared)
+        self._pace = min(self.period, 1.0 / self.declared)  # a display that waits does the rest
         samples = samples_for(table.samples, self.context)
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, samples)
         self.technique: Any = None  # what the view shown last was drawn with
@@ -109,10 +113,12 @@ class Window:
             **describe(self.context),
             "size": f"{width}x{height}",
             "samples": str(self.stage.samples),
-            "refresh_declared": f"{1 / self.period:g}",
+            "refresh_declared": f"{self.declared:g}",
+            "refresh_measured": f"{self.measured:.2f}" if self.measured else "does not wait",
             "refresh_of_screen": str(rate or "unknown"),
             "window": "yes",
             "input_time": "X11 event time, 1 ms" if _ON_X11 else "dispatch, one frame",
+            "focus_time": "dispatch, one frame",
         }
 
     # Input
@@ -206,16 +212,28 @@ class Window:
         if (said := self.context.error) in GONE:
             raise DisplayLost(said)
 
+    def _bare_flips(self) -> list[float]:
+        """When flips with nothing drawn returned; the first ones may not wait, and do not count."""
+        flips = []
+        for _ in range(FLIPS):
+            self._window.flip()
+            flips.append(time.perf_counter())
+        return flips[FLIPS // 6 :]
+
     def _flip(self) -> float:
-        """Flip, and pace: a display without a vertical retrace returns from the flip at once."""
+        """Flip, and pace: a display without a vertical retrace returns from the flip at once.
+
+        The time is that of the flip; what is left of the period is waited for after it.
+        """
         with self._graphics():
             self._window.flip()
-        early = self._flipped + self.period - time.perf_counter()
+        shown = self.clock.now()
+        early = self._flipped + self._pace - time.perf_counter()
         if early > 0:
             time.sleep(early)
         now = time.perf_counter()
         self._passed, self._flipped = now - self._flipped, now
-        return self.clock.now()
+        return shown
 
     def _blind(self) -> bool:
         """Whether the event came before anybody saw the page: meant for the one before it."""
@@ -346,16 +364,6 @@ def _open(table: DisplayTable, title: str) -> pyglet.window.Window:
         )  # fmt: skip
     except Exception as error:  # pyglet raises a different class on each platform
         raise InputError(f"display: no window can be opened: {error}") from error
-
-
-def measured_refresh(window: Window, flips: int = 60) -> float:
-    """Flips a second without pacing, in Hz: the display's rate, or more where flips do not wait."""
-    for _ in range(5):
-        window._window.flip()
-    start = time.perf_counter()
-    for _ in range(flips):
-        window._window.flip()
-    return flips / (time.perf_counter() - start)
 
 
 _ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")

@@ -73,3 +73,4 @@ class World:
     tasks: Mapping[str, Task]
     progress: Callable[[TrialRecord], None] = lambda record: None
     scenes: StudyScenes | None = None  # others than the study's own
+    period: float | None = None  # s, of the display, where it was measured

@@ -6,8 +6,8 @@ The sidecar's `chain.start` stands before the first row; it is itself made from 
 table's header. Each row holds the hashes of its trial's traces. The session's end file, if the
 session was closed, holds the last value and the hashes of the session's other files: a table or
 trace of the session that neither holds was added later. The end file's `seal` is the hash of the
-rest of it; the sidecar of a session that goes on holds the last value of the one before
-(CONVENTIONS.md).
+rest of it; the sidecar of a session that goes on holds the last value of the one before, and, if
+that one was never closed, the hashes of its other files (CONVENTIONS.md).
 
 Data may be handed on without their traces: a session whose traces folder is gone is verified
 without them and says so. A single trace that is missing was removed.
@@ -38,13 +38,14 @@ class ChainState:
     """`state`: verified, open (verified, but the session was never closed), or none.
 
     `traces`: how many trace files were verified, None where their folder is gone; `last`: the
-    chain's end.
+    chain's end; `chained`: the traces that the rows hold, None where their folder is gone.
     """
 
     file: str
     state: str
     traces: int | None = 0
     last: str = ""
+    chained: tuple[str, ...] | None = ()
 
 
 def link(before: str, text: str) -> str:
@@ -72,16 +73,19 @@ def verify_all(
 
     Raises DataError naming the first place that is not as it was written.
     """
-    ends: dict[str, str] = {}
+    ends: dict[str, ChainState] = {}
     states = {}
     for source in sorted(sources, key=lambda s: _session(s.name)):
         sidecar = sidecars.get(source.name, {})
         state = verify(source, sidecar, folder)
         person = source.name.rpartition("/")[0]
         if state.state != "none":
-            if sidecar["chain"].get("follows", "") != ends.get(person, ""):
+            before = ends.get(person)
+            if sidecar["chain"].get("follows", "") != (before.last if before else ""):
                 raise DataError(f"{source.name}: does not follow the session before it")
-            ends[person] = state.last
+            if before and isinstance(holds := sidecar["chain"].get("holds"), Mapping):
+                _verify_files(before.file, holds, folder, before.chained)
+            ends[person] = state
         states[source.name] = state
     for person in ends:
         _no_answers_alone(folder / person, folder)
@@ -115,7 +119,9 @@ def verify(source: Source, sidecar: Mapping[str, Any], folder: Path) -> ChainSta
         before = value
     traces = _verify_traces(source.name, lines, folder)
     state, more = _verify_end(source.name, before, folder, traces)
-    return ChainState(source.name, state, None if traces is None else len(traces) + more, before)
+    if traces is None:
+        return ChainState(source.name, state, None, before, None)
+    return ChainState(source.name, state, len(traces) + more, before, tuple(traces))
 
 
 def _verify_traces(name: str, lines: Sequence[str], folder: Path) -> list[str] | None:
@@ -167,15 +173,25 @@ def _verify_end(
         raise DataError(f"{path.relative_to(folder)}: changed after the session")
     if end.get("chain") != last:
         raise DataError(f"{name}: rows at its end were removed or added, or {path.name} changed")
+    return "verified", _verify_files(name, files, folder, chained)
+
+
+def _verify_files(
+    name: str, files: Mapping[str, str], folder: Path, chained: Sequence[str] | None
+) -> int:
+    """A session's files that its rows do not hold, and that there are no others; the traces.
+
+    Raises DataError naming the first that is not as it was written.
+    """
     traces = 0
     for other, digest in files.items():
         trace = other.startswith(f"{TRACES}/")
         if trace and chained is None:
             continue
-        _same(path.parent, other, digest, folder)
+        _same((folder / name).parent, other, digest, folder)
         traces += trace
     _nothing_added(folder / name, {*files, *(chained or ()), Path(name).name}, folder)
-    return "verified", traces
+    return traces
 
 
 def _nothing_added(table: Path, held: set[str], folder: Path) -> None:

@@ -33,6 +33,10 @@ ORDER = (
     Column("p", "p", "p"),
     Column("negligible_p", "p (negligible)", "p", "of η²p ≥ .06"),
 )
+NO_DISPLAY = (
+    "Missed frames are not compared: a simulated participant waits for no display, and its clock "
+    "says nothing of one."
+)
 FAULTS_SHOWN = tuple("label n mean_standard mean_dynamic difference F p tost_p".split())
 
 
@@ -177,16 +181,19 @@ def _curve_table(curve: pd.DataFrame) -> Table:
 
 def _faults(context: Context) -> list[Block]:
     trials, plan = context.trials, context.plan
-    faults = keep([share_missed(trials), focus_losses(trials), timeouts(trials)])
+    simulated = context.study.source == "simulated"
+    missed = None if simulated else share_missed(trials)
+    faults = keep([missed, focus_losses(trials), timeouts(trials)])
+    notes = [say(NO_DISPLAY, kind="note")] if simulated else []
     if not faults:
-        return []
+        return [*notes]
     table = replace(
         compare(faults, plan.margin),
         key="faults",
-        title="Missed frames, lost focus and time-outs by condition",
+        title=f"{'Lost' if simulated else 'Missed frames, lost'} focus and time-outs by condition",
         shown=FAULTS_SHOWN,
     )
-    return [*(_fault(table, m, plan) for m in faults), table]
+    return [*notes, *(_fault(table, m, plan) for m in faults), table]
 
 
 def _fault(table: Table, m: Measure, plan: Plan) -> Prose:

@@ -185,20 +185,12 @@ def _refresh(study: Study) -> bool:
     if not available():
         print("machine     no display: refresh rate not measured")
         return True
+    from experiment import refresh
     from experiment.clock import RealClock
-    from experiment.window import Window, measured_refresh
+    from experiment.window import Window
 
     window = Window(study.display, Texts("en"), RealClock(), "check")
-    try:
-        rate = measured_refresh(window)
-    finally:
-        window.close()
-    if rate > 1000:
-        print("machine     refresh: the display does not wait; frames are paced by a timer")
-        return True
-    fits = abs(rate - study.display.refresh) < 0.05 * study.display.refresh
-    word = "as declared" if fits else "NOT AS DECLARED"
-    print(
-        f"machine     refresh: {rate:.1f} Hz measured, {study.display.refresh:g} declared: {word}"
-    )
-    return fits
+    rate, declared = window.measured, window.declared
+    window.close()
+    print(f"machine     refresh: {refresh.said(rate, declared)}")
+    return refresh.fits(rate, declared)

@@ -62,7 +62,8 @@ def url(request):
 def test_eight_stations_take_a_thousand_slots_none_twice(url, tmp_path):
     command = [sys.executable, "-c", LAUNCHER, tmp_path, url]
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
-    assert (run.returncode, run.stderr) == (0, "")
+    assert run.returncode == 0, run.stderr
+    assert run.stderr == ""
     stations = json.loads(run.stdout)
     slots = [slot for taken in stations for slot in taken]
     assert sorted(slots) == list(range(1, SLOTS + 1))

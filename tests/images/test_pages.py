@@ -5,6 +5,7 @@ import pytest
 from scipy import ndimage
 
 from experiment import blocks
+from experiment.hud_drawing import ACCENT, PILOT
 from experiment.page_drawing import Form
 from experiment.pages import Page, Paragraph, TextField
 from experiment.stage import Stage
@@ -126,6 +127,14 @@ def test_a_page_that_is_too_long_scrolls(screen):
     assert screen.pressed
 
 
+@pytest.mark.parametrize(("pilot", "color"), [(False, ACCENT), (True, PILOT)])
+def test_the_progress_line_is_as_long_as_what_is_done_and_orange_in_a_pilot(screen, pilot, color):
+    screen.stage.done, screen.stage.pilot = 0.25, pilot
+    line = screen.draw(Form(Page("x", "welcome.title")))[-2].astype(int)
+    drawn = (np.abs(line - np.round(np.array(color) * 255)) < 3).all(axis=1)
+    assert drawn.sum() == drawn[:201].sum() and abs(drawn.sum() - 200) <= 1
+
+
 def test_text_scales_with_the_screen(context):
     """On a screen of twice the size, the page's ink begins and ends at the same parts of it."""
     extents = []
@@ -138,3 +147,70 @@ def test_text_scales_with_the_screen(context):
         extents.append([(i.min() / size[1], i.max() / size[1]) for i in ink])
     # ImGui puts letters on whole pixels: one or two for each of a page's ten lines.
     np.testing.assert_allclose(extents[0], extents[1], atol=0.02)
+
+
+def seen(screen, form):
+    """What is on the screen, still."""
+    return screen.draw(form, 6).copy()
+
+
+@pytest.mark.parametrize(("key", "most"), [("pagedown", 0.95), ("down", 0.35), ("enter", 0.95)])
+def test_a_long_text_is_read_to_its_end_by_keyboard_alone(screen, key, most):
+    lines = "\n".join(f"Line {n}: " + "word " * (n % 9) for n in range(80))
+    buttons = ("consent.yes", "consent.no")
+    form = Form(Page("x", "consent.title", (Paragraph(lines),), buttons))
+    height, last = screen.size[1], seen(screen, form)
+    for _ in range(40):
+        screen.key(form, key)
+        now = seen(screen, form)
+        if (now == last).all() or screen.pressed:
+            break
+        # Nothing is skipped: what was lowest is still on the screen, farther up.
+        strip = last[int(most * height) : int((most + 0.04) * height), 60:400]
+        assert any(
+            (now[top : top + len(strip), 60:400] == strip).all()
+            for top in range(int(most * height))
+        )
+        last = now
+    else:
+        raise AssertionError("there is no end")
+    assert button(last) is not None
+    assert screen.pressed == (key == "enter")
+    if key != "enter":
+        screen.key(form, "pageup")
+        assert (seen(screen, form) != last).any()
+
+
+def test_a_number_typed_into_a_slider_stays_on_its_scale(screen):
+    form = Form(blocks.tlx("dynamic"))
+    screen.draw(form)
+    for name in ("down", "enter"):
+        screen.key(form, name)
+    screen.stage.interface.io.add_input_characters_utf8("99")
+    screen.draw(form)
+    screen.key(form, "enter")
+    assert [form.answers.get(item) for item in blocks.TLX if item in form.answers] == ["20"]
+
+
+def test_sliders_by_keyboard_alone(screen):
+    form = Form(blocks.tlx("standard"))
+    screen.draw(form)
+    screen.key(form, "down")
+    screen.key(form, "up")
+    for steps, _ in enumerate(blocks.TLX):
+        for name in ("space", *["right"] * steps, "space", "down"):
+            screen.key(form, name)
+    assert form.answers == {item: str(10 + n) for n, item in enumerate(blocks.TLX)}
+    screen.key(form, "enter")
+    assert screen.pressed
+
+
+def test_keys_of_a_trial_do_not_scroll_the_page_after_it(screen):
+    def page():
+        return Form(Page("x", "consent.title", (Paragraph("A line.\n" * 80),)))
+
+    top = seen(screen, page())
+    for name in ("pagedown", "down", "down"):  # walking, while the last page drawn was a long text
+        for down in (True, False):
+            screen.stage.interface.key(name, down)
+    assert (seen(screen, page()) == top).all()

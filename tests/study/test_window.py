@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from desktop import Desktop, Program, wait_until
-from player import ARTEFACTS, START, answer, drag, fill_in, open_session, trials_of
+from player import ARTEFACTS, PAGE, START, answer, drag, fill_in, open_session, trials_of
 
 from experiment import cli
 
@@ -80,14 +80,19 @@ def desktop():
         yield screen
 
 
-def rows(folder):
-    """Every row of P01's trial tables, in the order of the sessions."""
+def rows(folder, name="trials"):
+    """Every row of P01's tables of a name, in the order of the sessions."""
     found = []
-    for path in sorted(Path(folder).glob("data/human/P01/*_trials_data.csv")):
+    for path in sorted(Path(folder).glob(f"data/human/P01/*_{name}_data.csv")):
         text = path.read_text(encoding="utf-8")
         assert text.endswith("\n")
         found += list(csv.DictReader(text.splitlines()))
     return found
+
+
+def answers(folder):
+    """Every row of P01's questionnaires."""
+    return rows(folder, "questionnaire")
 
 
 def test_a_whole_short_session_by_keyboard_and_mouse(desktop, study_file, tmp_path):
@@ -112,7 +117,9 @@ def test_a_whole_short_session_by_keyboard_and_mouse(desktop, study_file, tmp_pa
     assert items[:14] == ["efficiency", "ease", "enjoy"] * 4 + ["preference", "depth_self_report"]
 
 
-def test_killed_twice_gone_on_with_verified_and_reported(desktop, study_file, tmp_path, capsys):
+def test_killed_three_times_gone_on_with_verified_and_reported(
+    desktop, study_file, tmp_path, capsys
+):
     data = tmp_path / "data"
     trials = trials_of(study_file)
     for kept in (3, 5):
@@ -132,9 +139,20 @@ def test_killed_twice_gone_on_with_verified_and_reported(desktop, study_file, tm
     with open_session(desktop, study_file, data, TITLE) as program:
         for number, trial in enumerate(trials[4:], start=1):
             answer(desktop, program, trial.task, number)
+        rate = lambda: desktop.keys(*PAGE) or len(answers(data)) >= 6  # noqa: E731
+        wait_until(rate, START, "two pages of answers")
+        os.kill(program.process.pid, signal.SIGKILL)
+        program.process.wait(10)
+    before = answers(data)
+    with open_session(desktop, study_file, data, TITLE) as program:
         fill_in(desktop, program)
         wait_until(lambda: not program.running(), START, "the end")
         assert program.process.returncode == 0, program.said()
+    # What was answered when it was killed stands, and the rest is asked once.
+    given = answers(data)
+    assert given[: len(before)] == before and len(before) < len(given)
+    items = [(r["item"], r["transparency"], r["scenario"]) for r in given]
+    assert len(items) == len(set(items)) and items.count(("preference", "", "")) == 1
     table = rows(data)
     assert [int(r["trial"]) for r in table] == [1, 2, 3, 3, 4, 5, 5, 6, 7, 8]
     assert [r["attempt"] for r in table] == ["1", "1", "1", "2", "1", "1", "2", "1", "1", "1"]

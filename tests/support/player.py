@@ -22,6 +22,8 @@ KEYS = {
     "unique": ["Return", "Up", "space", "Left", "Left", "Return"],
     "count_in_building": ["Return", "3", "Return"],
 }
+# What fills in a page of scales: arrows and Tab move, space chooses, Return goes on.
+PAGE = [*["Down", "space"] * 3, "Tab", "Return"]
 
 
 def trials_of(study_file, slot=1):
@@ -71,7 +73,7 @@ def drag(desktop):
 
 
 def fill_in(desktop, program, seconds=2 * TRIAL, screenshot=None):
-    """Pages to the end by keyboard: arrows and Tab move, space chooses, Return goes on."""
+    """Pages to the end by keyboard."""
     end = time.monotonic() + seconds
     for number in itertools.count():
         if not program.running():
@@ -81,4 +83,4 @@ def fill_in(desktop, program, seconds=2 * TRIAL, screenshot=None):
             raise AssertionError(program.said())
         if number == 1 and screenshot is not None:
             desktop.screenshot(screenshot)
-        desktop.keys(*["Down", "space"] * 3, "Tab", "Return")
+        desktop.keys(*PAGE)

@@ -163,6 +163,40 @@ def test_a_session_that_was_killed_verifies_as_far_as_it_goes(tmp_path):
     assert verify(folder) == [f"{table.name}: row 5: half-written"]
 
 
+def read_by_the_report(data):
+    """Every table of the folder, verified by the analysis. Raises DataError."""
+    from analysis.load.chain import verify_all
+    from analysis.load.table import Source
+
+    tables = sorted(data.rglob("*_trials_data.csv"))
+    names = {table.relative_to(data).as_posix(): table for table in tables}
+    sidecars = {n: json.loads(t.with_suffix(".json").read_text()) for n, t in names.items()}
+    sources = [Source(name, table.read_bytes()) for name, table in names.items()]
+    return verify_all(sources, sidecars, data)
+
+
+@pytest.mark.parametrize("how", ["changed", "missing", "added"])
+def test_what_a_killed_session_left_beside_its_rows_is_held_by_the_next(tmp_path, how):
+    from analysis.errors import DataError
+
+    folder = session(tmp_path, status="", answers=how != "added")
+    (folder / "traces" / "session-1_trial-004_events.csv").write_text("begun", "utf-8")
+    session(tmp_path, number=2)
+    assert verify(folder) == []
+    assert [state.state for state in read_by_the_report(tmp_path)] == ["open", "verified"]
+    answers = folder / f"{STEM}_questionnaire_data.csv"
+    if how == "missing":
+        answers.unlink()
+    else:
+        answers.write_text("forged", "utf-8")
+    said = "added after the session" if how == "added" else how
+    assert verify(folder) == [f"{answers.name}: {said}"]
+    with pytest.raises(
+        DataError, match=r"session-1_questionnaire_data\.csv: \w+ after the session"
+    ):
+        read_by_the_report(tmp_path)
+
+
 def test_a_continued_session_goes_on_with_the_chain_and_mends_the_half_row(tmp_path):
     folder = session(tmp_path, status="")
     table = folder / f"{STEM}_trials_data.csv"
@@ -177,4 +211,8 @@ def test_a_continued_session_goes_on_with_the_chain_and_mends_the_half_row(tmp_p
     assert sidecar["chain"]["follows"] == whole.decode().rsplit(",", 1)[1].strip()
     # Rows that are cut off the first session later are missed by the second.
     table.write_bytes(whole[: whole[:-1].rindex(b"\n") + 1])
-    assert verify(folder) == [f"{second.name}: does not follow the session before"]
+    assert verify(folder) == [
+        f"{second.name}: does not follow the session before",
+        "traces/session-1_trial-003_camera.csv: added after the session",
+        "traces/session-1_trial-003_events.csv: added after the session",
+    ]

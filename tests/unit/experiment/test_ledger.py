@@ -18,6 +18,7 @@ from experiment.errors import InputError
 from experiment.ledger import Ledger
 from experiment.ledger_plan import Plan, plan_of
 from experiment.ledger_slots import last_open, next_slot
+from experiment.private import write_new
 
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
 STALE = 3600.0
@@ -279,20 +280,20 @@ def test_a_server_that_does_not_answer_is_one_line_without_the_password(tmp_path
     assert "\n" not in str(told.value) and "secret" not in str(told.value)
 
 
-@pytest.mark.parametrize("same", [True, False])
-def test_another_station_may_note_the_address_first(tmp_path, monkeypatch, same):
-    """Between the look for the note and its writing: fine if it says the same."""
-    url = ledger_store.parse_url("postgresql://u@host/db")
-    other = url if same else ledger_store.parse_url("postgresql://u@host/other")
-    note = tmp_path / ledger_place.POINTER
-    monkeypatch.setattr(
-        ledger_place,
-        "make_folder",
-        lambda data: note.write_text(ledger_store.shown(other) + "\n", encoding="utf-8"),
-    )
-    if same:
+@pytest.mark.parametrize(("other", "alike"), [("b", True), ("c", False)])
+def test_a_station_that_begins_at_the_same_moment_notes_the_same_address(
+    tmp_path, monkeypatch, other, alike
+):
+    """Between looking for the note and making it, another station makes it."""
+
+    def second(path, content):
+        write_new(path, f"postgresql://a@h/{other}\n")
+        write_new(path, content)
+
+    monkeypatch.setattr(ledger_place, "write_new", second)
+    url = ledger_store.parse_url("postgresql://a@h/b")
+    if alike:
         ledger_place.settle(tmp_path, url, None)
     else:
-        with pytest.raises(InputError, match="expected postgresql://u@host/other"):
+        with pytest.raises(InputError, match=r"--ledger = .*h/b: expected postgresql://a@h/c"):
             ledger_place.settle(tmp_path, url, None)
-    assert note.read_text("utf-8").strip() == ledger_store.shown(other)

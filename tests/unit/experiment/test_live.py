@@ -1,7 +1,7 @@
 """A session in a window, with a window that shows nothing: what its sidecar says, and when."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from types import SimpleNamespace
 
 import pytest
@@ -10,8 +10,11 @@ from experiment import live
 from experiment.clock import RealClock
 from experiment.commands import simulate
 from experiment.config import load
+from experiment.design import Trial
 from experiment.errors import InputError
 from experiment.participants.profile_file import find
+from experiment.world import TrialRecord
+from tasks.base import Outcome
 
 STUDY = load("demo")
 
@@ -21,6 +24,7 @@ class NoWindow:
 
     def __init__(self, *_):
         self.stage, self.context, self.aspect = SimpleNamespace(), None, 4 / 3
+        self.declared, self.measured, self.period = 60.0, 75.0, 1 / 75
 
     def describe(self):
         return {"window": "no"}
@@ -60,3 +64,33 @@ def test_a_person_s_session_says_nothing_of_a_simulation(tmp_path):
     live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
     (sidecar,) = tmp_path.glob("data/human/P01/*_trials_data.json")
     assert not {"profile", "without"} & set(json.loads(sidecar.read_text("utf-8"))["provenance"])
+
+
+def test_the_measured_period_counts_and_a_rate_that_was_not_declared_is_said(
+    tmp_path, monkeypatch, capsys
+):
+    worlds = []
+    monkeypatch.setattr(live, "run_session", lambda *words: worlds.append(words[2]) or "complete")
+    live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
+    assert worlds[0].period == 1 / 75
+    said = "display: 75.0 Hz measured, 60 declared: NOT AS DECLARED"
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("source", "pilot"), [("human", False), ("pilot", True)])
+def test_a_pilot_runs_line_has_its_own_colour(tmp_path, monkeypatch, source, pilot):
+    worlds = []
+    monkeypatch.setattr(live, "run_session", lambda *words: worlds.append(words[2]) or "complete")
+    live.play_in_window(STUDY, "P01", 1, source, tmp_path, RealClock())
+    assert worlds[0].display.stage.pilot is pilot
+
+
+def test_the_terminal_shows_trial_answer_time_and_missed_frames(capsys):
+    trial = Trial(7, 1, 2, 1, "dynamic", "abstract", "count", "s", (1, 1))
+    outcome = Outcome("12", "14", False, count_error=-2)
+    record = TrialRecord(trial, outcome, 14, 10.0, 52.25, 0.0, False, 2500, 3, 0.05, 1.0, 1.0)
+    live.say(record)
+    live.say(replace(record, outcome=None, timed_out=True))
+    first, second = capsys.readouterr().err.splitlines()
+    assert first.split() == ("trial 7 dynamic count 12 42.2 s, 3/2500 frames missed".split())
+    assert "timed out" in second

@@ -70,6 +70,28 @@ def test_a_row_cut_short_by_a_crash_does_not_count(tmp_path):
     assert set(past(tmp_path, "human", "P01").attempts) == set(range(1, 7))
 
 
+def test_answers_of_all_sessions_so_far_are_known(tmp_path):
+    for session, answers in enumerate((("ease", "3", "one\ntwo"), ("enjoy", "4", "")), start=1):
+        who = Who("published", "P01", "human", SLOT, {"study_sha256": STUDY.digest()}, session)
+        recorder = FileRecorder(tmp_path, who)
+        row = dict(zip(("item", "value", "text"), answers, strict=True))
+        recorder.answers([{**row, "transparency": "dynamic", "scenario": "abstract"}])
+        recorder.answers([{"item": "remarks", "value": "", "text": "cut\nshort\nby a crash"}])
+        (table,) = tmp_path.rglob(f"*session-{session}_questionnaire_data.csv")
+        table.write_bytes(table.read_bytes()[:-9])
+    given = starting_point(STUDY, tmp_path, "human", "P01", 9).given
+    here = ("dynamic", "abstract")
+    assert given == {("ease", *here): "3", ("enjoy", *here): "4"}
+
+
+def test_a_table_of_answers_without_its_columns_is_named(tmp_path):
+    played(tmp_path, 2)
+    table = tmp_path / "data/human/P01/study-published_subject-P01_session-1_questionnaire_data.csv"
+    table.write_text("item,scenario,value\n")
+    with pytest.raises(InputError, match="expected a column transparency, found item, scenario"):
+        past(tmp_path, "human", "P01")
+
+
 def test_a_complete_participant_is_refused_with_the_next_free_number(tmp_path):
     played(tmp_path, 24, "complete")
     with pytest.raises(InputError, match=r"P01 exists already; the next free one is P02"):

@@ -120,11 +120,11 @@ class MemoryRecorder:
 ANSWERS = {"count": ["2", "0", "enter"], "pattern": ["k", "enter"]}
 
 
-def play(config, slot=1, done=frozenset(), **script):
+def play(config, slot=1, done=frozenset(), period=None, **script):
     clock = SimulatedClock(100.0)
     display, recorder = FakeDisplay(clock), MemoryRecorder()
     person = ScriptedInput(clock, ANSWERS, **script)
-    world = World(display, person, clock, recorder, TASKS)
+    world = World(display, person, clock, recorder, TASKS, period=period)
     status = run_session(config, slot, world, done)
     return status, recorder, person, display
 
@@ -150,6 +150,13 @@ def test_time_runs_from_the_first_frame_to_the_confirmation():
     assert all(r.frames == 10 and r.timed_out is False for r in recorder.ended)
     # 0.25 s a frame is over 1.5 × 1/60 s: every one of the nine intervals is a missed frame.
     assert all(r.frames_missed == 9 and r.worst_frame == FRAME for r in recorder.ended)
+
+
+def test_missed_frames_are_counted_by_the_measured_period_where_there_is_one():
+    _, recorder, _, _ = play(study(), thinking=9, period=FRAME / 1.4)
+    assert all(r.frames_missed == 0 for r in recorder.ended)
+    _, recorder, _, _ = play(study(), thinking=9, period=FRAME / 1.6)
+    assert all(r.frames_missed == 9 for r in recorder.ended)
 
 
 def test_answers_are_scored_by_the_task():

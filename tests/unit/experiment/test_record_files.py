@@ -1,0 +1,52 @@
+"""Rows of tables: texts of several lines stay one cell, and half a row is cut off as a whole."""
+
+import csv
+import io
+
+import pytest
+
+from experiment.columns import NOTES, QUESTIONNAIRE
+from experiment.record_files import Table, csv_line, mend, whole_rows
+
+TEXTS = ("one\ntwo", "one\r\ntwo", "\r", "\n", 'a "quoted"\nline', "comma, and\nbreak", "plain")
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_a_text_comes_back_as_it_was_typed(text):
+    line = csv_line(["a", text, "b"]) + "\n"
+    assert list(csv.reader(io.StringIO(line, newline=""))) == [["a", text, "b"]]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_wherever_a_table_was_cut_only_its_whole_rows_are_left(text):
+    lines = [csv_line([str(n), text]) + "\n" for n in range(3)]
+    data = "".join(lines).encode()
+    ends = [len("".join(lines[:n]).encode()) for n in range(4)]
+    for cut in range(len(data) + 1):
+        assert whole_rows(data[:cut]) == max(end for end in ends if end <= cut), cut
+
+
+def test_mending_takes_the_first_line_of_half_a_text_too(tmp_path):
+    path = tmp_path / "study-t_subject-P01_session-1_notes_data.csv"
+    table = Table(path, NOTES)
+    table.append({"row_id": "1", "text": "whole\nnote"})
+    size = path.stat().st_size
+    table.append({"row_id": "2", "text": "half\nof a note\nis no note"})
+    table.close()
+    cut = path.read_bytes()[:-12]
+    path.write_bytes(cut)
+    assert mend(tmp_path) == {path.name: len(cut) - size}
+    with open(path, encoding="utf-8", newline="") as file:
+        assert [(r["row_id"], r["text"]) for r in csv.DictReader(file)] == [("1", "whole\nnote")]
+
+
+def test_rows_at_once_are_all_there_or_none(tmp_path):
+    path = tmp_path / "a_questionnaire_data.csv"
+    table = Table(path, QUESTIONNAIRE)
+    table.append({"item": "ease", "value": "1"}, {"item": "enjoy", "value": "2"})
+    size = path.stat().st_size
+    with pytest.raises(KeyError, match="columns not declared"):
+        table.append({"item": "ease", "value": "1"}, {"no_column": "2"})
+    table.close()
+    assert path.stat().st_size == size
+    assert path.read_text().count("\n") == 3
