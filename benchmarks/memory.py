@@ -51,11 +51,13 @@ def used_by(code: str, *words: str) -> Used:
 class Watch:
     """While it is entered: the most (`peak`, MiB) that this process or one it started has held.
 
-    A peak only grows, so reading it now and then misses no more than a process's last moments.
+    `total` is the largest sum of their peaks, in which what they share counts several times. A peak
+    only grows, so reading it now and then misses no more than a process's last moments.
     """
 
     def __init__(self, every: float = 0.2) -> None:
         self.peak: float | None = None
+        self.total = 0.0
         self._every = every
         self._over = Event()
         self._thread = Thread(target=self._look, daemon=True)
@@ -73,6 +75,7 @@ class Watch:
             over = self._over.wait(self._every)
             known = [p for p in map(peak, _family()) if p is not None]
             self.peak = max([*known, self.peak or 0.0]) if known else self.peak
+            self.total = max(self.total, sum(known))
             if over:
                 return
 
