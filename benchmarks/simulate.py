@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import subprocess
 import sys
 import tempfile
 import time
@@ -37,7 +38,7 @@ WALKERS = 128  # whose way through the buildings is drawn into the tables
 LONG = 64  # participants whose seconds are measured
 CHUNK = 4  # of them that a worker plays at a time
 WARM = 16  # others that each worker plays before clocks run
-PEOPLE = 256  # whose times are compared with the published ones: a mean is then known to 3 or 4 %
+PEOPLE = 512  # whose times are compared with the published ones: a mean is known to 2 or 3 % then
 
 
 def figure(name: str, value: float, unit: str, must: float, aim: float, more: bool = False) -> Row:
@@ -125,14 +126,17 @@ def data(job: batch.Batch) -> Iterator[Row]:
 
 
 def many(job: batch.Batch, count: int = MANY) -> Iterator[Row]:
-    """Many participants as `simulate` plays them, files and all; memory of the largest process.
+    """Many participants by the command, files and all; memory of the largest process.
 
     Fewer than `MANY` are told under their own number, and meet no goal.
     """
-    with tempfile.TemporaryDirectory() as folder, Watch() as watch:
-        out, before = Path(folder) / "data", sum(os.times()[:4])
-        seconds, _ = timed(lambda: data_run.run(job, out, count, WORKERS))
-        processor = sum(os.times()[:4]) - before
+    words = ["simulate", job.study, "--mode", "data", "--seed", job.seed, "--pool", job.pool,
+             "--participants", count, "--workers", WORKERS, "--tables", job.tables]  # fmt: skip
+    with tempfile.TemporaryDirectory() as folder, Watch(own=False) as watch:
+        command = [sys.executable, "-m", "experiment", *map(str, words), "--out", f"{folder}/data"]
+        before = sum(os.times()[2:4])
+        seconds, _ = timed(lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL))
+        processor = sum(os.times()[2:4]) - before
     whole = count == MANY
     name = f"{count} participants, data mode"
     yield figure(name, seconds / 60, "min", 30, 5) if whole else told(name, seconds / 60, "min")
