@@ -15,7 +15,6 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from benchmarks.rows import Row, row
 from experiment.config import load
 from experiment.participants import batch, data_run
 from experiment.participants.calibration import FITTED, HELD_OUT, measured, published
+from experiment.participants.fitting import Crowd
 from experiment.participants.profile import Profile
 from experiment.participants.profile_file import find
 
@@ -148,9 +148,14 @@ def many(job: batch.Batch, count: int = MANY) -> Iterator[Row]:
 
 
 def calibration(job: batch.Batch, profile: Profile) -> Iterator[Row]:
-    """How far simulated times lie from the published ones, fitted and held-out half."""
-    chunks = batch.play(replace(job, profile=profile), range(1, PEOPLE + 1), WORKERS)
-    found = measured(row for rows in chunks for row in rows)
+    """How far simulated times lie from the published ones, fitted and held-out half.
+
+    As `calibrate` plays: trial by trial, so that the session's limit ends nobody's half-way.
+    """
+    assert job.tables is not None
+    crowd = Crowd(load(STUDY), job.seed, PEOPLE, job.pool)
+    crowd.open(job.tables)
+    found = measured(crowd.play(profile, (*FITTED, *HELD_OUT)))
     for half, tasks in (("fitted", FITTED), ("held out", HELD_OUT)):
         means = max(_off(found[t].means, published()[t].means) for t in tasks)
         sds = max(_off(found[t].sds, published()[t].sds) for t in tasks)
