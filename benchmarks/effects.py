@@ -141,7 +141,7 @@ def markdown(
 def _cell(values: Sequence[float] | None) -> str:
     if values is None:
         return "not used"
-    off, half, time, _ = values
+    off, half, time, _ = (round(float(v), 9) + 0.0 for v in values)  # sums differ in last digits
     return f"{off:+.2g} ± {half:.2g}; time {np.expm1(time):+.0%}"
 
 

@@ -51,12 +51,15 @@ def used_by(code: str, *words: str) -> Used:
 class Watch:
     """While it is entered: the most (`peak`, MiB) that this process or one it started has held.
 
-    A peak only grows, so reading it now and then misses no more than a process's last moments.
+    Without `own` only those it started, where its own peak may be of what it did before. `total` is
+    the largest sum of their peaks, in which what they share counts several times. A peak only
+    grows, so reading it now and then misses no more than a process's last moments.
     """
 
-    def __init__(self, every: float = 0.2) -> None:
+    def __init__(self, every: float = 0.2, own: bool = True) -> None:
         self.peak: float | None = None
-        self._every = every
+        self.total = 0.0
+        self._every, self._first = every, 0 if own else 1
         self._over = Event()
         self._thread = Thread(target=self._look, daemon=True)
 
@@ -71,8 +74,9 @@ class Watch:
     def _look(self) -> None:
         while True:
             over = self._over.wait(self._every)
-            known = [p for p in map(peak, _family()) if p is not None]
+            known = [p for p in map(peak, _family()[self._first :]) if p is not None]
             self.peak = max([*known, self.peak or 0.0]) if known else self.peak
+            self.total = max(self.total, sum(known))
             if over:
                 return
 

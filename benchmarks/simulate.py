@@ -8,11 +8,14 @@ tables are made first, in a folder of their own, and timed apart; `python -m ben
 from __future__ import annotations
 
 import argparse
+import os
+import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -22,17 +25,20 @@ from benchmarks.rows import Row, row
 from experiment.config import load
 from experiment.participants import batch, data_run
 from experiment.participants.calibration import FITTED, HELD_OUT, measured, published
+from experiment.participants.fitting import Crowd
 from experiment.participants.profile import Profile
 from experiment.participants.profile_file import find
-from experiment.workers import ordered_map
 
 STUDY = "published"
 PROFILE = "calibrated"
 POOL = 200
 WORKERS = 2
 MANY = 10_000
-LONG = 64  # participants of the longer of two runs, whose difference is what 16 cost
-CHUNK = 4  # participants a worker plays at a time where seconds are measured
+WALKERS = 128  # whose way through the buildings is drawn into the tables
+LONG = 64  # participants whose seconds are measured
+CHUNK = 4  # of them that a worker plays at a time
+WARM = 16  # others that each worker plays before clocks run
+PEOPLE = 512  # whose times are compared with the published ones: a mean is known to 2 or 3 % then
 
 
 def figure(name: str, value: float, unit: str, must: float, aim: float, more: bool = False) -> Row:
@@ -63,58 +69,93 @@ def visual() -> Iterator[Row]:
 
 
 def make_tables(job: batch.Batch) -> Iterator[Row]:
-    """Tables of every abstract viewpoint, and of the buildings as 16 people walk through them."""
+    """Tables of every abstract viewpoint, and of the buildings as people walk through them."""
     assert job.tables is not None
     if not job.tables.exists():
-        seconds, _ = timed(lambda: data_run.make_tables(job, 16))
+        seconds, _ = timed(lambda: data_run.make_tables(job, WALKERS))
         yield told("tables", seconds / 60, "min")
 
 
-def _prepare(job: batch.Batch) -> None:
-    """A worker that has its tables and has made every world of the pool, before clocks run."""
+def _prepare(job: batch.Batch, together: Any) -> None:
+    """A worker that has its tables, every world of the pool, and has played for a while.
+
+    Nobody begins before all are ready: the start of a process takes longer than 16 participants.
+    """
     batch.prepare(job)
     batch.make_worlds()
+    batch.play_chunk(range(LONG + 1, LONG + WARM + 1))
+    together.wait()
 
 
-def _rows(job: batch.Batch, count: int, workers: int, chunk: int = CHUNK) -> list[dict[str, Any]]:
-    slots = range(1, count + 1)
-    chunks = [tuple(slots[i : i + chunk]) for i in range(0, count, chunk)]
-    _say(f"{count} participants on {workers} workers")
-    results = ordered_map(batch.play_chunk, chunks, workers, _prepare, (job,))
-    return [row for rows in results for row in rows]
+def _seconds(job: batch.Batch, workers: int) -> tuple[float, float]:
+    """Seconds and processor seconds that so many workers take for 16 of `LONG` participants.
+
+    One worker is a process of its own as well: it differs from two in nothing but their number.
+    """
+    _say(f"{LONG} participants, workers: {workers}")
+    context = get_context("spawn")
+    chunks = [tuple(range(i, i + CHUNK)) for i in range(1, LONG + 1, CHUNK)]
+    with ProcessPoolExecutor(
+        workers, context, initializer=_prepare, initargs=(job, context.Barrier(workers))
+    ) as executor:
+        for ready in [executor.submit(time.process_time) for _ in range(workers)]:
+            ready.result()
+        seconds, used = timed(lambda: list(executor.map(_processor_seconds, chunks)))
+    return seconds * 16 / LONG, sum(used) * 16 / LONG
+
+
+def _processor_seconds(slots: tuple[int, ...]) -> float:
+    start = time.process_time()
+    batch.play_files(slots)
+    return time.process_time() - start
 
 
 def data(job: batch.Batch) -> Iterator[Row]:
-    """The published study from tables, on one worker and on two.
-
-    What the start of the processes costs is in both runs of a pair, and cancels.
-    """
-    _rows(job, LONG, 1)  # whatever these people look at is drawn before clocks run
+    """The published study from tables, on one worker and on two that are ready."""
+    batch.prepare(job)
+    batch.play_chunk(range(1, LONG + WARM + 1))  # what these people look at is drawn before
     batch.keep_tables()
-    seconds = {}
-    for workers in (1, WORKERS):
-        few, _ = timed(lambda w=workers: _rows(job, 16, w))  # type: ignore[misc]
-        more, _ = timed(lambda w=workers: _rows(job, LONG, w))  # type: ignore[misc]
-        seconds[workers] = (more - few) * 16 / (LONG - 16)
-    yield told("16 participants, data mode, one worker", seconds[1], "s")
-    yield figure("16 participants, data mode", seconds[WORKERS], "s", 3, 1)
-    ratio = seconds[1] / seconds[WORKERS]
-    yield figure("two workers against one", ratio, "×", 1.7, 1.9, more=True)
+    (one, processor), (two, _) = (_seconds(job, workers) for workers in (1, WORKERS))
+    yield told("16 participants, data mode, one worker", one, "s")
+    yield told("the same, processor time", processor, "s")
+    yield figure("16 participants, data mode", two, "s", 3, 1)
+    yield figure("two workers against one", one / two, "×", 1.7, 1.9, more=True)
+    with tempfile.TemporaryDirectory() as folder:
+        seconds, _ = timed(lambda: data_run.run(job, Path(folder) / "data", 16))
+    yield told("16 participants, data mode, with its start and files", seconds, "s")
 
 
 def many(job: batch.Batch, count: int = MANY) -> Iterator[Row]:
-    """Many participants as `simulate` plays them, files and all; memory of the largest process."""
-    with tempfile.TemporaryDirectory() as folder, Watch() as watch:
-        out = Path(folder) / "data"
-        seconds, _ = timed(lambda: data_run.run(job, out, count, WORKERS))
-    yield figure(f"{count} participants, data mode", seconds / 60, "min", 30, 5)
+    """Many participants by the command, files and all; memory of the largest process.
+
+    Fewer than `MANY` are told under their own number, and meet no goal.
+    """
+    words = ["simulate", job.study, "--mode", "data", "--seed", job.seed, "--pool", job.pool,
+             "--participants", count, "--workers", WORKERS, "--tables", job.tables]  # fmt: skip
+    with tempfile.TemporaryDirectory() as folder, Watch(own=False) as watch:
+        command = [sys.executable, "-m", "experiment", *map(str, words), "--out", f"{folder}/data"]
+        before = sum(os.times()[2:4])
+        seconds, _ = timed(lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL))
+        processor = sum(os.times()[2:4]) - before
+    whole = count == MANY
+    name = f"{count} participants, data mode"
+    yield figure(name, seconds / 60, "min", 30, 5) if whole else told(name, seconds / 60, "min")
+    yield told("the same, processor time a participant", processor / count, "s")
     if watch.peak is not None:
-        yield figure(f"memory at {count} participants", watch.peak / 1024, "GiB", 1, 1)
+        name, gib = f"memory at {count} participants, largest process", watch.peak / 1024
+        yield figure(name, gib, "GiB", 1, 1) if whole else told(name, gib, "GiB")
+        yield told("the same, all processes together", watch.total / 1024, "GiB")
 
 
-def calibration(job: batch.Batch, profile: Profile, count: int = 64) -> Iterator[Row]:
-    """How far simulated times lie from the published ones, fitted and held-out half."""
-    found = measured(_rows(replace(job, profile=profile), count, WORKERS))
+def calibration(job: batch.Batch, profile: Profile) -> Iterator[Row]:
+    """How far simulated times lie from the published ones, fitted and held-out half.
+
+    As `calibrate` plays: trial by trial, so that the session's limit ends nobody's half-way.
+    """
+    assert job.tables is not None
+    crowd = Crowd(load(STUDY), job.seed, PEOPLE, job.pool)
+    crowd.open(job.tables)
+    found = measured(crowd.play(profile, (*FITTED, *HELD_OUT)))
     for half, tasks in (("fitted", FITTED), ("held out", HELD_OUT)):
         means = max(_off(found[t].means, published()[t].means) for t in tasks)
         sds = max(_off(found[t].sds, published()[t].sds) for t in tasks)

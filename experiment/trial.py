@@ -151,9 +151,10 @@ class Running:
 
     def take(self, event: Event) -> None:
         """Let an event change the trial. Raises Leave."""
-        self.interrupted = _interrupts(event)
         self._confirmed = event.time
+        self.interrupted = False
         if _interrupts(event):
+            self.interrupted = True
             self._interrupt(event)
         elif isinstance(event, FocusChange):
             self._focus(event)

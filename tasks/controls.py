@@ -34,7 +34,7 @@ def changed(value: Value, **changes: object) -> Value:
     For classes whose fields need no check: simulations live on this.
     """
     new = object.__new__(type(value))
-    new.__dict__.update(value.__dict__, **changes)
+    object.__setattr__(new, "__dict__", value.__dict__ | changes)
     return new
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import time
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import metadata
@@ -21,10 +22,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="profile to write")
     parser.add_argument("--profile", default="average", help="where to start; default: average")
     parser.add_argument("--participants", type=int, default=48, metavar="N", help="of the fit")
-    parser.add_argument("--evaluations", type=int, default=80, metavar="E", help="of the fit")
+    parser.add_argument("--evaluations", type=int, default=40, metavar="E", help="of the fit")
+    parser.add_argument(
+        "--last", type=int, default=192, metavar="N", help="participants of the last corrections"
+    )
     parser.add_argument("--seed", type=int, default=11, metavar="S", help="of the fit; default: 11")
     parser.add_argument(
-        "--check", type=int, default=64, metavar="N", help="other participants, for the table"
+        "--check", type=int, default=256, metavar="N", help="other participants, for the table"
     )
     parser.add_argument("--check-seed", type=int, default=1, metavar="S", help="theirs; default: 1")
     parser.add_argument("--tables", type=Path, required=True, metavar="FILE")
@@ -35,24 +39,34 @@ def run(arguments: argparse.Namespace) -> int:
     """Fit, print published beside simulated, write the profile with its provenance."""
     study = load(arguments.study)
     start = find(arguments.profile)
-    least = {"participants": 3, "evaluations": 1, "seed": 0, "pool": 1, "check": 3, "check_seed": 0}
+    least = {"participants": 3, "evaluations": 1, "last": 3, "seed": 0, "pool": 1, "check": 3,
+             "check_seed": 0}  # fmt: skip
     for name, low in least.items():
         if (value := getattr(arguments, name)) < low:
             raise InputError(f"--{name.replace('_', '-')} = {value}: expected at least {low}")
     from dataclasses import replace
 
     from experiment.participants import calibration, fitting
+    from experiment.participants.data_run import SAVE_EVERY
 
     crowd = fitting.Crowd(study, arguments.seed, arguments.participants, arguments.pool)
     crowd.open(arguments.tables)
-    with Progress("calibrating", arguments.evaluations) as progress:
+    saved = [time.monotonic()]
+    last = fitting.Crowd(study, arguments.seed, arguments.last, arguments.pool, crowd.pool)
+    with Progress("calibrating", arguments.evaluations + fitting.LAST) as progress:
 
-        def say(number: int, value: float) -> None:
-            crowd.pool.save(arguments.tables)  # an interrupted fit starts with what has been drawn
+        def say(value: float) -> None:
+            if time.monotonic() - saved[-1] > SAVE_EVERY:  # an interrupted fit goes on with these
+                crowd.pool.save(arguments.tables)
+                saved.append(time.monotonic())
             progress.step(f"misfit {value:.2f}")
 
         best, misfit = fitting.calibrate(
-            start, lambda p: crowd.play(p, calibration.FITTED), arguments.evaluations, say
+            start,
+            lambda p: crowd.play(p, calibration.FITTED),
+            arguments.evaluations,
+            say,
+            lambda p: last.play(p, calibration.FITTED),
         )
     best = replace(best, name=arguments.out.stem)
     others = fitting.Crowd(study, arguments.check_seed, arguments.check, arguments.pool, crowd.pool)
@@ -75,10 +89,11 @@ def _provenance(
     return {
         "command": f"seethrough calibrate {arguments.study} --profile {arguments.profile} "
         f"--participants {arguments.participants} --evaluations {arguments.evaluations} "
-        f"--seed {arguments.seed} --pool {arguments.pool} --check {arguments.check} "
-        f"--check-seed {arguments.check_seed}",
+        f"--last {arguments.last} --seed {arguments.seed} --pool {arguments.pool} "
+        f"--check {arguments.check} --check-seed {arguments.check_seed}",
         "code": _code(),
         "participants": arguments.participants,
+        "last": arguments.last,
         "seed": arguments.seed,
         "start": start,
         "fitted": list(FITTED),

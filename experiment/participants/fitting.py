@@ -49,6 +49,8 @@ FREE = {
 }
 STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
 PACES = 1  # evaluations that correct the pace alone
+LAST = 6  # evaluations of the larger crowd
+LOOSE = 1.0  # logarithm of the factor by which a constant may move for one tolerance of misfit
 
 
 class Crowd:
@@ -99,41 +101,57 @@ def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
     return replace(profile, **changes)
 
 
+class _Search:
+    """Evaluations of one crowd: the best so far, and all of them told to `say`."""
+
+    def __init__(self, start: Profile, play: Play, say: Callable[[float], None]) -> None:
+        self.start, self.play, self.say = start, play, say
+        self.value, self.best, self.x = np.inf, start, np.zeros(len(FREE))
+        self.count = 0
+
+    def found(self, x: NDArray[np.float64]) -> dict[str, TimeMeasure]:
+        """What the crowd does with the constants at `x`."""
+        profile = with_free(self.start, x)
+        simulated = measured(self.play(profile))
+        value = misfit(simulated)
+        self.count += 1
+        if value < self.value:
+            self.value, self.best, self.x = value, profile, np.array(x)
+        self.say(self.value)
+        return simulated
+
+    def residuals(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Tolerances off; and how far the constants have moved, so that none moves for nothing."""
+        return np.concatenate([residuals(self.found(x)), x / LOOSE])
+
+
 def calibrate(
     start: Profile,
     play: Play,
     evaluations: int,
-    say: Callable[[int, float], None] = lambda number, value: None,
+    say: Callable[[float], None] = lambda value: None,
+    last: Play | None = None,
 ) -> tuple[Profile, float]:
     """The best profile found in about so many evaluations of `play`, and its misfit.
 
     First the pace is corrected by how far the fitted means are off; where there are evaluations
     for derivatives, scipy's least squares (trust region reflective) moves all of `FREE`, with
-    derivatives over `STEP`.
+    derivatives over `STEP`. Then a larger crowd (`last`) corrects what was peculiar to the first
+    one in `LAST` evaluations, with the derivatives that are there.
     """
-    best: list[Any] = [np.inf, start]
-    number = 0
-
-    def found(x: NDArray[np.float64]) -> dict[str, TimeMeasure]:
-        nonlocal number
-        profile = with_free(start, x)
-        simulated = measured(play(profile))
-        value = misfit(simulated)
-        number += 1
-        if value < best[0]:
-            best[:] = [value, profile]
-        say(number, best[0])
-        return simulated
-
+    search = _Search(start, play, say)
     x = np.zeros(len(FREE))
     if evaluations - PACES <= len(FREE):  # too few for derivatives: the pace alone
         for _ in range(evaluations):
-            x[0] -= _too_slow(found(x))
-        return best[1], float(best[0])
+            x[0] -= _too_slow(search.found(x))
+        return search.best, float(search.value)
     for _ in range(PACES):
-        x[0] -= _too_slow(found(x))
-    _least_squares(lambda x: residuals(found(x)), x, evaluations - number)
-    return best[1], float(best[0])
+        x[0] -= _too_slow(search.found(x))
+    slopes = _least_squares(search.residuals, x, evaluations - search.count)
+    if last is not None:
+        x, search = search.x, _Search(start, last, say)
+        _least_squares(search.residuals, x, LAST, slopes)
+    return search.best, float(search.value)
 
 
 def _too_slow(simulated: Mapping[str, TimeMeasure]) -> float:
@@ -150,19 +168,23 @@ def _least_squares(
     found: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     x: NDArray[np.float64],
     evaluations: int,
-) -> None:
+    slopes: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """Go down from `x`; the derivatives where that ended, or those given."""
     from scipy.optimize import least_squares
 
     bounds = np.log(list(FREE.values()))
     # Each derivative takes as many evaluations as there are constants; scipy counts steps alone.
-    steps = max(1, evaluations // (1 + len(FREE)))
+    steps = evaluations if slopes is not None else max(1, evaluations // (1 + len(FREE)))
     # Its steps of derivation are shares of x: those of 1 + x are about `STEP` everywhere.
-    least_squares(
+    ended = least_squares(
         lambda z: found(z - 1),
         np.clip(x, -0.99 * bounds, 0.99 * bounds) + 1,
+        jac="2-point" if slopes is None else lambda z: slopes,
         bounds=(1 - bounds, 1 + bounds),
         diff_step=STEP,
         max_nfev=steps,
         xtol=0.01,
         ftol=0.01,
     )
+    return np.asarray(ended.jac)

@@ -81,7 +81,7 @@ class Sight:
     """A look at a building by somebody of a profile: lists of the k things that are visible.
 
     `notice` (k,) and `recognise` are chances, `weight` and `contrast` those of the look, `thing`
-    says what may be asked for; `walls` has a bit set for each other object that is visible.
+    (k,) says what may be asked for; `walls` has a bit set for each other object that is visible.
     """
 
     index: list[int]
@@ -89,7 +89,7 @@ class Sight:
     recognise: list[float]
     weight: list[float]
     contrast: list[float]
-    thing: list[bool]
+    thing: NDArray[np.bool_]
     walls: int
 
 
@@ -109,7 +109,7 @@ def sight(seen: Visibility, scene: Scene, profile: Profile) -> Sight:
 def _sight(rows: NDArray[np.float64], scene: Scene, p: Profile) -> Sight:
     index, weight, contrast, area = (rows[k] for k in (0, 2, 5, 6))
     pixels = area * WINDOW_PIXELS
-    thing = scene.targets[index.astype(np.int64)].tolist()
+    thing = scene.targets[index.astype(np.int64)]
     numbers = [int(i) for i in index.tolist()]
     return Sight(
         numbers,
@@ -120,5 +120,5 @@ def _sight(rows: NDArray[np.float64], scene: Scene, p: Profile) -> Sight:
         weight.tolist(),
         contrast.tolist(),
         thing,
-        sum(1 << i for i, asked in zip(numbers, thing, strict=True) if not asked),
+        sum(1 << i for i, asked in zip(numbers, thing.tolist(), strict=True) if not asked),
     )

@@ -124,7 +124,7 @@ class Walker:
     def _noticed(self, view: Sight) -> list[int]:
         """Which of the things seen are noticed; walls are not looked at, but remembered."""
         hits = self.mood.rng.random(len(view.index)) < view.notice
-        return [k for k, hit in enumerate(hits.tolist()) if hit and view.thing[k]]
+        return (hits & view.thing).nonzero()[0].tolist()
 
     def _make_out(
         self, seen: Visibility, view: Sight, things: list[int]

@@ -92,6 +92,8 @@ def test_power_from_the_paper_and_from_simulated_people(tables, tmp_path, capsys
         ("power published --out {t}/p --effect {t}/nix", "expected published or a data folder"),
         ("calibrate published --out {t}/c --tables {t}/t --participants 2",
          "--participants = 2: expected at least 3"),
+        ("calibrate published --out {t}/c --tables {t}/t --last 2",
+         "--last = 2: expected at least 3"),
     ],
 )  # fmt: skip
 def test_bad_input_is_one_line_and_status_2(tmp_path, capsys, words, message):

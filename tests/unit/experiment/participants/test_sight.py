@@ -37,7 +37,7 @@ def kept():
 @pytest.mark.parametrize("seen", [look(), kept()])
 def test_a_sight_says_of_each_visible_thing_what_the_arrays_say(seen):
     found = sight(seen, SCENE, AVERAGE)
-    assert found.index == [1, 2, 3, 4] and found.thing == [False, True, True, False]
+    assert found.index == [1, 2, 3, 4] and found.thing.tolist() == [False, True, True, False]
     assert found.walls == 0b10010
     pixels = look().area * WINDOW_PIXELS
     p = AVERAGE
