@@ -160,9 +160,10 @@ def calibration(job: batch.Batch, profile: Profile) -> Iterator[Row]:
         means = max(_off(found[t].means, published()[t].means) for t in tasks)
         sds = max(_off(found[t].sds, published()[t].sds) for t in tasks)
         r = max(abs(found[t].r - published()[t].r) for t in tasks)
-        yield figure(f"time means off, {half}", means, "share", 0.15, 0.05)
-        yield figure(f"time s.d. off, {half}", sds, "share", 0.30, 0.15)
-        yield figure(f"time r off, {half}", r, "", 0.2, 0.1)
+        goals = [(0.15, 0.05), (0.30, 0.15), (0.2, 0.1)] if half == "fitted" else [(None, None)] * 3
+        names = ("means", means, "share"), ("s.d.", sds, "share"), ("r", r, "")
+        for (what, value, unit), (must, aim) in zip(names, goals, strict=True):
+            yield row(f"time {what} off, {half}", STUDY, value, unit, must, aim)
 
 
 def _off(ours: Sequence[float], theirs: Sequence[float]) -> float:
