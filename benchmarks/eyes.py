@@ -115,8 +115,8 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
     figure, axes = pyplot.subplots(figsize=(7, 4))
     for row in rows:
         axes.scatter(row["value"], abs(row["time_error"]), color="C0")
-        axes.annotate(row["scene"], (row["value"], abs(row["time_error"])), xytext=(4, 4),
-                      textcoords="offset points", fontsize=8)  # fmt: skip
+        axes.annotate(row["scene"], (row["value"], abs(row["time_error"])), xytext=(2, 5),
+                      textcoords="offset points", fontsize=8, rotation=35)  # fmt: skip
     axes.set(xscale="log", xlabel="ms a trial", ylabel="error of the mean completion time")
     axes.spines[["top", "right"]].set_visible(False)
     figure.savefig(path, bbox_inches="tight", metadata={"Date": None})
