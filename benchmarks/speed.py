@@ -19,8 +19,10 @@ from benchmarks.paper_way import PaperWay
 from benchmarks.rows import Row as Figure
 from benchmarks.rows import row
 from benchmarks.scenes import SCENES
+from experiment.looking import HEIGHT
 from renderer.gpu.context import standalone
 from renderer.gpu.renderer import Renderer
+from renderer.models.simple import simplified
 from renderer.plan import plan
 from renderer.scene import Scene
 from renderer.techniques.dynamic import DynamicTransparency
@@ -62,6 +64,7 @@ def figures() -> Iterator[Figure]:
     yield from _of_many_targets(context)
     yield _of_plan()
     yield _of_nothing(context)
+    yield from _of_looks(context)
     yield from _of_memory()
 
 
@@ -164,6 +167,26 @@ def _of_nothing(context) -> Figure:  # type: ignore[no-untyped-def]
     )
     value = spent["dynamic"] / spent["standard"]
     return row("no target occluded: dynamic / standard", "abstract 800×600", value, "×", 1.1, 1.02)
+
+
+def _of_looks(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
+    """What a look of a simulated participant takes: small pictures of simple models, measured."""
+    size = (200, HEIGHT)
+    renderer = Renderer(context, size)
+    for name in ("abstract", "walkthrough"):
+        scene, cameras = SCENES[name](size[0] / size[1], VIEWS)
+        simple = simplified(scene)
+        spent = times(
+            {
+                "standard": lambda c, s=simple: renderer.look(s, c, Standard(), size),
+                "dynamic": lambda c, s=simple: renderer.look(s, c, TECHNIQUE, size),
+            },
+            cameras,
+            context,
+        )
+        for way, seconds in spent.items():
+            value = 1e3 * seconds / len(cameras)
+            yield row(f"a look, {way}", f"{name} 200×{HEIGHT}", value, "ms", 15, None)
 
 
 _MEMORY = """
