@@ -26,6 +26,7 @@ from renderer.techniques.dynamic import DynamicTransparency
 from tasks.catalog import TASKS
 
 SIZE = (160, 120)
+CAMERA = Camera(np.zeros(3), np.eye(3), near=0.5, far=60.0)
 USUAL = (8, 4)  # more objects or masks than that seldom meet in a block of pixels
 
 
@@ -49,9 +50,6 @@ def warm() -> None:
             if targets <= objects:
                 scene = _stack(objects, targets, pierced)
                 renderer.draw(scene, CAMERA, DynamicTransparency(exact=True))
-
-
-CAMERA = Camera(np.zeros(3), np.eye(3), near=0.5, far=60.0)
 
 
 def _stack(objects: int, targets: int, pierced: bool) -> Scene:

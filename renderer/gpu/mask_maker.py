@@ -97,7 +97,8 @@ def _tiles(
     """Tiles, shifts and the texture's height for the blocks that the masks of targets can cover."""
     reach = frame.reach[pictured]
     low = np.clip(np.floor(reach[:, :2] / BLOCK) * BLOCK, 0, size).astype(np.int64)
-    high = np.clip(np.ceil(reach[:, 2:] / BLOCK) * BLOCK, 0, size).astype(np.int64)
+    # As blocks.covered has it: a reach that ends with a block touches the next one.
+    high = np.clip((np.floor(reach[:, 2:] / BLOCK) + 1) * BLOCK, 0, size).astype(np.int64)
     extent = np.maximum(high - low, 0)
     corners, height = tiles.shelves(extent)
     tile = np.zeros((len(frame.reach), 4), np.int64)

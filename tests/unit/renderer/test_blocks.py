@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from renderer.blocks import BLOCK, NONE, covered, grouped, mark, most, runs, shown
+from renderer.blocks import BLOCK, NONE, covered, grouped, mark, most, runs, shape, shown
+from renderer.gpu.mask_maker import _tiles
 
 SHAPE = (9, 13)
 
@@ -107,3 +110,19 @@ def test_the_most_bits_are_counted_where_there_are_both():
     masks = np.array([[0b1, 0, 0b1111]], np.uint64)
     assert most(slices, masks).tolist() == [3, 4]
     assert most(slices, np.zeros_like(masks)).tolist() == [0, 0]
+
+
+def test_every_block_that_a_mask_may_touch_lies_in_its_tile():
+    """Also where what a mask reaches ends with a block: beyond the tile lies another target's."""
+    rng = np.random.default_rng(2)
+    size = (100, 76)
+    low = rng.integers(-20, 80, (40, 2)) / 2
+    reach = np.concatenate([low, low + rng.integers(1, 80, (40, 2)) / 2], axis=1)
+    reach[:10] = np.round(reach[:10] / BLOCK) * BLOCK + [0, 0, BLOCK, BLOCK]
+    tile, shift, _ = _tiles(np.arange(40), SimpleNamespace(reach=reach), size)
+    for k in range(40):
+        bits = covered(reach[k : k + 1], np.zeros(1, np.int64), shape(size))
+        rows, columns = np.nonzero(np.kron(bits != 0, np.ones((BLOCK, BLOCK), bool)))
+        inside = (rows < size[1]) & (columns < size[0])
+        pixels = np.stack([columns, size[1] - 1 - rows], axis=1)[inside] + shift[k]  # y up
+        assert (pixels >= tile[k, :2]).all() and (pixels < tile[k, 2:]).all()
