@@ -20,8 +20,9 @@ from experiment.config import load
 from experiment.design import SIMULATED, generator, session_for
 from experiment.participants.data_mode import play_trial
 from experiment.participants.effects import EFFECTS, plan_effects
+from experiment.participants.looks import Looks
 from experiment.participants.participant import STRATEGIES, SimulatedParticipant
-from experiment.participants.pool import LazyDraw, Pool
+from experiment.participants.pool import Pool, drawing
 from experiment.participants.profile import Profile
 from experiment.participants.profile_file import find
 
@@ -109,18 +110,13 @@ def runs(
 
 def figures() -> Iterator[Row]:
     """Changes without each effect, as the bench command prints them."""
-    pool = _pool(POOL)
+    pool = drawing(load(STUDY), POOL)
     for effect, changes in runs(pool, PEOPLE, find(PROFILE)):
         for task, values in changes.items():
             name, unit = MEASURES[task]
             value = float(values[0]) if effect else float(values)
             label = f"without {effect}: {name}" if effect else f"all effects: {name}"
             yield row(label, STUDY, value, unit)
-
-
-def _pool(size: int) -> Pool:
-    study = load(STUDY)
-    return Pool(study, size, LazyDraw(study, study.display.width / study.display.height))
 
 
 def markdown(
@@ -155,14 +151,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--tasks", default=",".join(STRATEGIES), metavar="T,…")
     chosen = parser.parse_args(arguments)
     profile, tasks = find(chosen.profile), chosen.tasks.split(",")
-    pool = _pool(chosen.pool)
     with tempfile.TemporaryDirectory() as folder:
-        tables = chosen.tables or Path(folder) / "tables.npz"
-        if tables.exists():
-            pool.load(tables)
+        looks = Looks(chosen.tables or Path(folder) / "tables.db")
+        pool = drawing(load(STUDY), chosen.pool, looks)
         for line in markdown(pool, chosen.participants, profile, tasks):
             print(line, flush=True)
-        pool.save(tables)
+        looks.flush()
     return 0
 
 

@@ -23,7 +23,7 @@ from experiment.driver import open_context
 from experiment.pages import Page, Paragraph
 from experiment.participants.data_mode import play_trial
 from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.pool import LazyDraw, Pool
+from experiment.participants.pool import Pool, drawing
 from experiment.world import TrialRecord
 from renderer.gpu.renderer import Renderer
 from renderer.models.simple import simplified
@@ -99,7 +99,7 @@ def run(repeats: int) -> list[dict[str, Any]]:
         pool = OpenEyes(study, 4, renderer, height, simple)
         models = "" if simple else ", whole models"
         ways.append(play(trials, pool, f"visual, {height} px{models}", repeats))
-    pool = Pool(study, 4, LazyDraw(study, ASPECT))
+    pool = drawing(study, 4)
     play(trials, pool, "making tables", repeats)
     ways.append(play(trials, pool, "data mode, 150 px", repeats))
     return [measure(way, ways[0]) for way in ways]

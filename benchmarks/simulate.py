@@ -26,6 +26,8 @@ from experiment.config import load
 from experiment.participants import batch, data_run
 from experiment.participants.calibration import FITTED, HELD_OUT, measured, published
 from experiment.participants.fitting import Crowd
+from experiment.participants.looks import Looks
+from experiment.participants.pool import drawing
 from experiment.participants.profile import Profile
 from experiment.participants.profile_file import find
 
@@ -71,8 +73,8 @@ def visual() -> Iterator[Row]:
 def make_tables(job: batch.Batch) -> Iterator[Row]:
     """Tables of every abstract viewpoint, and of the buildings as people walk through them."""
     assert job.tables is not None
-    if not job.tables.exists():
-        seconds, _ = timed(lambda: data_run.make_tables(job, WALKERS))
+    seconds, made = timed(lambda: data_run.make_tables(job, WALKERS))
+    if made:
         yield told("tables", seconds / 60, "min")
 
 
@@ -153,8 +155,7 @@ def calibration(job: batch.Batch, profile: Profile) -> Iterator[Row]:
     As `calibrate` plays: trial by trial, so that the session's limit ends nobody's half-way.
     """
     assert job.tables is not None
-    crowd = Crowd(load(STUDY), job.seed, PEOPLE, job.pool)
-    crowd.open(job.tables)
+    crowd = Crowd(job.seed, PEOPLE, drawing(load(STUDY), job.pool, Looks(job.tables)))
     found = measured(crowd.play(profile, (*FITTED, *HELD_OUT)))
     for half, tasks in (("fitted", FITTED), ("held out", HELD_OUT)):
         means = max(_off(found[t].means, published()[t].means) for t in tasks)
@@ -185,7 +186,7 @@ def figures(
 ) -> Iterator[Row]:
     """The rows of these parts; tables are made anew in a folder of its own, unless given."""
     with tempfile.TemporaryDirectory() as folder:
-        job = batch.Batch(STUDY, 1, POOL, tables or Path(folder) / "tables.npz")
+        job = batch.Batch(STUDY, 1, POOL, tables or Path(folder) / "tables.db")
         parts: dict[str, Callable[[], Iterator[Row]]] = {
             "visual": visual,
             "data": lambda: data(job),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import time
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import metadata
@@ -47,32 +46,24 @@ def run(arguments: argparse.Namespace) -> int:
     from dataclasses import replace
 
     from experiment.participants import calibration, fitting
-    from experiment.participants.data_run import SAVE_EVERY
+    from experiment.participants.looks import Looks
+    from experiment.participants.pool import drawing
 
-    crowd = fitting.Crowd(study, arguments.seed, arguments.participants, arguments.pool)
-    crowd.open(arguments.tables)
-    saved = [time.monotonic()]
-    last = fitting.Crowd(study, arguments.seed, arguments.last, arguments.pool, crowd.pool)
+    pool = drawing(study, arguments.pool, Looks(arguments.tables))
+    crowd = fitting.Crowd(arguments.seed, arguments.participants, pool)
+    last = fitting.Crowd(arguments.seed, arguments.last, pool)
     with Progress("calibrating", arguments.evaluations + fitting.LAST) as progress:
-
-        def say(value: float) -> None:
-            if time.monotonic() - saved[-1] > SAVE_EVERY:  # an interrupted fit goes on with these
-                crowd.pool.save(arguments.tables)
-                saved.append(time.monotonic())
-            progress.step(f"misfit {value:.2f}")
-
         best, misfit = fitting.calibrate(
             start,
             lambda p: crowd.play(p, calibration.FITTED),
             arguments.evaluations,
-            say,
+            lambda value: progress.step(f"misfit {value:.2f}"),
             lambda p: last.play(p, calibration.FITTED),
         )
     best = replace(best, name=arguments.out.stem)
-    others = fitting.Crowd(study, arguments.check_seed, arguments.check, arguments.pool, crowd.pool)
+    others = fitting.Crowd(arguments.check_seed, arguments.check, pool)
     every = calibration.FITTED + calibration.HELD_OUT
     table = calibration.table(calibration.measured(others.play(best, every)))
-    crowd.pool.save(arguments.tables)
     print(f"{arguments.check} other participants, seed {arguments.check_seed}:")
     for line in table:
         print(line)

@@ -162,6 +162,6 @@ def _data_mode(
     if a.explain or a.watch:
         raise InputError("--explain and --watch: expected with --mode visual only")
     where = a.out.resolve()  # "." has no name
-    tables = a.tables or where.parent / f"{where.name}-tables.npz"
+    tables = a.tables or where.parent / f"{where.name}-tables.db"
     job = Batch(a.study, a.seed, a.pool, tables, profile, without)
     data_run.run(job, a.out, count, a.workers, a.scheduler)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
@@ -13,9 +13,10 @@ from experiment.design import Trial, session_for
 from experiment.participants.batch_files import CHUNK, Chunk, Slots, render
 from experiment.participants.code_hash import code_sha256
 from experiment.participants.data_mode import Played, play_session
-from experiment.participants.pool import LazyDraw, Pool
+from experiment.participants.looks import Looks
+from experiment.participants.pool import Pool, drawing
 from experiment.participants.profile import AVERAGE, Profile
-from experiment.participants.tables import Table, views_of
+from experiment.participants.tables import views_of
 from experiment.workers import ordered_map
 from tasks.catalog import TASKS
 
@@ -55,19 +56,14 @@ class Batch:
 _ready: dict[str, Any] = {}  # this process's study and pool: made once by `prepare`
 
 
-def prepare(
-    batch: Batch, study: Study | None = None, tables: Mapping[str, Table] | None = None
-) -> None:
+def prepare(batch: Batch, study: Study | None = None, tables: bytes = b"") -> None:
     """Make this process ready for `play_chunk`.
 
-    `study` and `tables` are given where their files are on another machine.
+    `study` and the content of the tables' file are given where their files are on another machine.
     """
     study = study or load(batch.study)
-    aspect = study.display.width / study.display.height
-    pool = Pool(study, batch.pool, LazyDraw(study, aspect) if batch.draws else None)
-    if batch.tables is not None and batch.tables.exists():
-        pool.load(batch.tables)
-    pool.tables |= tables or {}
+    looks = Looks(batch.tables, tables)
+    pool = (drawing if batch.draws else Pool)(study, batch.pool, looks=looks)
     _ready.update(batch=batch, study=study, pool=pool)
 
 
@@ -77,10 +73,14 @@ def play_chunk(slots: Sequence[int], profile: Profile | None = None) -> list[dic
 
 
 def play_files(slots: Slots) -> Chunk:
-    """The same as the files of a chunk, questionnaires included."""
+    """The same as the files of a chunk, questionnaires included.
+
+    What was drawn on the way is in the tables' file, or in the chunk where there is no such file.
+    """
     batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
     chunk = render(batch.about(study), study, slots, _sessions(slots))
-    return replace(chunk, looks=pool.take_fresh())
+    drawn = pool.looks.flush()
+    return chunk if batch.tables is not None else replace(chunk, looks=drawn)
 
 
 def _sessions(slots: Sequence[int], profile: Profile | None = None) -> list[Played]:
@@ -100,16 +100,15 @@ def play(batch: Batch, slots: Sequence[int], workers: int) -> Iterator[list[dict
 
 
 def keep_tables() -> None:
-    """Save this process's tables, with what was drawn since they were loaded."""
-    batch, pool = _ready["batch"], _ready["pool"]
-    if batch.tables is not None:
-        pool.save(batch.tables)
+    """Write what this process has drawn into the tables' file."""
+    _ready["pool"].looks.flush()
 
 
-def fill(batch: Batch, progress: Any = None) -> int:
-    """Fill the tables of every abstract scene of the pool, and save them: looks they hold.
+def fill(batch: Batch, progress: Any = None) -> None:
+    """Draw what the tables lack of every abstract scene of the pool.
 
-    Each scene is drawn from the viewpoints that a participant of this profile looks from.
+    Each scene is drawn from the viewpoints that a participant of this profile looks from. What was
+    drawn is kept scene by scene: who is interrupted goes on there.
     """
     prepare(batch)
     study, pool = _ready["study"], _ready["pool"]
@@ -120,11 +119,9 @@ def fill(batch: Batch, progress: Any = None) -> int:
             eyes = pool.eyes(view.scene, trial.transparency)
             for camera in views_of(trial.task, view.camera):
                 eyes.look(view.scene, camera)
+            pool.looks.flush()
             if progress is not None:
                 progress.step(f"{trial.task} {trial.transparency}")
-    assert batch.tables is not None
-    pool.save(batch.tables)
-    return int(pool.looks)
 
 
 def make_worlds() -> None:

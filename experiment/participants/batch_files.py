@@ -25,6 +25,7 @@ from experiment.errors import InputError
 from experiment.export.parquet import INSTALL, ParquetWriter
 from experiment.folders import stem_of
 from experiment.participants.data_mode import Played
+from experiment.participants.looks import Rows
 from experiment.private import make_folder, write_new
 from experiment.record_files import cell, csv_line, header_of
 
@@ -41,7 +42,7 @@ class Chunk:
 
     slots: tuple[int, ...]
     texts: Mapping[str, str]
-    looks: Mapping[str, Any] = field(default_factory=dict)  # drawn on the way: Pool.take_fresh
+    looks: Rows = field(default_factory=dict)  # drawn on a machine that can't write them itself
 
 
 def chunk_name(slots: Slots) -> str:

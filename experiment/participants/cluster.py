@@ -7,7 +7,6 @@ chunks of a worker that died to another one.
 from __future__ import annotations
 
 import hashlib
-import io
 import logging
 import pickle
 from collections import deque
@@ -22,7 +21,7 @@ from experiment.errors import InputError
 from experiment.participants import batch as b
 from experiment.participants.batch_files import Chunk, Slots, chunk_name
 from experiment.participants.code_hash import code_sha256
-from experiment.participants.tables import load as load_tables
+from experiment.participants.looks import Looks
 
 PATIENCE = 5.0  # seconds until a scheduler or workers that do not answer are not there
 AHEAD = 2  # chunks handed out for each thread of the cluster, so that none waits
@@ -80,8 +79,7 @@ class _Queue:
         self._client, self._chunks = client, iter(chunks)
         self._needs = {**_versions(), "code": job.code}
         self._job = pickle.dumps((replace(job, tables=None), study))
-        there = job.tables is not None and job.tables.exists()
-        self._tables = job.tables.read_bytes() if there and job.tables else b""
+        self._tables = Looks(job.tables).whole() if job.tables is not None else b""
         self._waiting: deque[tuple[Slots, Any]] = deque()
         self._scattered = self._scatter()
 
@@ -139,6 +137,6 @@ def _work(needs: Mapping[str, str], job: bytes, tables: bytes, slots: Slots) -> 
     with _one_at_a_time:
         if _prepared != [run]:
             batch, study = pickle.loads(job)
-            b.prepare(batch, study, load_tables(io.BytesIO(tables)) if tables else {})
+            b.prepare(batch, study, tables)
             _prepared[:] = [run]
         return b.play_files(slots)

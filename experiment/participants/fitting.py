@@ -9,13 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from math import exp, log
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.config import Study
 from experiment.design import SIMULATED, generator, session_for
 from experiment.participants.calibration import (
     FITTED,
@@ -27,7 +25,7 @@ from experiment.participants.calibration import (
 )
 from experiment.participants.data_mode import play_trial
 from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.pool import LazyDraw, Pool
+from experiment.participants.pool import Pool
 from experiment.participants.profile import Profile
 
 Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
@@ -56,23 +54,18 @@ LOOSE = 1.0  # logarithm of the factor by which a constant may move for one tole
 class Crowd:
     """The same people playing a study in data mode again and again, with one profile or another.
 
-    Scenes and tables are those of `pool`, or of a new one that draws what it lacks.
+    Scenes and tables are those of `pool`, which draws what it lacks.
     """
 
-    def __init__(
-        self, study: Study, seed: int, count: int, size: int, pool: Pool | None = None
-    ) -> None:
-        aspect = study.display.width / study.display.height
-        self.study, self.seed, self.slots = study, seed, range(1, count + 1)
-        self.pool = Pool(study, size, LazyDraw(study, aspect)) if pool is None else pool
-
-    def open(self, tables: Path) -> None:
-        """Read tables that are there already."""
-        if tables.exists():
-            self.pool.load(tables)
+    def __init__(self, seed: int, count: int, pool: Pool) -> None:
+        self.seed, self.slots = seed, range(1, count + 1)
+        self.study, self.pool = pool.study, pool
 
     def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, Any]]:
-        """Who, which task and level, and how long: every trial of `tasks`, after its training."""
+        """Who, which task and level, and how long: every trial of `tasks`, after its training.
+
+        What is drawn on the way is kept person by person: an interrupted fit goes on with it.
+        """
         rows = []
         for slot in self.slots:
             person = SimulatedParticipant(generator(self.seed, (SIMULATED, slot)), profile)
@@ -87,6 +80,7 @@ class Crowd:
                         {"participant": slot, "task": trial.task,
                          "transparency": trial.transparency, "time": time}
                     )  # fmt: skip
+            self.pool.looks.flush()
         return rows
 
 

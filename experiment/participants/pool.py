@@ -7,15 +7,14 @@ study, the same for everybody, as in the real session.
 from __future__ import annotations
 
 import hashlib
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, Trial, generator
-from experiment.participants.tables import Draw, Key, Table, TableEyes, load, save
+from experiment.participants.looks import Looks
+from experiment.participants.tables import Draw, TableEyes
 from experiment.scenes import StudyScenes
 from renderer.camera import Camera
 from renderer.models.simple import simplified
@@ -28,23 +27,21 @@ SIMPLE = "simple models, "  # what tables were looked at with
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
 
 
-# Viewpoints by table: how many objects its scene has, and their rows.
-Looks = dict[str, tuple[int, dict[Key, NDArray[np.float64]]]]
-
-
 class Pool(StudyScenes):
-    """Scenes by name, and their visibility tables by scene and transparency level.
+    """Scenes by name, and their visibility tables by scene and transparency level, in `looks`.
 
     `draw(level)` makes the function that draws for a level; without it only what the tables hold
     can be looked at. A pool of no worlds plays every trial in its own, as the real session does.
     """
 
-    def __init__(self, study: Study, size: int, draw: Any = None) -> None:
+    def __init__(
+        self, study: Study, size: int, draw: Any = None, looks: Looks | None = None
+    ) -> None:
         if size < 0:
             raise ValueError(f"pool = {size}: expected at least 1 scene a task, 0 for the study's")
         super().__init__(study)
         self.size, self._draw = size, draw
-        self.tables: dict[str, Table] = {}
+        self.looks = looks or Looks()
         self._scenes: dict[str, Any] = {}
         self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, its scenario
         self._draws: dict[str, Draw | None] = {}
@@ -74,36 +71,6 @@ class Pool(StudyScenes):
             self._eyes[key] = self._open(scene, level)
         return self._eyes[key]
 
-    def save(self, path: Path) -> None:
-        """Write all tables."""
-        path.parent.mkdir(parents=True, exist_ok=True)
-        save(path, self.tables)
-
-    def load(self, path: Path) -> None:
-        """Read tables written by `save`."""
-        self.tables |= load(path)
-
-    def take_fresh(self) -> Looks:
-        """What was drawn since the last call."""
-        found = {}
-        for name, table in self.tables.items():
-            if table.fresh:
-                found[name] = (table.objects, {key: table.rows[key] for key in table.fresh})
-                table.fresh.clear()
-        return found
-
-    def merge(self, looks: Looks) -> None:
-        """Take over what another process has drawn."""
-        for name, (objects, rows) in looks.items():
-            table = self.tables.setdefault(name, Table(objects))
-            for key, row in rows.items():
-                table.rows.setdefault(key, row)
-
-    @property
-    def looks(self) -> int:
-        """How many viewpoints the tables hold."""
-        return sum(len(t.rows) for t in self.tables.values())
-
     def _stream(self, task: str, which: int) -> tuple[int, ...]:
         return (STUDY_SCENES, POOL, sorted(TASKS).index(task), which)
 
@@ -120,11 +87,15 @@ class Pool(StudyScenes):
 
     def _open(self, scene: Scene, level: str) -> TableEyes:
         name, scenario = self._names[id(scene)]
-        key = f"{name}-{fingerprint(scene, self.study.dynamic)}/{level}"
-        table = self.tables.setdefault(key, Table(len(scene.objects)))
+        table = f"{name}-{fingerprint(scene, self.study.dynamic)}/{level}"
         if level not in self._draws:
             self._draws[level] = None if self._draw is None else self._draw(level)
-        return TableEyes(table, scenario, self._draws[level])
+        return TableEyes(self.looks, table, len(scene.objects), scenario, self._draws[level])
+
+
+def drawing(study: Study, size: int, looks: Looks | None = None) -> Pool:
+    """A pool that draws what its tables lack, in the study's window's shape."""
+    return Pool(study, size, LazyDraw(study, study.display.width / study.display.height), looks)
 
 
 def fingerprint(scene: Scene, technique: object) -> str:

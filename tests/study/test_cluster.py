@@ -25,7 +25,7 @@ def job(tmp_path_factory):
     """A study's file, and its tables, made once."""
     folder = tmp_path_factory.mktemp("small")
     (folder / "small.toml").write_text(SMALL, encoding="utf-8")
-    made = batch.Batch(str(folder / "small.toml"), 1, 1, folder / "small.npz")
+    made = batch.Batch(str(folder / "small.toml"), 1, 1, folder / "small.db")
     batch.fill(made)
     batch.play_chunk(range(1, PEOPLE + 1))
     batch.keep_tables()

@@ -51,7 +51,7 @@ def test_where_tables_are_exact_a_whole_session_is_the_same_event_for_event(cont
 def test_a_study_of_sixteen_in_data_mode_is_the_same_on_two_workers(tmp_path, monkeypatch):
     """What CI plays: 16 participants, two processes against one, down to the last byte."""
     monkeypatch.setattr("experiment.participants.batch_files.CHUNK", 4)
-    tables = tmp_path / "tables.npz"
+    tables = tmp_path / "tables.db"
     folders = []
     for workers in ("1", "2"):
         out = tmp_path / workers
@@ -68,7 +68,7 @@ def test_a_study_of_sixteen_in_data_mode_is_the_same_on_two_workers(tmp_path, mo
     [
         "simulate demo --out {t}/x --participants 1",
         "simulate demo --out {t}/x --participants 1 --mode data --pool 1",
-        "calibrate demo --out {t}/c.toml --tables {t}/t.npz --pool 1 --participants 3",
+        "calibrate demo --out {t}/c.toml --tables {t}/t.db --pool 1 --participants 3",
     ],
 )
 def test_without_opengl_a_command_that_draws_says_so_in_one_line(

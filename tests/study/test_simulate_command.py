@@ -16,7 +16,7 @@ def rows(folder):
 
 @pytest.fixture(scope="module")
 def tables(tmp_path_factory):
-    return tmp_path_factory.mktemp("tables") / "demo.npz"
+    return tmp_path_factory.mktemp("tables") / "demo.db"
 
 
 @pytest.fixture(autouse=True)

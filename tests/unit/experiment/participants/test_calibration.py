@@ -166,7 +166,7 @@ def test_the_command_that_made_a_profile_can_be_given_again():
     words = (
         "demo --profile hasty --participants 5 --evaluations 7 --last 6 --seed 3 --pool 2 --check 4"
     )
-    files = ["--tables", "t.npz", "--out", "p.toml"]
+    files = ["--tables", "t.db", "--out", "p.toml"]
     arguments = parser.parse_args([*words.split(), "--check-seed", "9", *files])
     told = command._provenance(arguments, "hasty", 1.0, [])
     program, name, *again = told["command"].split()

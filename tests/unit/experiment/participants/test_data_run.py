@@ -1,15 +1,13 @@
 """A run of data mode before anybody plays: what it needs, what it refuses, in a line each."""
 
-import os
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from experiment import cli
 from experiment.config import load
 from experiment.errors import InputError
-from experiment.participants import data_run, tables
+from experiment.participants import data_run
 from experiment.participants.batch import Batch
 from experiment.participants.batch_files import Results, render
 from experiment.participants.data_mode import Played
@@ -35,7 +33,7 @@ def simulate(*words):
 
 
 def test_a_finished_run_makes_no_tables(tmp_path, monkeypatch):
-    job, study = Batch("demo", 1, 2, tmp_path / "t.npz"), load("demo")
+    job, study = Batch("demo", 1, 2, tmp_path / "t.db"), load("demo")
     about = job.about(study)
     with Results(tmp_path / "out", study, about) as results:
         people = [Played("demo", "S01", 1, status="complete")]
@@ -48,19 +46,10 @@ def test_a_finished_run_makes_no_tables(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("workers", ["1", "2"])
-@pytest.mark.parametrize("content", [b"# Read me\n", b"PK\x03\x04half", b"", "npy", "npz", "rows"])
+@pytest.mark.parametrize("content", [b"# Read me\n", b"SQLite format 3\0half", b"PK\x03\x04" * 999])
 def test_a_file_that_is_no_tables_is_refused_in_a_line(tmp_path, capsys, content, workers):
     path = tmp_path / "README.md"
-    if isinstance(content, bytes):
-        path.write_bytes(content)
-    with open(path, "ab") as file:
-        if content == "npy":
-            np.save(file, np.zeros(3))
-        if content == "npz":
-            np.savez(file, mine=np.zeros(3))
-        if content == "rows":
-            np.savez(file, **{"a/keys": np.zeros((1, 3), int), "a/widths": np.array([3, 2]),
-                              "a/rows": np.zeros((5, 2))})  # fmt: skip
+    path.write_bytes(content)
     before = path.read_bytes()
     words = ["--tables", path, "--out", tmp_path / "out", "--workers", workers]
     assert simulate(*words) == 2
@@ -71,33 +60,13 @@ def test_a_file_that_is_no_tables_is_refused_in_a_line(tmp_path, capsys, content
     assert path.read_bytes() == before
 
 
-def test_tables_are_saved_under_a_name_of_the_process_and_whole(tmp_path, monkeypatch):
-    drafts = []
-    real = np.savez
-
-    def savez(file, **arrays):
-        drafts.append(os.path.basename(file.name))
-        real(file, **arrays)
-        if len(drafts) == 2:
-            raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(np, "savez", savez)
-    tables.save(tmp_path / "t.npz", {"a": tables.Table(3)})
-    before = (tmp_path / "t.npz").read_bytes()
-    with pytest.raises(OSError, match="No space"):
-        tables.save(tmp_path / "t.npz", {"b": tables.Table(3)})
-    assert all(str(os.getpid()) in draft for draft in drafts)
-    assert [p.name for p in tmp_path.iterdir()] == ["t.npz"]
-    assert (tmp_path / "t.npz").read_bytes() == before and set(tables.load(tmp_path / "t.npz"))
-
-
 def test_the_folder_one_is_in_has_a_name_for_its_tables(tmp_path, monkeypatch):
     runs = []
     monkeypatch.setattr(data_run, "run", lambda job, *_: runs.append(job))
     (tmp_path / "here").mkdir()
     monkeypatch.chdir(tmp_path / "here")
     assert simulate("--out", ".") == simulate("--out", tmp_path / "there") == 0
-    assert [job.tables.name for job in runs] == ["here-tables.npz", "there-tables.npz"]
+    assert [job.tables.name for job in runs] == ["here-tables.db", "there-tables.db"]
     assert {job.tables.parent for job in runs} == {tmp_path}
 
 

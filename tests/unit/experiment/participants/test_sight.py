@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from experiment.participants.glance import CLEAR, WINDOW_PIXELS, likely
+from experiment.participants.looks import Looks
 from experiment.participants.profile import AVERAGE
 from experiment.participants.sight import sight
-from experiment.participants.tables import Table
 from renderer import geometry
 from renderer.scene import Object, Scene
 from renderer.visibility import Visibility
@@ -29,9 +29,9 @@ def look():
 
 
 def kept():
-    table = Table(len(THINGS))
-    table.put((0, 0, 0), look())
-    return table.get((0, 0, 0))
+    looks = Looks()
+    looks.put("a", (0, 0, 0), look())
+    return looks.get("a", len(THINGS), (0, 0, 0))
 
 
 @pytest.mark.parametrize("seen", [look(), kept()])

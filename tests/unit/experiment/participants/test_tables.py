@@ -4,49 +4,31 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from made_looks import random_look, same_look
 from numpy.testing import assert_allclose
 
 from experiment.config import load
 from experiment.design import generator
 from experiment.participants.data_mode import play_session, play_trial
+from experiment.participants.looks import Looks
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.places import AHEAD, STRIDES
 from experiment.participants.pool import Pool, fingerprint
 from experiment.participants.tables import (
     PITCHES,
     YAWS,
-    Table,
     TableEyes,
     orbit_camera,
     orbit_key,
     walk_camera,
     walk_key,
 )
-from experiment.participants.tables import load as load_tables
-from experiment.participants.tables import save as save_tables
 from renderer.visibility import Visibility
 from tasks.catalog import TASKS
 from tasks.controls import orbit, walk
 from tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
-
-
-def same(a, b):
-    """Whether two looks are the same to the last bit."""
-    return all(
-        np.array_equal(getattr(a, n), getattr(b, n), equal_nan=True)
-        for n in ("pixels", "weight", "position", "contrast", "area")
-    )
-
-
-def random_sight(seed, n=12):
-    rng = np.random.default_rng(seed)
-    pixels = rng.integers(0, 50, n) * (rng.random(n) < 0.6)
-    seen = pixels > 0
-    position = np.where(seen[:, None], rng.random((n, 2)), np.nan)
-    return Visibility(pixels, rng.random(n) * seen, position, rng.random(n) * seen,
-                      rng.random(n) * seen)  # fmt: skip
 
 
 def test_orbit_lattice_poses_are_their_own_nearest():
@@ -82,33 +64,20 @@ def test_walk_lattice_poses_are_their_own_nearest():
             )
 
 
-def test_a_table_gives_back_what_was_put_to_the_last_bit(tmp_path):
-    table = Table(12)
-    looks = {(k, 2): random_sight(k) for k in range(5)}
-    for key, seen in looks.items():
-        table.put(key, seen)
-    save_tables(tmp_path / "t.npz", {"a-1/standard": table, "none/dynamic": Table(3)})
-    back = load_tables(tmp_path / "t.npz")
-    assert set(back) == {"a-1/standard", "none/dynamic"} and back["none/dynamic"].objects == 3
-    for key, seen in looks.items():
-        assert same(table.get(key), seen) and same(back["a-1/standard"].get(key), seen)
-    assert not same(looks[0, 2], looks[1, 2])
-
-
 def test_eyes_draw_each_viewpoint_once_at_the_lattice_pose():
     drawn = []
 
     def draw(scene, camera):
         drawn.append(camera)
-        return random_sight(len(drawn))
+        return random_look(len(drawn))
 
-    eyes = TableEyes(Table(12), "walkthrough", draw)
+    eyes = TableEyes(Looks(), "a", 12, "walkthrough", draw)
     first = walk(BuildingParameters(), (2.6, 2.4), 0.05).camera()
     second = walk(BuildingParameters(), (2.4, 2.7), -0.1).camera()
-    assert same(eyes.look(None, first), eyes.look(None, second))
+    assert same_look(eyes.look(None, first), eyes.look(None, second))
     assert len(drawn) == 1
     assert_allclose(drawn[0].eye, (2.5, 3.2, 2.5))
-    blind = TableEyes(Table(12), "walkthrough")
+    blind = TableEyes(Looks(), "a", 12, "walkthrough")
     with pytest.raises(KeyError, match=r"viewpoint \(0, 0, 0\) is in no table"):
         blind.look(None, first)
 
@@ -171,14 +140,11 @@ class OpenEyes(Pool):
 
 def test_tables_made_beforehand_play_the_same_without_drawing(tmp_path):
     study = small_study()
-    making = Pool(study, 2, shown)
-    first = play_session(study, 1, 5, making)
-    assert all(len(k) in (2, 3) for t in making.tables.values() for k in t.rows)
-    making.save(tmp_path / "pool.npz")
-    assert making.looks > 10
-    using = Pool(study, 2)
-    using.load(tmp_path / "pool.npz")
-    again = play_session(study, 1, 5, using)
+    looks = Looks(tmp_path / "pool.db")
+    first = play_session(study, 1, 5, Pool(study, 2, shown, looks))
+    assert {len(key) for _, key in looks.keys()} == {2, 3} and len(looks.keys()) > 10
+    looks.flush()
+    again = play_session(study, 1, 5, Pool(study, 2, looks=Looks(tmp_path / "pool.db")))
     assert first.trials == again.trials and first.questions == again.questions
     assert len({r["row_id"] for r in first.trials}) == len(first.trials) == 8
     assert first.status == "complete"
