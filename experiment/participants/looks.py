@@ -21,7 +21,7 @@ from experiment.participants.sight import Kept, shown
 from renderer.visibility import Visibility
 
 OURS = 0x53656521  # "See!" as SQLite's application id: what tells our files from others
-MOST_KEPT = 16_384  # looks held, with what people make of them: some 10 KB each
+MOST_KEPT = 32_768  # looks held, with what people make of them: some 5 KB each
 PATIENCE = 60.0  # seconds until another process has written its looks, which takes milliseconds
 NUMBERS = 7  # of each visible object: see `sight.shown`
 

@@ -78,18 +78,18 @@ class Kept(Visibility):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Sight:
-    """A look at a building by somebody of a profile: lists of the k things that are visible.
+    """A look at a building by somebody of a profile: lists of the k things visible that may be
+    asked for.
 
-    `notice` (k,) and `recognise` are chances, `weight` and `contrast` those of the look, `thing`
-    (k,) says what may be asked for; `walls` has a bit set for each other object that is visible.
+    `notice` and `recognise` are chances, `weight` and `contrast` those of the look. `walls` has a
+    bit set for each other object that is visible: walls are not looked at, but remembered.
     """
 
     index: list[int]
-    notice: NDArray[np.float64]
+    notice: list[float]
     recognise: list[float]
     weight: list[float]
     contrast: list[float]
-    thing: NDArray[np.bool_]
     walls: int
 
 
@@ -107,18 +107,17 @@ def sight(seen: Visibility, scene: Scene, profile: Profile) -> Sight:
 
 
 def _sight(rows: NDArray[np.float64], scene: Scene, p: Profile) -> Sight:
-    index, weight, contrast, area = (rows[k] for k in (0, 2, 5, 6))
+    asked = scene.targets[rows[0].astype(np.int64)]
+    index, _, weight, _, _, contrast, area = rows[:, asked]
     pixels = area * WINDOW_PIXELS
-    thing = scene.targets[index.astype(np.int64)]
-    numbers = [int(i) for i in index.tolist()]
+    notice = likely(contrast * np.sqrt(pixels), p.notice, p.notice_spread)
+    clear = pixels * np.minimum(contrast / CLEAR, 1.0)
+    recognise = likely(clear, p.recognise, p.recognise_spread)
     return Sight(
-        numbers,
-        likely(contrast * np.sqrt(pixels), p.notice, p.notice_spread),
-        likely(
-            pixels * np.minimum(contrast / CLEAR, 1.0), p.recognise, p.recognise_spread
-        ).tolist(),
+        [int(i) for i in index.tolist()],
+        notice.tolist(),
+        recognise.tolist(),
         weight.tolist(),
         contrast.tolist(),
-        thing,
-        sum(1 << i for i, asked in zip(numbers, thing.tolist(), strict=True) if not asked),
+        sum(1 << int(i) for i in rows[0, ~asked].tolist()),
     )

@@ -122,9 +122,9 @@ class Walker:
         self._think(0.0, len(things))
 
     def _noticed(self, view: Sight) -> list[int]:
-        """Which of the things seen are noticed; walls are not looked at, but remembered."""
-        hits = self.mood.rng.random(len(view.index)) < view.notice
-        return (hits & view.thing).nonzero()[0].tolist()
+        """Which of the things seen are noticed."""
+        draws = self.mood.rng.random(len(view.notice)).tolist()
+        return [k for k, chance in enumerate(view.notice) if draws[k] < chance]
 
     def _make_out(
         self, seen: Visibility, view: Sight, things: list[int]
