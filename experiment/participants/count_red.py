@@ -38,9 +38,9 @@ def count_red(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None
         views += 1
         # One more among thirty is hardly news, and may be an old one taken for new.
         quiet = 0 if len(new) > p.no_news * tally else quiet + 1
-        # Who has seen red things through others believes a view sooner.
+        # Nobody believes a first view; who has seen red things through others needs fewer more.
         through = through or bool((seen.weight[red] < WHOLE).any())
-        patience = p.patience * mood.care * (1 - p.trust_cloud * through)
+        patience = 1 + max(0.0, p.patience * mood.care - 1) * (1 - p.trust_cloud * through)
         # A patience of 1.3 is one quiet view, and another three times out of ten.
         if quiet + mood.rng.random() > patience or views >= MOST_VIEWS:
             break

@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import ndtri
+from scipy.stats.qmc import Halton
 
 from experiment.design import SIMULATED, generator, session_for
 from experiment.participants.calibration import (
@@ -25,6 +27,7 @@ from experiment.participants.calibration import (
 )
 from experiment.participants.data_mode import play_trial
 from experiment.participants.participant import SimulatedParticipant
+from experiment.participants.person import TRAITS
 from experiment.participants.pool import Pool
 from experiment.participants.profile import Profile
 
@@ -37,7 +40,7 @@ FREE = {
     "patience": 3.0,  # thoroughness: views without news before a count is believed
     "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
     "trust": 1.6,  # caution: how far a view through walls is believed
-    "trust_cloud": 2.0,  # caution: patience saved by seeing things through others
+    "trust_cloud": 2.4,  # caution: patience saved by seeing things through others
     "sd_person": 4.0,
     "sd_task": 4.0,
     "sd_trial": 4.0,
@@ -47,19 +50,24 @@ FREE = {
 }
 STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
 PACES = 1  # evaluations that correct the pace alone
-LAST = 6  # evaluations of the larger crowd
+STEPS = 6  # evaluations of the larger crowd, once its derivatives are there
+LAST = 1 + len(FREE) + STEPS  # all evaluations of the larger crowd
 LOOSE = 1.0  # logarithm of the factor by which a constant may move for one tolerance of misfit
 
 
 class Crowd:
     """The same people playing a study in data mode again and again, with one profile or another.
 
-    Scenes and tables are those of `pool`, which draws what it lacks.
+    They are spread evenly over what people are like (a scrambled Halton sequence), not drawn: a
+    few very slow people more or less would move a standard deviation by a tenth. Scenes and tables
+    are those of `pool`, which draws what it lacks.
     """
 
     def __init__(self, seed: int, count: int, pool: Pool) -> None:
         self.seed, self.slots = seed, range(1, count + 1)
         self.study, self.pool = pool.study, pool
+        even = Halton(TRAITS, seed=generator(seed, (SIMULATED,)))
+        self.traits = ndtri(even.random(count))
 
     def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, Any]]:
         """Who, which task and level, and how long: every trial of `tasks`, after its training.
@@ -68,7 +76,9 @@ class Crowd:
         """
         rows = []
         for slot in self.slots:
-            person = SimulatedParticipant(generator(self.seed, (SIMULATED, slot)), profile)
+            person = SimulatedParticipant(
+                generator(self.seed, (SIMULATED, slot)), profile, traits=self.traits[slot - 1]
+            )
             for task_set in session_for(slot, self.study.design.factors()):
                 if task_set.trials[0].task not in tasks:
                     continue
@@ -131,7 +141,7 @@ def calibrate(
     First the pace is corrected by how far the fitted means are off; where there are evaluations
     for derivatives, scipy's least squares (trust region reflective) moves all of `FREE`, with
     derivatives over `STEP`. Then a larger crowd (`last`) corrects what was peculiar to the first
-    one in `LAST` evaluations, with the derivatives that are there.
+    one: `STEPS` with its own derivatives, which change little from one to the next.
     """
     search = _Search(start, play, say)
     x = np.zeros(len(FREE))
@@ -141,10 +151,10 @@ def calibrate(
         return search.best, float(search.value)
     for _ in range(PACES):
         x[0] -= _too_slow(search.found(x))
-    slopes = _least_squares(search.residuals, x, evaluations - search.count)
+    _least_squares(search.residuals, x, (evaluations - search.count) // (1 + len(FREE)))
     if last is not None:
         x, search = search.x, _Search(start, last, say)
-        _least_squares(search.residuals, x, LAST, slopes)
+        _least_squares(search.residuals, x, STEPS, _slopes(search.residuals, x))
     return search.best, float(search.value)
 
 
@@ -158,27 +168,32 @@ def _too_slow(simulated: Mapping[str, TimeMeasure]) -> float:
     return float(np.mean(np.log(ratios)))
 
 
+def _slopes(
+    found: Callable[[NDArray[np.float64]], NDArray[np.float64]], x: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(residuals, constants) forward differences of `found` at `x`."""
+    here = found(x)
+    return np.stack([(found(x + step) - here) / STEP for step in STEP * np.eye(len(x))], axis=1)
+
+
 def _least_squares(
     found: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     x: NDArray[np.float64],
-    evaluations: int,
+    steps: int,
     slopes: NDArray[np.float64] | None = None,
-) -> NDArray[np.float64]:
-    """Go down from `x`; the derivatives where that ended, or those given."""
+) -> None:
+    """Go down from `x` in so many steps, with new derivatives in each unless `slopes` are given."""
     from scipy.optimize import least_squares
 
     bounds = np.log(list(FREE.values()))
-    # Each derivative takes as many evaluations as there are constants; scipy counts steps alone.
-    steps = evaluations if slopes is not None else max(1, evaluations // (1 + len(FREE)))
     # Its steps of derivation are shares of x: those of 1 + x are about `STEP` everywhere.
-    ended = least_squares(
+    least_squares(
         lambda z: found(z - 1),
         np.clip(x, -0.99 * bounds, 0.99 * bounds) + 1,
         jac="2-point" if slopes is None else lambda z: slopes,
         bounds=(1 - bounds, 1 + bounds),
         diff_step=STEP,
-        max_nfev=steps,
+        max_nfev=max(1, steps),
         xtol=0.01,
         ftol=0.01,
     )
-    return np.asarray(ended.jac)

@@ -10,7 +10,9 @@ from collections.abc import Callable, Generator, Iterable
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
 from numpy.random import Generator as Random
+from numpy.typing import NDArray
 
 from experiment.pages import Page
 from experiment.participants.code_hash import code_sha256
@@ -39,9 +41,13 @@ class SimulatedParticipant:
     """Sits through a session: `begin_trial`, then `events` again and again; `answer` for pages."""
 
     def __init__(
-        self, rng: Random, profile: Profile = AVERAGE, without: Iterable[str] = ()
+        self,
+        rng: Random,
+        profile: Profile = AVERAGE,
+        without: Iterable[str] = (),
+        traits: NDArray[np.float64] | None = None,
     ) -> None:
-        self.person = Person(rng, profile, checked(without))
+        self.person = Person(rng, profile, checked(without), traits)
         self.opinions = Opinions(self.person)
         self.effects: dict[str, EffectUse] = {}
         self._strategy: Generator[list[Event], Glance, None] | None = None

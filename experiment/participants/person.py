@@ -7,11 +7,13 @@ from math import exp
 
 import numpy as np
 from numpy.random import Generator
+from numpy.typing import NDArray
 
 from experiment.participants.effects import WALKING, EffectUse, plan_effects
 from experiment.participants.profile import Profile
 
 TASKS = ("count", "pattern", "unique", "count_in_building")
+TRAITS = 2 + len(TASKS)
 
 
 @dataclass
@@ -19,18 +21,22 @@ class Person:
     """Pace and care for a whole session; experience grows with each trial.
 
     `pace` multiplies mental times at each task, `care` multiplies patience and divides slips.
+    `traits` (2 + tasks,) are the person's standard normal deviates: of care, of pace, of pace at
+    each task. Without them they are drawn.
     """
 
     rng: Generator
     profile: Profile
     without: frozenset[str] = frozenset()
+    traits: NDArray[np.float64] | None = None
     pace: dict[str, float] = field(init=False)
     care: float = field(init=False)
     experience: dict[str, int] = field(default_factory=dict)
     began: float | None = None
 
     def __post_init__(self) -> None:
-        draws = self.rng.standard_normal(2 + len(TASKS))
+        drawn = self.rng.standard_normal(TRAITS)
+        draws = drawn if self.traits is None else np.array(self.traits)
         p = self.profile
         if "people" in self.without:
             draws[:] = 0

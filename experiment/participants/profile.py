@@ -59,14 +59,15 @@ class Profile:
 
     # Strategy [ours].
     orbit_step: float = pi / 3  # from one view of the abstract world to the next
-    patience: float = 2.0  # views without news before a count is believed
+    patience: float = 2.0  # views without news before a count is believed, 1 or more
     diligence: float = 0.06  # share of the building that may stay unseen when counting
     certainty: float = 0.90  # posterior probability at which a letter is believed
     letter_looks: int = 8  # after so many looks, the best guess is good enough
     letter_turning: float = 1.0  # seconds to turn a letter half round in the mind (Cooper 1975)
     no_news: float = 0.05  # so small a share of new things does not keep one looking
     trust: float = 0.8  # in a view through walls, against one that nothing hides
-    trust_cloud: float = 0.4  # patience saved once things in a cloud were seen through others
+    # Share of the patience beyond 1 that is saved once things were seen through others.
+    trust_cloud: float = 0.4
     near_enough: float = 18.0  # how near one walks to see where something stands
 
     # Places. Distances in virtual worlds look short and uncertain (Loomis & Knapp 2003).

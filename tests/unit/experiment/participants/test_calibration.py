@@ -9,6 +9,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from experiment.commands import calibrate as command
+from experiment.config import load
+from experiment.design import generator
 from experiment.errors import InputError
 from experiment.participants.calibration import (
     LEVELS,
@@ -19,7 +21,9 @@ from experiment.participants.calibration import (
     table,
 )
 from experiment.participants.code_hash import code_sha256
-from experiment.participants.fitting import FREE, LAST, calibrate, with_free
+from experiment.participants.fitting import FREE, LAST, Crowd, calibrate, with_free
+from experiment.participants.person import TRAITS, Person, mood_for
+from experiment.participants.pool import Pool
 from experiment.participants.profile import AVERAGE
 from experiment.participants.profile_file import SHIPPED, find, read, write
 
@@ -111,7 +115,31 @@ def test_a_larger_crowd_corrects_what_was_peculiar_to_the_first():
 
     best, value = calibrate(AVERAGE, crowd(1.7), 60, last=larger)
     assert_allclose(best.pace, 1.5, rtol=0.02)
-    assert value == misfit(measured(crowd(1.5)(best))) and 2 <= len(played) <= LAST
+    assert value == misfit(measured(crowd(1.5)(best))) and 2 + len(FREE) < len(played) <= LAST
+
+
+def test_a_crowd_is_spread_evenly_over_what_people_are_like():
+    """512 drawn people would have means off by .044 (s.e.), these by less than a third of it."""
+    study = load("demo")
+    crowds = [Crowd(seed, 512, Pool(study, 1)) for seed in (1, 1, 2)]
+    traits = [crowd.traits for crowd in crowds]
+    assert np.array_equal(traits[0], traits[1]) and not np.array_equal(traits[0], traits[2])
+    for each in traits:
+        assert each.shape == (512, TRAITS)
+        assert_allclose(each.mean(axis=0), 0, atol=0.03)
+        assert_allclose(each.std(axis=0), 1, atol=0.03)
+        assert_allclose(np.corrcoef(each.T), np.eye(TRAITS), atol=0.06)
+
+
+def test_given_traits_make_the_person_and_leave_the_trials_luck_alone():
+    drawn = Person(generator(3, (2, 1)), AVERAGE)
+    traits = generator(3, (2, 1)).standard_normal(TRAITS)
+    given = Person(generator(3, (2, 1)), AVERAGE, traits=traits)
+    other = Person(generator(3, (2, 1)), AVERAGE, traits=np.zeros(TRAITS))
+    assert given.pace == drawn.pace and given.care == drawn.care
+    assert other.care == AVERAGE.care and set(other.pace.values()) == {AVERAGE.pace}
+    moods = [mood_for(person, "count", 0.0) for person in (drawn, other)]
+    assert moods[0].rng.random() == moods[1].rng.random()
 
 
 def test_table_names_every_measure_and_its_half():
