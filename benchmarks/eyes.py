@@ -1,8 +1,9 @@
 """What a simulated participant's eyes cost in time, and what coarser eyes cost in accuracy.
 
-`python -m benchmarks.eyes --json FILE --figure FILE.svg`: the same trials with id pictures of
-several heights and from the tables' lattice, against the finest picture. Errors are those of the
-task measures: mean completion time, and mean absolute count error.
+`python -m benchmarks.eyes --json FILE --figure FILE.svg`: the same people at the same trials with
+id pictures of several heights, with more and fewer looks while on the move, and from the tables'
+lattice, against the finest eyes. Errors are those of the task measures: geometric mean of the
+completion times, and mean absolute count error; each with the standard error of the pairs.
 """
 
 from __future__ import annotations
@@ -11,11 +12,12 @@ import argparse
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from experiment.config import Study, load
 from experiment.design import SIMULATED, Trial, generator, session_for
@@ -24,6 +26,7 @@ from experiment.pages import Page, Paragraph
 from experiment.participants.data_mode import play_trial
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.pool import Pool, drawing
+from experiment.participants.profile import AVERAGE
 from experiment.world import TrialRecord
 from renderer.gpu.renderer import Renderer
 from renderer.models.simple import simplified
@@ -31,13 +34,43 @@ from renderer.techniques.standard import Standard
 from renderer.visibility import Visibility
 from tasks.base import View
 
-HEIGHTS = (300, 150, 75, 38)  # of the id picture, in pixels; the first is the reference
 ASPECT = 4 / 3
+TRIALS = 384  # of the published study: what a way to look costs there is drawn
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way to look: rows of the id picture (0: from tables), models, looks on the move."""
+
+    height: int
+    simple: bool = True
+    passing: int = AVERAGE.passing
+
+    @property
+    def name(self) -> str:
+        """What rows and figure call it."""
+        models = "" if self.simple else ", whole models"
+        looks = {0: ", none on the way", 1: "", 2: ", twice the looks"}[self.passing]
+        return f"visual, {self.height} px{models}{looks}" if self.height else "data mode, 150 px"
+
+
+# The reference first; then the default, coarser and finer pictures, fewer and more looks, tables.
+WAYS = (
+    Way(300, simple=False, passing=2),
+    Way(150, simple=False),
+    Way(300),
+    Way(150),
+    Way(75),
+    Way(38),
+    Way(150, passing=2),
+    Way(150, passing=0),
+    Way(0),
+)
 
 
 @dataclass(frozen=True)
 class Eyes:
-    """A way to look: its name, seconds a trial, and the trials it led to."""
+    """A way to look: its name, seconds a trial, the trials it led to."""
 
     name: str
     seconds: float
@@ -47,46 +80,63 @@ class Eyes:
 class OpenEyes(Pool):
     """Looks from where the camera is, into a picture of a given size."""
 
-    def __init__(
-        self, study: Study, size: int, renderer: Renderer, height: int, simple: bool
-    ) -> None:
+    def __init__(self, study: Study, size: int, renderer: Renderer, way: Way) -> None:
         super().__init__(study, size)
-        self.renderer, self.picture = renderer, (round(height * ASPECT), height)
-        self.simple = simple
+        self.renderer, self.way = renderer, way
+        self.picture = (round(way.height * ASPECT), way.height)
 
     def look(self, view: View, level: str) -> Visibility:
         """What is seen in the view, drawn anew."""
         technique = self.study.dynamic if level == "dynamic" else Standard()
-        scene = simplified(view.scene) if self.simple else view.scene
+        scene = simplified(view.scene) if self.way.simple else view.scene
         return self.renderer.look(scene, view.camera, technique, self.picture)
 
 
-def play(trials: Sequence[Trial], pool: Pool, name: str, repeats: int) -> Eyes:
-    """Every trial `repeats` times, each by a person of its own."""
+def play(trials: Sequence[Trial], pool: Pool, way: Way, repeats: int) -> Eyes:
+    """Every trial `repeats` times, each by a person of its own: the same for every way to look."""
     played = []
+    profile = replace(AVERAGE, passing=way.passing)
     start = time.perf_counter()
     for k, trial in enumerate(trials):
         for repeat in range(repeats):
-            person = SimulatedParticipant(generator(1, (SIMULATED, 1 + k, repeat)))
+            person = SimulatedParticipant(generator(1, (SIMULATED, 1 + k, repeat)), profile)
             text = Paragraph(f"transparency.{trial.transparency}")
             person.answer(Page("instruction", "", (text,)))
             played.append(play_trial(person, pool, trial)[0])
-    return Eyes(name, (time.perf_counter() - start) / len(played), tuple(played))
+    seconds = (time.perf_counter() - start) / len(played)
+    return Eyes(way.name, seconds, tuple(played))
 
 
 def measure(eyes: Eyes, reference: Eyes) -> dict[str, Any]:
-    """The row of a way to look: relative differences of the task measures."""
-    time_ = [np.mean([t.time for t in e.trials]) for e in (eyes, reference)]
-    off = [
-        np.mean([abs(t.outcome.count_error) for t in e.trials
-                 if t.outcome and t.outcome.count_error is not None])
-        for e in (eyes, reference)
-    ]  # fmt: skip
+    """The row of a way to look: differences of the task measures, with their standard errors."""
+    slower = np.log([t.time / r.time for t, r in zip(eyes.trials, reference.trials, strict=True)])
+    counts = np.array([_count_errors(e) for e in (eyes, reference)])
     return {
-        "figure": "eyes", "scene": eyes.name, "value": round(eyes.seconds * 1e3, 2),
-        "unit": "ms a trial", "time_error": round(float(time_[0] / time_[1] - 1), 4),
-        "count_error": round(float(off[0] - off[1]), 4),
-    }  # fmt: skip
+        "figure": "eyes",
+        "scene": eyes.name,
+        "value": round(eyes.seconds * 1e3, 2),
+        "unit": "ms a trial",
+        "looks_a_second": round(_looks(eyes), 2),
+        "time_error": round(float(np.expm1(slower.mean())), 4),
+        "time_error_se": round(_se(slower), 4),
+        "count_error": round(float(np.mean(counts[0] - counts[1])), 4),
+        "count_error_se": round(_se(counts[0] - counts[1]), 4),
+    }
+
+
+def _looks(eyes: Eyes) -> float:
+    """Looks a simulated second in the building, where every frame is looked at."""
+    walks = [t for t in eyes.trials if t.trial.scenario != "abstract"]
+    return sum(t.frames for t in walks) / sum(t.time for t in walks)
+
+
+def _count_errors(eyes: Eyes) -> list[int]:
+    counts = (t.outcome.count_error for t in eyes.trials if t.outcome)
+    return [abs(error) for error in counts if error is not None]
+
+
+def _se(differences: NDArray[np.float64]) -> float:
+    return float(differences.std(ddof=1) / len(differences) ** 0.5)
 
 
 def run(repeats: int) -> list[dict[str, Any]]:
@@ -94,30 +144,46 @@ def run(repeats: int) -> list[dict[str, Any]]:
     study = load("published")
     trials = [s.trials[0] for s in session_for(1, study.design.factors())]
     renderer = Renderer(open_context(), (800, 600))
-    ways = []
-    for height, simple in ((HEIGHTS[0], False), (HEIGHTS[1], False), *((h, True) for h in HEIGHTS)):
-        pool = OpenEyes(study, 4, renderer, height, simple)
-        models = "" if simple else ", whole models"
-        ways.append(play(trials, pool, f"visual, {height} px{models}", repeats))
-    pool = drawing(study, 4)
-    play(trials, pool, "making tables", repeats)
-    ways.append(play(trials, pool, "data mode, 150 px", repeats))
-    return [measure(way, ways[0]) for way in ways]
+    seen = []
+    for way in WAYS:
+        pool = OpenEyes(study, 4, renderer, way) if way.height else drawing(study, 4)
+        if not way.height:
+            play(trials, pool, way, repeats)  # makes the tables
+        seen.append(play(trials, pool, way, repeats))
+    return [measure(eyes, seen[0]) for eyes in seen]
+
+
+def told(row: dict[str, Any]) -> str:
+    """A row as a line."""
+    return (
+        f"{row['scene']:42s}{row['value']:8.1f} ms a trial, {row['looks_a_second']:.1f} looks a "
+        f"second; time {row['time_error']:+.3f} ± {row['time_error_se']:.3f}, "
+        f"count {row['count_error']:+.2f} ± {row['count_error_se']:.2f}"
+    )
 
 
 def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
-    """Error against time, one point for each way to look."""
+    """Error against time, a mark for each way to look, with twice its standard error."""
     import matplotlib
 
     matplotlib.use("svg")
     from matplotlib import pyplot
 
-    figure, axes = pyplot.subplots(figsize=(7, 4))
-    for row in rows:
-        axes.scatter(row["value"], abs(row["time_error"]), color="C0")
-        axes.annotate(row["scene"], (row["value"], abs(row["time_error"])), xytext=(2, 5),
-                      textcoords="offset points", fontsize=8, rotation=35)  # fmt: skip
-    axes.set(xscale="log", xlabel="ms a trial", ylabel="error of the mean completion time")
+    figure, axes = pyplot.subplots(figsize=(8, 4.5))
+    marks = "os^vD<>pP*"
+    axes.axhline(0, color="0.8", linewidth=1)
+    for k, row in enumerate(rows):
+        minutes = row["value"] * TRIALS / 60e3
+        axes.errorbar(
+            minutes, 100 * row["time_error"], 200 * row["time_error_se"], color=f"C{k}",
+            marker=marks[k], capsize=3, linestyle="", label=row["scene"],
+        )  # fmt: skip
+    axes.set(
+        xscale="log",
+        xlabel=f"minutes for {TRIALS} trials",
+        ylabel="error of the completion time, %\n(± 2 standard errors)",
+    )
+    axes.legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1, 0.5))
     axes.spines[["top", "right"]].set_visible(False)
     figure.savefig(path, bbox_inches="tight", metadata={"Date": None})
 
@@ -127,12 +193,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", type=Path, metavar="FILE")
     parser.add_argument("--figure", type=Path, metavar="FILE")
-    parser.add_argument("--repeats", type=int, default=4, help="people for each of 8 trials")
+    parser.add_argument("--repeats", type=int, default=8, help="people for each of 8 trials")
     chosen = parser.parse_args(arguments)
     rows = run(chosen.repeats)
     for row in rows:
-        errors = f"time {row['time_error']:+.3f}, count {row['count_error']:+.2f}"
-        print(f"{row['scene']:20s}{row['value']:10.1f} ms a trial, {errors}")
+        print(told(row))
     if chosen.json:
         chosen.json.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
     if chosen.figure:

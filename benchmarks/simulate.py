@@ -40,7 +40,8 @@ WALKERS = 128  # whose way through the buildings is drawn into the tables
 LONG = 64  # participants whose seconds are measured
 CHUNK = 4  # of them that a worker plays at a time
 WARM = 16  # others that each worker plays before clocks run
-PEOPLE = 512  # whose times are compared with the published ones: a mean is known to 2 or 3 % then
+PEOPLE = 1024  # whose times are compared with the published ones
+PEOPLE_LOOKING = 8  # for each of eight trials, with each way to look
 
 
 def figure(name: str, value: float, unit: str, must: float, aim: float, more: bool = False) -> Row:
@@ -173,8 +174,8 @@ def _off(ours: Sequence[float], theirs: Sequence[float]) -> float:
 
 def _eyes() -> Iterator[Row]:
     """What accuracy costs in time: coarser eyes against the finest."""
-    for way in eyes.run(4):
-        more = {key: way[key] for key in ("time_error", "count_error")}
+    for way in eyes.run(PEOPLE_LOOKING):
+        more = {key: value for key, value in way.items() if key not in ("figure", "scene")}
         yield {**told(f"eyes: {way['scene']}", way["value"], way["unit"]), **more}
 
 

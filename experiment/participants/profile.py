@@ -33,6 +33,9 @@ class Profile:
     # A model's kind is told from 10 × 10 clear pixels half of the time [ours].
     recognise: float = 100.0
     recognise_spread: float = 0.7
+    # Looks while on the move in a building: 1 at each 45° of a turn and at 2 or 3 places of a step,
+    # some 2 a second; or so many times as many, or none. Data mode's lattice has those of 1 [ours].
+    passing: int = 1
     crowding: float = 0.02  # nearer than this, in view heights, things run together (0.7°) [ours]
     crowded: float = 0.35  # how often one of two crowded things goes unnoticed [ours]
 
@@ -136,6 +139,7 @@ _LIMITS = {
     **dict.fromkeys(("pace", "care"), (0, 20)),
     **dict.fromkeys(("orbit_step", "tolerance"), (0, pi)),
     **dict.fromkeys(("subitising_range", "letter_looks"), (1, 100)),
+    "passing": (0, 10),
     "view_angle": (0, 179),
     "depth_bias": (0, 3),
     "motor_noise": (0, 1),

@@ -239,7 +239,7 @@ class Walker:
     def turn(self, angle: float) -> Generator[list[Event], Glance, None]:
         """Turn, with a look at each heading in passing, and see where that led."""
         before = self.yaw
-        for ended in self.hands.turning(angle, parts=max(1, round(abs(angle) / STEP))):
+        for ended in self.hands.turning(angle, parts=self._parts(round(abs(angle) / STEP))):
             self.glance = yield self.hands.take()
             if not ended:
                 self.pass_by()
@@ -257,7 +257,8 @@ class Walker:
         direction = round(aim / STEP)
         distance = CELL * (2**0.5 if direction % 2 == 1 else 1.0)
         before = self.eye
-        for ended in self.hands.walking(distance, STRIDES[direction % DIRECTIONS]):
+        parts = self._parts(STRIDES[direction % DIRECTIONS])
+        for ended in self.hands.walking(distance, parts):
             self.glance = yield self.hands.take()
             if not ended:
                 self.pass_by()
@@ -268,6 +269,10 @@ class Walker:
         if self.mood.uses("drift"):
             spread = self.mood.profile.drift * went**0.5
             self.error = self.error + spread * self.mood.rng.standard_normal(2)
+
+    def _parts(self, usual: int) -> int:
+        """Into how many parts looks divide a way that they usually divide into so many."""
+        return max(1, usual * self.mood.profile.passing)
 
     def place(self, index: int, seen: Visibility) -> NDArray[np.float64]:
         """(2,) where one believes a visible thing to stand: direction good, distance uncertain."""

@@ -1,5 +1,8 @@
 """`seethrough bench simulate`: parts by name, and the figure of what accuracy costs in time."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 from benchmarks import simulate
@@ -36,7 +39,11 @@ def test_only_the_parts_asked_for_are_measured(monkeypatch, capsys):
 
 def test_the_figure_has_a_point_for_each_way_to_look(tmp_path):
     rows = [
-        {**simulate.told(f"eyes: way {k}", 10.0 * k, "ms"), "time_error": 0.01 * k}
+        {
+            **simulate.told(f"eyes: way {k}", 10.0 * k, "ms"),
+            "time_error": 0.01 * k,
+            "time_error_se": 0.002,
+        }
         for k in (1, 2, 3)
     ]
     path = tmp_path / "eyes.svg"
@@ -50,3 +57,24 @@ def test_more_is_better_for_a_ratio_and_less_for_a_time():
     assert not simulate.figure("a", 1.6, "×", 1.7, 1.9, more=True)["met"]
     assert simulate.figure("a", 2.9, "s", 3, 1)["met"]
     assert not simulate.figure("a", 3.1, "s", 3, 1)["met"]
+
+
+def record(seconds, error, scenario="walkthrough", frames=0):
+    """As much of a trial as the eyes' rows look at."""
+    return SimpleNamespace(time=seconds, frames=frames, trial=SimpleNamespace(scenario=scenario),
+                           outcome=SimpleNamespace(count_error=error))  # fmt: skip
+
+
+def test_a_way_to_look_is_told_by_its_pairs_with_the_reference():
+    """By hand: times twice and half as long cancel; their logarithms differ by ±ln 2, s.e. ln 2."""
+    finest = simulate.eyes.Eyes("finest", 1.0, (record(10, 0), record(40, -2)))
+    trials = (record(20, 1, frames=30), record(20, 2, "abstract", 99))
+    row = simulate.eyes.measure(simulate.eyes.Eyes("coarse", 0.25, trials), finest)
+    assert (row["value"], row["looks_a_second"]) == (250, 1.5)
+    assert (row["time_error"], row["time_error_se"]) == (0, pytest.approx(np.log(2), abs=1e-4))
+    assert (row["count_error"], row["count_error_se"]) == (0.5, 0.5)
+
+
+def test_ways_to_look_have_names_of_their_own():
+    names = [way.name for way in simulate.eyes.WAYS]
+    assert len(set(names)) == len(names) and "visual, 150 px" in names

@@ -1,6 +1,7 @@
 """Simulated participants at the tasks, with eyes that see what a test lets them see."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from renderer import geometry
 from renderer.visibility import Visibility
 from tasks.building import count_building, unique_building
 from tasks.catalog import TASKS
-from tasks.events import KeyPress, PointerMove, PointerPress, Tick
+from tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
 from tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
@@ -135,6 +136,32 @@ def test_a_walker_looks_at_every_view_it_comes_to_twice_a_second_or_more(name):
         now = max(e.time for e in batch)
     assert len(spans) > 5 and max(spans) <= 0.5
     assert all(looked[:-2])  # the last two views are those of the plan
+
+
+def looks_on_steps(passing):
+    """Into how many looks steps of a walk are divided: those from a key's press to its release."""
+    task, state = TASKS["count_in_building"], begun("count_in_building", 1)
+    person = SimulatedParticipant(np.random.default_rng(1), Profile(passing=passing), QUIET)
+    person.begin_trial("count_in_building", 0.0)
+    now, found, held = 0.0, [], 0
+    while task.outcome(state) is None:
+        view = task.view(state)
+        look = partial(sight, view, np.ones(len(view.scene.objects), bool))
+        batch = person.events(view, look, now, "count_in_building")
+        ups = [type(e) for e in batch if getattr(e, "key", "") == "up"]
+        held += bool(held) or KeyPress in ups
+        if KeyRelease in ups:
+            found.append(held)
+            held = 0
+        for event in batch:
+            state = task.on_event(state, event)
+        now = max(e.time for e in batch)
+    return set(found)
+
+
+@pytest.mark.parametrize("passing, looks", [(0, {1}), (1, {2, 3}), (2, {4, 6})])
+def test_a_step_is_looked_at_so_many_times_as_often(passing, looks):
+    assert looks_on_steps(passing) == looks
 
 
 @pytest.mark.parametrize("angle", [np.pi / 4, np.pi / 2, 3 * np.pi / 4, np.pi])
@@ -344,6 +371,8 @@ def test_who_is_tired_varies_more():
         (lambda: Profile(sd_care=4.0), r"sd_care = 4.0, expected a number from 0 to 3"),
         (lambda: Profile(orbit_step=4.0), r"orbit_step = 4.0, expected a number from 0 to 3.14159"),
         (lambda: Profile(subitising_range=0), r"subitising_range = 0, expected a number from 1 to"),
+        (lambda: Profile(passing=11), r"passing = 11, expected a number from 0 to 10"),
+        (lambda: Profile(passing=0.5), r"passing = 0.5, expected a whole number"),
         (lambda: Profile(tracked=2.5), r"tracked = 2.5, expected a whole number"),
         (lambda: Profile(subitise=0.5), r"subitise = 0.5, expected at most count = 0.3: a glance"),
         (lambda: SimulatedParticipant(np.random.default_rng()).begin_trial("chess", 0.0),
