@@ -34,7 +34,9 @@ def changed(value: Value, **changes: object) -> Value:
     For classes whose fields need no check: simulations live on this.
     """
     new = object.__new__(type(value))
-    object.__setattr__(new, "__dict__", value.__dict__ | changes)
+    own = new.__dict__
+    own.update(value.__dict__)
+    own.update(changes)
     return new
 
 
