@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.glance import CLEAR, WINDOW_PIXELS, likely
+from experiment.participants.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
 from experiment.participants.profile import Profile
 from renderer.scene import Scene
 from renderer.visibility import Visibility
@@ -76,49 +77,58 @@ class Kept(Visibility):
         return self._all(6)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Sight:
-    """A look at a building by somebody of a profile: lists of the k things that are visible.
+class Thing(NamedTuple):
+    """Something visible that may be asked for: its `place` in the look, its index in the scene.
 
-    `notice` (k,) and `recognise` are chances, `weight` and `contrast` those of the look, `thing`
-    (k,) says what may be asked for; `walls` has a bit set for each other object that is visible.
+    `notice` and `recognise` are somebody's chances, `weight` and `contrast` those of the look.
     """
 
-    index: list[int]
-    notice: NDArray[np.float64]
-    recognise: list[float]
-    weight: list[float]
-    contrast: list[float]
-    thing: NDArray[np.bool_]
-    walls: int
+    place: int
+    index: int
+    notice: float
+    recognise: float
+    weight: float
+    contrast: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sight:
+    """A look at a building by somebody of a profile: of `visible` objects, these are things.
+
+    Of all others `walls` holds the indices, and `whole` those of things that show opaquely.
+    """
+
+    visible: int
+    things: list[Thing]
+    whole: frozenset[int]
+    walls: frozenset[int]
 
 
 def sight(seen: Visibility, scene: Scene, profile: Profile) -> Sight:
     """The look `seen` of a scene; kept with looks that are kept themselves."""
-    p = profile
     if not isinstance(seen, Kept):
-        return _sight(shown(seen), scene, p)
-    key = (p.notice, p.notice_spread, p.recognise, p.recognise_spread)
-    found = seen.sights.get(key)
+        return _sight(shown(seen), scene, profile)
+    found = seen.sights.get(profile.eyes)
     if found is None:
         seen.sights.clear()  # calibration tries profile after profile
-        found = seen.sights[key] = _sight(seen.shown, scene, p)
+        found = seen.sights[profile.eyes] = _sight(seen.shown, scene, profile)
     return found
 
 
 def _sight(rows: NDArray[np.float64], scene: Scene, p: Profile) -> Sight:
-    index, weight, contrast, area = (rows[k] for k in (0, 2, 5, 6))
+    number, weight, contrast, area = rows[0].astype(np.int64), rows[2], rows[5], rows[6]
     pixels = area * WINDOW_PIXELS
-    thing = scene.targets[index.astype(np.int64)]
-    numbers = [int(i) for i in index.tolist()]
-    return Sight(
-        numbers,
-        likely(contrast * np.sqrt(pixels), p.notice, p.notice_spread),
-        likely(
-            pixels * np.minimum(contrast / CLEAR, 1.0), p.recognise, p.recognise_spread
-        ).tolist(),
-        weight.tolist(),
-        contrast.tolist(),
-        thing,
-        sum(1 << i for i, asked in zip(numbers, thing.tolist(), strict=True) if not asked),
-    )
+    clear = pixels * np.minimum(contrast / CLEAR, 1.0)
+    notice = likely(contrast * np.sqrt(pixels), p.notice, p.notice_spread)
+    recognise = likely(clear, p.recognise, p.recognise_spread)
+    columns = (number, notice, recognise, weight, contrast)
+    things, walls = [], []
+    for place, (asked, index, *values) in enumerate(
+        zip(scene.targets[number].tolist(), *(c.tolist() for c in columns), strict=True)
+    ):
+        if asked:
+            things.append(Thing(place, index, *values))
+        else:
+            walls.append(index)
+    whole = frozenset(thing.index for thing in things if thing.weight >= WHOLE)
+    return Sight(len(number), things, whole, frozenset(walls))
