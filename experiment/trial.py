@@ -103,8 +103,7 @@ class TrialRun:
                         continue
                     event = replace(event, time=running.first)
                 world.recorder.event(event)
-                running.take(event)
-                if running.ended or running.interrupted:
+                if running.take(event):
                     break
             else:
                 running.show()
@@ -129,7 +128,6 @@ class Running:
         self._lost_focus: float | None = None
         self._outcome: Outcome | None = None
         self._timed_out = self._repeat = False
-        self.interrupted = False
         self.view = self._task.view(state)
 
     @property
@@ -149,21 +147,21 @@ class Running:
         self._digested = flip if due else self._digested
         self._world.recorder.frame(flip, self.view, digest)
 
-    def take(self, event: Event) -> None:
-        """Let an event change the trial. Raises Leave."""
+    def take(self, event: Event) -> bool:
+        """Let an event change the trial; whether that ended or interrupted it. Raises Leave."""
         self._confirmed = event.time
-        self.interrupted = False
         if _interrupts(event):
-            self.interrupted = True
             self._interrupt(event)
-        elif isinstance(event, FocusChange):
+            return True
+        if isinstance(event, FocusChange):
             self._focus(event)
-        else:
-            state = self._task.on_event(self._state, event)
-            if state is not self._state:
-                self._state, self._outcome = state, self._task.outcome(state)
-            over = bool(self._limit) and event.time - self.first >= self._limit
-            self._timed_out = over and self._outcome is None
+            return False
+        state = self._task.on_event(self._state, event)
+        if state is not self._state:
+            self._state, self._outcome = state, self._task.outcome(state)
+        over = bool(self._limit) and event.time - self.first >= self._limit
+        self._timed_out = over and self._outcome is None
+        return self.ended
 
     def _focus(self, event: FocusChange) -> None:
         if not event.focused:

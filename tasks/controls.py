@@ -58,7 +58,7 @@ class Held:
             keys = keys | {event.key}
         elif isinstance(event, KeyRelease):
             keys = keys - {event.key}
-        return changed(self, keys=keys, time=time if before is None or time > before else before)
+        return Held(keys, time if before is None or time > before else before)
 
     def sign(self, positive: str, negative: str) -> int:
         """1, −1 or, with none or both of the two keys, 0."""

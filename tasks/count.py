@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from numpy.random import Generator
 
@@ -50,7 +50,7 @@ class Count:
         """The state after `event`."""
         entry = state.entry.on_event(event)
         turned = state.orbit.on_event(of_view(event, entry.pressed))
-        return replace(state, orbit=turned, entry=entry)
+        return CountState(state.scene, turned, entry)
 
     def view(self, state: CountState) -> View:
         """What to show for `state`."""
@@ -59,12 +59,12 @@ class Count:
 
     def outcome(self, state: CountState) -> Outcome | None:
         """The scored answer once confirmed: `count_error` is answer − truth."""
+        if not state.entry.confirmed:
+            return None
         return number_outcome(state.entry, int(state.scene.targets.sum()))
 
 
-def number_outcome(entry: NumberEntry, truth: int) -> Outcome | None:
-    """The score of a number, or None before it is confirmed."""
-    if not entry.confirmed:
-        return None
+def number_outcome(entry: NumberEntry, truth: int) -> Outcome:
+    """The score of a number that has been confirmed."""
     answer = int(entry.text)
     return Outcome(str(answer), str(truth), answer == truth, count_error=answer - truth)

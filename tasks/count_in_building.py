@@ -8,7 +8,6 @@ from numpy.random import Generator
 
 from tasks.base import Outcome, View
 from tasks.building import Building, count_building
-from tasks.controls import changed
 from tasks.count import number_outcome
 from tasks.entry import NumberEntry
 from tasks.events import Event, KeyPress
@@ -59,7 +58,7 @@ class CountInBuilding:
         moved = state.visit.on_event(event)
         if moved is state.visit and entry is state.entry:
             return state
-        return changed(state, visit=moved, entry=entry)
+        return CountInBuildingState(moved, entry)
 
     def view(self, state: CountInBuildingState) -> View:
         """What to show for `state`."""

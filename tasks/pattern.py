@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import lru_cache
 
 from numpy.random import Generator
 
 from renderer.scene import Scene
 from tasks.abstract_scene import abstract_scene
 from tasks.base import Outcome, View
-from tasks.controls import Orbit, of_view, orbit
+from tasks.controls import Orbit, changed, of_view, orbit
 from tasks.events import Event, KeyPress, PointerPress, PointerRelease
 from tasks.hud import Button, Element, Label, Rect
 from tasks.letters import LETTERS
@@ -65,12 +66,12 @@ class Pattern:
         if isinstance(event, PointerPress):
             places = buttons(state.aspect).items()
             hit = next((t for t, rect in places if rect.contains(event.x, event.y)), None)
-            state = replace(_chosen(state, hit), pressed=True) if hit else state
+            state = changed(_chosen(state, hit), pressed=True) if hit else state
         elif isinstance(event, PointerRelease):
-            state = replace(state, pressed=False)
+            state = changed(state, pressed=False)
         elif isinstance(event, KeyPress):
             state = _chosen(state, event.key)
-        return replace(state, orbit=state.orbit.on_event(of_view(event, state.pressed)))
+        return changed(state, orbit=state.orbit.on_event(of_view(event, state.pressed)))
 
     def view(self, state: PatternState) -> View:
         """What to show for `state`."""
@@ -87,6 +88,7 @@ class Pattern:
         return Outcome(state.chosen, state.world.letter, state.chosen == state.world.letter)
 
 
+@lru_cache(maxsize=8)
 def buttons(aspect: float) -> dict[str, Rect]:
     """The letters and enter, three to a row in the lower right corner of the view."""
     texts = (*sorted(LETTERS), "enter")
@@ -103,5 +105,5 @@ def _chosen(state: PatternState, key: str) -> PatternState:
     if state.confirmed:
         return state
     if key == "enter":
-        return replace(state, confirmed=state.chosen is not None)
-    return replace(state, chosen=key.upper()) if key.upper() in LETTERS else state
+        return changed(state, confirmed=state.chosen is not None)
+    return changed(state, chosen=key.upper()) if key.upper() in LETTERS else state

@@ -9,7 +9,6 @@ from numpy.random import Generator
 
 from tasks.base import Outcome, View
 from tasks.building import Building, unique_building
-from tasks.controls import changed
 from tasks.events import Event, KeyPress
 from tasks.floor import room_at
 from tasks.hud import Label
@@ -63,7 +62,7 @@ class Unique:
         moved = state.visit.on_event(event)
         if moved is state.visit and not found:
             return state
-        return changed(state, visit=moved, found=found)
+        return UniqueState(moved, state.plan, found)
 
     def view(self, state: UniqueState) -> View:
         """What to show for `state`: the building, then its plan over it."""

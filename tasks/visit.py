@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from renderer.scene import Scene
 from tasks.base import View
 from tasks.building import Building
-from tasks.controls import Walk, changed, walk
+from tasks.controls import Walk, walk
 from tasks.current_target import inset, target_picture
 from tasks.events import Event
 from tasks.hud import Element
@@ -28,7 +28,7 @@ class Visit:
     def on_event(self, event: Event) -> Visit:
         """The visit after `event`."""
         walk = self.walk.on_event(event)
-        return self if walk is self.walk else changed(self, walk=walk)
+        return self if walk is self.walk else Visit(self.building, walk, self.picture)
 
     def view(self, label: Element, *more: Element, captured: bool = True) -> View:
         """What the walker sees, under a label, the turning picture and what the task adds."""

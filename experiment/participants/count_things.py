@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from math import hypot
-
-import numpy as np
-from numpy.typing import NDArray
+from math import dist
 
 from experiment.participants.counting import slips
 from experiment.participants.find_unique import _go_on
 from experiment.participants.glance import Glance
 from experiment.participants.person import Mood
+from experiment.participants.places import Place
 from experiment.participants.walking import Found, Walker
 from tasks.events import Event
 
@@ -22,7 +20,7 @@ class Tally:
     """Places of what has been counted, and which of it has stayed in sight since the last look."""
 
     def __init__(self) -> None:
-        self.places: list[NDArray[np.float64]] = []
+        self.places: list[Place] = []
         self.tracked: dict[int, int] = {}  # index in the scene → entry of `places`
 
     def add(self, walker: Walker, found: Found) -> int:
@@ -34,30 +32,29 @@ class Tally:
         # What has stayed in sight is known; the rest is told by its place.
         order = sorted(found.index, key=lambda i: i not in self.tracked)
         for index in order:
-            place = walker.place(index, found.seen)
+            place = walker.place(index, found.sight)
             entry = self.tracked.get(index)
             if entry is None:
-                entry = self._nearest(
-                    place, p.same_place + 0.1 * hypot(*(place - walker.eye).tolist()), used
-                )
+                within = p.same_place + 0.1 * dist(place, walker.eye)
+                entry = self._nearest(place, within, used)
             if entry is None:
                 entry = len(self.places)
                 self.places.append(place)
                 new += 1
             else:
-                self.places[entry] = (self.places[entry] + place) / 2
+                (a, b), (c, d) = self.places[entry], place
+                self.places[entry] = ((a + c) / 2, (b + d) / 2)
             used.add(entry)
             if len(tracked) < p.tracked:
                 tracked[index] = entry
         self.tracked = tracked
         return new
 
-    def _nearest(self, place: NDArray[np.float64], within: float, used: set[int]) -> int | None:
+    def _nearest(self, place: Place, within: float, used: set[int]) -> int | None:
         free = [k for k in range(len(self.places)) if k not in used]
         if not free:
             return None
-        x, z = place.tolist()
-        ways = [hypot(a - x, b - z) for a, b in (self.places[k].tolist() for k in free)]
+        ways = [dist(self.places[k], place) for k in free]
         nearest = min(ways)
         return free[ways.index(nearest)] if nearest < within else None
 

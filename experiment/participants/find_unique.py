@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Generator
-from math import hypot
+from math import dist
 
 import numpy as np
 
 from experiment.participants.glance import Glance
 from experiment.participants.hands import Hands
 from experiment.participants.person import Mood
-from experiment.participants.places import THERE
+from experiment.participants.places import THERE, Place
 from experiment.participants.walking import Walker
 from tasks.events import Event
 from tasks.hud import Button, FloorPlan
@@ -24,17 +24,17 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
     walker = Walker(mood, glance)
     walker.hands.wait(mood.profile.prepare)
     began = glance.now
-    goal, believed = None, np.zeros(2)
+    goal, believed = None, (0.0, 0.0)
     while walker.hands.time - began < MOST_SECONDS:
         found = walker.look()
         if len(found.index):
             walker.settle()
             index = found.index[0]
-            believed = walker.place(index, found.seen)
-            way = believed - walker.error - walker.eye
-            if hypot(*way.tolist()) <= mood.profile.near_enough:
+            believed = walker.place(index, found.sight)
+            there = (believed[0] - walker.error[0], believed[1] - walker.error[1])
+            if dist(there, walker.eye) <= mood.profile.near_enough:
                 break
-            yield from walker.hop(walker.eye + way)
+            yield from walker.hop(there)
             continue
         if walker.known.left < AGAIN:
             walker.known.doubt()
@@ -48,7 +48,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
 
 def _go_on(walker: Walker, goal):  # type: ignore[no-untyped-def]
     """One step of the search: on to a goal, or whatever is worth most now; the goal, if any."""
-    if goal is None or hypot(*(goal - walker.eye).tolist()) < THERE:
+    if goal is None or dist(goal, walker.eye) < THERE:
         walker.settle()
         turn, goal = walker.choose()
         if goal is None:
@@ -59,14 +59,14 @@ def _go_on(walker: Walker, goal):  # type: ignore[no-untyped-def]
 
 
 def _mark(
-    mood: Mood, hands: Hands, glance: Glance, believed: np.ndarray
+    mood: Mood, hands: Hands, glance: Glance, believed: Place
 ) -> Generator[list[Event], Glance, None]:
     """Work out where on the plan that was, click there, click to confirm."""
     p = mood.profile
     plan = next(e for e in glance.view.hud if isinstance(e, FloorPlan))
     button = next(e for e in glance.view.hud if isinstance(e, Button))
     hands.wait(2 * p.prepare)
-    mark = believed
+    mark = np.array(believed)
     if mood.uses("drift"):
         mark = mark + p.plan_noise * mood.rng.standard_normal(2)
     floor = next(o for o in glance.view.scene.objects if o.kind == "floor")

@@ -6,6 +6,7 @@ and walls are remembered. Cells of five units, as wide as a step or two, are wha
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from math import atan2, cos, sin
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from renderer.scene import Scene
 from renderer.transforms import moved
 
+Place = tuple[float, float]  # (x, z)
 CELL = 5.0
 THERE = 0.75 * CELL  # nearer than this to the middle of a cell one has reached it
 DIRECTIONS = 8  # headings one looks and walks in: every 45°
@@ -29,14 +31,14 @@ COS_HALF_VIEW = np.cos(HALF_VIEW)
 
 @dataclass(eq=False)
 class Layout:
-    """Cells and walls of a scene. `segments` (n, 2, 2) in (x, z); `owner` (n,) wall of each.
+    """Cells and walls of a scene. `segments` (n, 2, 2) in (x, z); `pieces` of a wall are of these.
 
     What depends on a cell alone is worked out once; `sure` keeps what walkers make of it.
     """
 
     centers: NDArray[np.float64]
     segments: NDArray[np.float64]
-    owner: NDArray[np.int64]
+    pieces: dict[int, list[int]]
     size: int
     sure: dict[tuple[float, ...], NDArray[np.float64]] = field(default_factory=dict)
     _blocked: dict[int, NDArray[np.uint8]] = field(default_factory=dict)
@@ -44,17 +46,12 @@ class Layout:
     _units: dict[int, NDArray[np.float64]] = field(default_factory=dict)
     _near: dict[int, NDArray[np.bool_]] = field(default_factory=dict)
 
-    def cell(self, place: NDArray[np.float64]) -> int:
-        """The cell in which (or nearest to which) a place (2,) lies."""
+    def cell(self, place: Place) -> int:
+        """The cell in which (or nearest to which) a place lies."""
         half, last = self.size / 2, self.size - 1
-        x, z = place.tolist()
+        x, z = place
         i, j = min(max(int(x / CELL + half), 0), last), min(max(int(z / CELL + half), 0), last)
         return i * self.size + j
-
-    def nearest(self, place: NDArray[np.float64]) -> int:
-        """The cell whose middle lies nearest to a place (2,)."""
-        away = self.centers - place
-        return int(np.argmin((away * away).sum(axis=1)))
 
     def near(self, cell: int) -> NDArray[np.bool_]:
         """(n,) which cells one has reached who stands in the middle of `cell`."""
@@ -101,16 +98,17 @@ def _read(scene: Scene) -> Layout:
     size = max(1, int(2 * half // CELL))
     line = (np.arange(size) + 0.5) * CELL - size * CELL / 2
     x, z = np.meshgrid(line, line, indexing="ij")
-    segments, owner = [], []
+    segments: list[NDArray[np.float64]] = []
+    pieces = {}
     for index, thing in enumerate(scene.objects):
         if thing.kind in ("wall", "outer wall"):
-            for piece in _pieces(thing):
-                segments.append(piece)
-                owner.append(index)
+            own = _pieces(thing)
+            pieces[index] = list(range(len(segments), len(segments) + len(own)))
+            segments += own
     return Layout(
         np.stack([x.ravel(), z.ravel()], axis=1),
         np.array(segments).reshape(-1, 2, 2),
-        np.array(owner, dtype=np.int64),
+        pieces,
         size,
     )
 
@@ -164,11 +162,11 @@ class Known:
         unseen = self.unseen
         return float(np.add.reduce(unseen)) / len(unseen)
 
-    def see_walls(self, visible: NDArray[np.bool_]) -> None:
-        """Remember the walls among the visible objects (one flag per object of the scene)."""
-        seen = self.walls | visible[self.layout.owner]
-        if (seen != self.walls).any():
-            self.walls, self._hidden = seen, None
+    def see_walls(self, objects: Iterable[int]) -> None:
+        """Remember the walls among objects, given by index, that are visible for the first time."""
+        new = [k for index in objects for k in self.layout.pieces.get(index, ())]
+        if new:
+            self.walls[new], self._hidden = True, None
 
     def hidden(self, cell: int) -> NDArray[np.bool_]:
         """(n,) cells whose middle a known wall hides from `cell`, in which one stands."""
@@ -187,11 +185,11 @@ class Known:
     def move(self) -> None:
         """One stands somewhere else now."""
         self._before, self._hidden = self._before * (1.0 - self._best), None
-        self._best = np.zeros_like(self._best)
+        self._best = np.zeros(len(self._best))
 
     def doubt(self) -> None:
         """All seen and nothing found: whatever was seen from elsewhere may have been missed."""
-        self._before = np.ones_like(self._before)
+        self._before = np.ones(len(self._before))
 
 
 def crossed(

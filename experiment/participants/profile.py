@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from math import pi
 
 
@@ -120,6 +121,11 @@ class Profile:
                 f"subitise = {self.subitise}, expected at most count = {self.count}: "
                 "a glance is no slower than counting"
             )
+
+    @cached_property
+    def eyes(self) -> tuple[float, float, float, float]:
+        """What decides how well things are seen: people of the same eyes see the same."""
+        return self.notice, self.notice_spread, self.recognise, self.recognise_spread
 
 
 _SHARES = (

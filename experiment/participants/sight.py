@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.glance import CLEAR, WINDOW_PIXELS, likely
+from experiment.participants.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
 from experiment.participants.profile import Profile
 from renderer.scene import Scene
 from renderer.visibility import Visibility
@@ -76,48 +77,52 @@ class Kept(Visibility):
         return self._all(6)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Sight:
-    """A look at a building by somebody of a profile: lists of the k things visible that may be
-    asked for.
+class Thing(NamedTuple):
+    """Something visible that may be asked for, by its index in the scene.
 
-    `notice` and `recognise` are chances, `weight` and `contrast` those of the look. `walls` has a
-    bit set for each other object that is visible: walls are not looked at, but remembered.
+    `notice` and `recognise` are somebody's chances, `weight` and `contrast` those of the look.
     """
 
-    index: list[int]
-    notice: list[float]
-    recognise: list[float]
-    weight: list[float]
-    contrast: list[float]
-    walls: int
+    index: int
+    notice: float
+    recognise: float
+    weight: float
+    contrast: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sight:
+    """A look at a building by somebody of a profile: the things visible that may be asked for.
+
+    Of all other objects that are visible `walls` holds the indices: they are not looked at, but
+    remembered. `whole` are those of the things that show opaquely.
+    """
+
+    things: list[Thing]
+    whole: frozenset[int]
+    walls: frozenset[int]
 
 
 def sight(seen: Visibility, scene: Scene, profile: Profile) -> Sight:
     """The look `seen` of a scene; kept with looks that are kept themselves."""
-    p = profile
     if not isinstance(seen, Kept):
-        return _sight(shown(seen), scene, p)
-    key = (p.notice, p.notice_spread, p.recognise, p.recognise_spread)
-    found = seen.sights.get(key)
+        return _sight(shown(seen), scene, profile)
+    found = seen.sights.get(profile.eyes)
     if found is None:
         seen.sights.clear()  # calibration tries profile after profile
-        found = seen.sights[key] = _sight(seen.shown, scene, p)
+        found = seen.sights[profile.eyes] = _sight(seen.shown, scene, profile)
     return found
 
 
 def _sight(rows: NDArray[np.float64], scene: Scene, p: Profile) -> Sight:
-    asked = scene.targets[rows[0].astype(np.int64)]
-    index, _, weight, _, _, contrast, area = rows[:, asked]
+    numbers = rows[0].astype(np.int64)
+    asked = scene.targets[numbers]
+    _, _, weight, _, _, contrast, area = rows[:, asked]
     pixels = area * WINDOW_PIXELS
     notice = likely(contrast * np.sqrt(pixels), p.notice, p.notice_spread)
     clear = pixels * np.minimum(contrast / CLEAR, 1.0)
     recognise = likely(clear, p.recognise, p.recognise_spread)
-    return Sight(
-        [int(i) for i in index.tolist()],
-        notice.tolist(),
-        recognise.tolist(),
-        weight.tolist(),
-        contrast.tolist(),
-        sum(1 << int(i) for i in rows[0, ~asked].tolist()),
-    )
+    columns = (numbers[asked], notice, recognise, weight, contrast)
+    things = [Thing(*values) for values in zip(*(c.tolist() for c in columns), strict=True)]
+    whole = frozenset(thing.index for thing in things if thing.weight >= WHOLE)
+    return Sight(things, whole, frozenset(numbers[~asked].tolist()))

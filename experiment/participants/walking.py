@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, hypot, pi
+from math import atan2, dist, hypot, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +19,14 @@ from experiment.participants.places import (
     DIRECTIONS,
     STRIDES,
     Known,
+    Place,
     apart,
     crossed,
     layout,
     turn_to,
 )
-from experiment.participants.sight import Sight, sight
+from experiment.participants.sight import Sight, Thing, sight
 from renderer.scene import Scene
-from renderer.visibility import Visibility
 from tasks.events import Event
 from tasks.hud import Inset
 
@@ -42,14 +42,15 @@ TURN_COST = 0.25 / STEP  # seconds a radian is thought to cost when choosing [ou
 GOAL = 0.5  # a cell is a goal if it is unseen at least half as much as any [ours]
 MOST_KEPT = 2048  # arrays over cells that a building keeps
 LOOK = 1.0  # seconds that a look somewhere else is thought to cost when choosing [ours]
+TURN_AND_LOOK = LOOK + TURN_COST * np.abs(TURNS)
 
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """Things of the asked kind recognised in one look, in the order of the scene."""
+    """Things of the asked kind recognised, in the order of the scene, and what the look shows."""
 
     index: list[int]
-    seen: Visibility
+    sight: Sight
 
 
 class Walker:
@@ -58,16 +59,16 @@ class Walker:
     def __init__(self, mood: Mood, glance: Glance) -> None:
         self.mood = mood
         self.hands = Hands(mood, glance.now)
-        self._glance = glance
-        self._cell: int | None = None
         self.known = Known(layout(glance.view.scene))
+        self.glance = glance
         self._asked = _of_kind(glance.view.scene, _asked(glance))
-        self._walls = 0  # bits of the objects that are no things and have been visible
-        self.error = np.zeros(2)  # where one believes to be, less where one is
+        self._walls: set[int] = set()  # objects that are no things and have been visible
+        self.error = (0.0, 0.0)  # where one believes to be, less where one is
         self.recognised: set[int] = set()  # what has been made out, and is known again
         self.passed: set[int] = set()  # things of the asked kind made out in passing
         self.through: list[float] = []  # clearness of things seen through walls
         self._busy = glance.now  # until then one thinks about what was seen last
+        self._one = mood.profile.search_slope + saccade(0.2, mood)  # seconds a thing noticed takes
         # What hides, the cell and experience that the quality of looks was worked out for, and it.
         self._quality: tuple[NDArray[np.bool_], tuple[int, int], NDArray[np.float64]] | None = None
 
@@ -78,95 +79,83 @@ class Walker:
 
     @glance.setter
     def glance(self, glance: Glance) -> None:
-        self._glance, self._cell = glance, None
-
-    @property
-    def eye(self) -> NDArray[np.float64]:
-        """(2,) where one is, (x, z)."""
-        return self.glance.view.camera.eye[::2]
-
-    @property
-    def cell(self) -> int:
-        """The cell one is in: what can be seen from it is judged from its middle."""
-        if self._cell is None:
-            self._cell = self.known.layout.cell(self.eye)
-        return self._cell
-
-    @property
-    def yaw(self) -> float:
-        """Where one looks."""
-        rotation = self.glance.view.camera.rotation
-        return atan2(-rotation.item(2, 0), rotation.item(0, 0))
+        self._glance = glance
+        camera = glance.view.camera
+        x, _, z = camera.eye.tolist()
+        self.eye = (x, z)
+        # What can be seen from a cell is judged from its middle.
+        self.cell = self.known.layout.cell(self.eye)
+        self.yaw = atan2(-camera.rotation.item(2, 0), camera.rotation.item(0, 0))
 
     def look(self) -> Found:
         """Look, and remember what has been seen; found is also what was made out in passing."""
         self.settle()
-        seen = self.glance.look()
-        view = sight(seen, self.glance.view.scene, self.mood.profile)
-        things, asked = self._make_out(seen, view, self._noticed(view))
-        self._see_through(view, things)
+        view = self._sight()
+        things, asked = self._make_out(view, self._noticed(view))
+        self._see_through(things)
         self._inspect()
         self._think(self.mood.profile.count, len(things))
         if self.passed:
             asked = sorted(self.passed.union(asked))
             self.passed.clear()
-        return Found(asked, seen)
+        return Found(asked, view)
 
     def pass_by(self) -> None:
         """Look while on the move: at nothing that is known already."""
-        seen = self.glance.look()
-        view = sight(seen, self.glance.view.scene, self.mood.profile)
-        news = [k for k in self._noticed(view) if view.index[k] not in self.recognised]
-        things, asked = self._make_out(seen, view, news)
+        view = self._sight()
+        news = [thing for thing in self._noticed(view) if thing.index not in self.recognised]
+        things, asked = self._make_out(view, news)
         self.passed.update(asked)
         self._think(0.0, len(things))
 
-    def _noticed(self, view: Sight) -> list[int]:
-        """Which of the things seen are noticed."""
-        draws = self.mood.rng.random(len(view.notice)).tolist()
-        return [k for k, chance in enumerate(view.notice) if draws[k] < chance]
+    def _sight(self) -> Sight:
+        return sight(self.glance.look(), self.glance.view.scene, self.mood.profile)
 
-    def _make_out(
-        self, seen: Visibility, view: Sight, things: list[int]
-    ) -> tuple[list[int], list[int]]:
-        """The things noticed, by their number in the look; and what is of the asked kind."""
-        if view.walls & ~self._walls:
+    def _noticed(self, view: Sight) -> list[Thing]:
+        """Which of the things seen are noticed."""
+        draws = self.mood.rng.random(len(view.things)).tolist()
+        return [t for t, draw in zip(view.things, draws, strict=True) if draw < t.notice]
+
+    def _make_out(self, view: Sight, things: list[Thing]) -> tuple[list[Thing], list[int]]:
+        """The things noticed; and the indices of those that are of the asked kind."""
+        if not view.walls <= self._walls:
+            self.known.see_walls(view.walls - self._walls)
             self._walls |= view.walls
-            self.known.see_walls(seen.pixels > 0)
         if not things:
             return things, []
         draws = self.mood.rng.random(len(things)).tolist()
-        known = [draw < view.recognise[k] for k, draw in zip(things, draws, strict=True)]
-        clear = [view.index[k] for k, clear in zip(things, known, strict=True) if clear]
+        clear, unclear = [], []
+        for thing, draw in zip(things, draws, strict=True):
+            (clear if draw < thing.recognise else unclear).append(thing.index)
         self.recognised.update(clear)
         if self.known.unclear:
             for made_out in clear:
                 self.known.unclear.pop(made_out, None)
-        self._wonder(seen, [view.index[k] for k, clear in zip(things, known, strict=True)
-                            if not clear])  # fmt: skip
+        self._wonder(view, unclear)
         return things, [index for index in clear if self._asked[index]]
 
     def _think(self, seconds: float, things: int) -> None:
         """Thinking about a look begins now and goes on while the feet and hands do."""
-        p = self.mood.profile
-        seconds += p.attention_shift + things * (p.search_slope + saccade(0.2, self.mood))
+        seconds += self.mood.profile.attention_shift + things * self._one
         self._busy = max(self._busy, self.hands.time) + seconds * self.mood.pace
 
     def settle(self) -> None:
         """Think to the end about what was seen: before the next look, and before decisions."""
         self.hands.time = max(self.hands.time, self._busy)
 
-    def _see_through(self, view: Sight, things: list[int]) -> None:
+    def _see_through(self, things: list[Thing]) -> None:
         """Learn whether things shine through walls: was one seen that a known wall is before?"""
-        faint = [k for k in things if view.weight[k] < WHOLE]
+        faint = [thing for thing in things if thing.weight < WHOLE]
         if not faint:
             return
-        index = [view.index[k] for k in faint]
+        index = [thing.index for thing in faint]
         places = self.glance.view.scene.transforms[index][:, [0, 2], 3]
         walls = self.known.layout.segments[self.known.walls]
-        behind = crossed(self.eye, places, walls).tolist()
+        behind = crossed(np.array(self.eye), places, walls).tolist()
         self.through += [
-            min(view.contrast[k] / CLEAR, 1.0) for k, hid in zip(faint, behind, strict=True) if hid
+            min(thing.contrast / CLEAR, 1.0)
+            for thing, hid in zip(faint, behind, strict=True)
+            if hid
         ]
 
     def _inspect(self) -> None:
@@ -177,12 +166,13 @@ class Walker:
         if self.known.unclear:
             self.known.unclear = {i: c for i, c in self.known.unclear.items() if not here[c]}
 
-    def _wonder(self, seen: Visibility, things: list[int]) -> None:
+    def _wonder(self, view: Sight, things: list[int]) -> None:
         """Where something was noticed and not made out, one has not really looked yet."""
         for index in things:
             if index not in self.recognised:
-                place = self.place(index, seen) - self.error
-                self.known.unclear[index] = self.known.layout.nearest(place)
+                x, z = self.place(index, view)
+                place = (x - self.error[0], z - self.error[1])
+                self.known.unclear[index] = self.known.layout.cell(place)
 
     def quality(self) -> NDArray[np.float64]:
         """(n,) how surely a thing in each cell would be recognised from where one stands."""
@@ -214,16 +204,16 @@ class Walker:
             return 0.0
         return (THROUGH + sum(self.through)) / (1 + len(self.through))
 
-    def choose(self) -> tuple[float, NDArray[np.float64] | None]:
-        """The next thing to do: (turn, None) to look round, (turn, cell) to go somewhere.
+    def choose(self) -> tuple[float, Place | None]:
+        """The next thing to do: (turn, None) to look round, (turn, place) to go somewhere.
 
         What is most worth its time: unseen cells that a look would show, over seconds.
         """
         distance, toward = self.known.layout.ways(self.cell)
         worth = self.known.gain(self.quality())
         inside = self.known.layout.ahead(self.cell, self.yaw + TURNS)
-        gains = (inside @ worth) / (LOOK + TURN_COST * np.abs(TURNS))
-        side = int(np.argmax(gains))
+        gains = (inside @ worth) / TURN_AND_LOOK
+        side = int(gains.argmax())
         best, choice = float(gains[side]), (float(TURNS[side]), None)
         seconds = distance / self.hands.speed + 3 * LOOK
         # Only what is unseen is worth going to: there, one will at least have seen that.
@@ -231,9 +221,10 @@ class Walker:
         rates = np.where(
             unseen > GOAL * unseen.max(), _nearby(unseen, self.known.layout.size) / seconds, 0.0
         )
-        there = int(np.argmax(rates))
+        there = int(rates.argmax())
         if rates[there] > best:
-            return float(apart(toward[there], self.yaw)), self.known.layout.centers[there]
+            x, z = self.known.layout.centers[there].tolist()
+            return float(apart(toward[there], self.yaw)), (x, z)
         return choice
 
     def turn(self, angle: float) -> Generator[list[Event], Glance, None]:
@@ -247,10 +238,9 @@ class Walker:
         if turned * angle > 0 and not 0.7 < turned / angle < 1.4:
             self.hands.gain *= turned / angle
 
-    def hop(self, cell: NDArray[np.float64]) -> Generator[list[Event], Glance, None]:
-        """One cell on towards `cell`: face one of eight directions, walk, see how far it went."""
-        x, z = (cell - self.eye).tolist()
-        aim = round(turn_to(x, z) / STEP) * STEP
+    def hop(self, goal: Place) -> Generator[list[Event], Glance, None]:
+        """One cell on towards `goal`: face one of eight directions, walk, see how far it went."""
+        aim = round(turn_to(goal[0] - self.eye[0], goal[1] - self.eye[1]) / STEP) * STEP
         if abs(turn := apart(aim, self.yaw)) > 1e-9:
             yield from self.turn(turn)
             self.pass_by()
@@ -263,28 +253,30 @@ class Walker:
             if not ended:
                 self.pass_by()
         self.known.move()
-        went = hypot(*(self.eye - before).tolist())
+        went = dist(self.eye, before)
         if not 0.7 < went / distance < 1.4 and went > 0:
             self.hands.speed *= went / distance
         if self.mood.uses("drift"):
             spread = self.mood.profile.drift * went**0.5
-            self.error = self.error + spread * self.mood.rng.standard_normal(2)
+            x, z = self.mood.rng.standard_normal(2).tolist()
+            self.error = (self.error[0] + spread * x, self.error[1] + spread * z)
 
     def _parts(self, usual: int) -> int:
         """Into how many parts looks divide a way that they usually divide into so many."""
         return max(1, usual * self.mood.profile.passing)
 
-    def place(self, index: int, seen: Visibility) -> NDArray[np.float64]:
-        """(2,) where one believes a visible thing to stand: direction good, distance uncertain."""
+    def place(self, index: int, view: Sight) -> Place:
+        """Where one believes a thing to stand: direction good, distance uncertain."""
         mood, p = self.mood, self.mood.profile
-        way = self.glance.view.scene.transforms[index, ::2, 3][:2] - self.eye
+        (x, z), transforms = self.eye, self.glance.view.scene.transforms
+        across, along = transforms.item(index, 0, 3) - x, transforms.item(index, 2, 3) - z
         if mood.uses("depth_noise"):
-            through = p.through_noise if seen.weight[index] < WHOLE else 0.0
-            spread = hypot(p.depth_noise, through)
+            spread = hypot(p.depth_noise, 0.0 if index in view.whole else p.through_noise)
             # Near things are seen at their distance; far ones look nearer.
-            bias = 1 - (1 - p.depth_bias) * min(1.0, hypot(*way.tolist()) / 30)
-            way = way * bias * np.exp(spread * mood.rng.standard_normal())
-        return self.eye + self.error + way
+            bias = 1 - (1 - p.depth_bias) * min(1.0, hypot(across, along) / 30)
+            noise = float(np.exp(spread * mood.rng.standard_normal()))
+            across, along = across * bias * noise, along * bias * noise
+        return x + self.error[0] + across, z + self.error[1] + along
 
 
 def _asked(glance: Glance) -> str:
@@ -309,10 +301,8 @@ def _within_reach(size: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 def _nearby(unseen: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """(n,) unseen cells within `REACH` of each cell, by sums along both axes."""
     low, high = _within_reach(size)
-    total = unseen.reshape(size, size)
-    for axis in (0, 1):
-        sums = np.zeros((size + 1, size))
-        np.cumsum(total if axis == 0 else total.T, axis=0, out=sums[1:])
-        total = sums[high] - sums[low]
-        total = total if axis == 0 else total.T
+    total, sums = unseen.reshape(size, size), np.zeros((size + 1, size))
+    for _ in range(2):
+        total.cumsum(axis=0, out=sums[1:])
+        total = (sums.take(high, axis=0) - sums.take(low, axis=0)).T
     return total.ravel()

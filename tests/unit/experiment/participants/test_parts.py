@@ -147,11 +147,14 @@ def test_known_walls_hide_cells_and_doorways_do_not():
     assert plan.size == 16 and len(plan.centers) == 256
     assert len(plan.segments) == 4 + 2 * len(b.floor.walls)
     known = Known(plan)
-    eye = np.array(b.start)
+    eye = b.start
     assert_allclose(plan.centers[plan.cell(eye)], eye)
-    assert plan.cell(np.array([-99.0, 99.0])) == 15  # outside: the nearest cell
+    rng = np.random.default_rng(3)
+    for place in [*rng.uniform(-60, 60, (200, 2)), (-99.0, 99.0)]:  # outside as well: the nearest
+        away = np.hypot(*(plan.centers - place).T)
+        assert plan.cell(tuple(place)) == np.argmin(away)
     assert not known.hidden(plan.cell(eye)).any()  # no wall seen yet
-    known.see_walls(np.ones(len(b.scene.objects), bool))
+    known.see_walls(range(len(b.scene.objects)))
     hidden = known.hidden(plan.cell(eye))  # the start is the middle of its cell
     # The oracle walks along each way in small steps and asks the floor plan for the walls passed.
     for cell, found in zip(plan.centers, hidden, strict=True):
@@ -177,15 +180,15 @@ class _Here:
 
     def __init__(self, places):
         self.mood = mood("count_in_building", without=["depth_noise"])
-        self.places, self.eye = places, np.zeros(2)
+        self.places, self.eye = places, (0.0, 0.0)
 
-    def place(self, index, seen):
-        return np.array(self.places[index], float)
+    def place(self, index, view):
+        return self.places[index]
 
 
 class _Found:
     def __init__(self, *index):
-        self.index, self.seen = np.array(index), None
+        self.index, self.sight = list(index), None
 
 
 def test_things_are_told_by_their_places():

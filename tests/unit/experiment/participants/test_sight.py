@@ -37,16 +37,18 @@ def kept():
 @pytest.mark.parametrize("seen", [look(), kept()])
 def test_a_sight_says_of_each_thing_that_may_be_asked_for_what_the_arrays_say(seen):
     found = sight(seen, SCENE, AVERAGE)
-    assert found.index == [2, 3] and found.walls == 0b10010
+    assert [t.index for t in found.things] == [2, 3]
+    assert found.walls == {1, 4} and found.whole == {2}
     pixels = look().area * WINDOW_PIXELS
     p = AVERAGE
-    for k, i in enumerate(found.index):
+    for thing in found.things:
+        i = thing.index
         notice = likely(0.15 * np.sqrt(pixels[i]), p.notice, p.notice_spread)
         clear = likely(pixels[i] * 0.15 / CLEAR, p.recognise, p.recognise_spread)
         # The same formula for one number: a few units in the last place.
-        assert found.notice[k] == pytest.approx(notice, rel=1e-12)
-        assert found.recognise[k] == pytest.approx(clear, rel=1e-12)
-        assert found.weight[k] == look().weight[i] and found.contrast[k] == 0.15
+        assert thing.notice == pytest.approx(notice, rel=1e-12)
+        assert thing.recognise == pytest.approx(clear, rel=1e-12)
+        assert (thing.weight, thing.contrast) == (look().weight[i], look().contrast[i])
 
 
 def test_a_kept_look_serves_one_profile_after_the_other():
@@ -54,8 +56,9 @@ def test_a_kept_look_serves_one_profile_after_the_other():
     first = sight(seen, SCENE, AVERAGE)
     assert sight(seen, SCENE, AVERAGE) is first
     other = replace(AVERAGE, notice=AVERAGE.notice * 3)
-    assert (np.array(sight(seen, SCENE, other).notice) < first.notice).all()
-    assert sight(seen, SCENE, AVERAGE).recognise == first.recognise
+    fewer = sight(seen, SCENE, other).things
+    assert all(a.notice < b.notice for a, b in zip(fewer, first.things, strict=True))
+    assert sight(seen, SCENE, AVERAGE).things == first.things
 
 
 def test_a_value_changed_is_the_value_replaced():
