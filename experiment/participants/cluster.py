@@ -11,6 +11,7 @@ import logging
 import pickle
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import replace
 from importlib import metadata
 from threading import Lock
@@ -79,7 +80,10 @@ class _Queue:
         self._client, self._chunks = client, iter(chunks)
         self._needs = {**_versions(), "code": job.code}
         self._job = pickle.dumps((replace(job, tables=None), study))
-        self._tables = Looks(job.tables).whole() if job.tables is not None else b""
+        self._tables = b""
+        if job.tables is not None:
+            with closing(Looks(job.tables)) as looks:
+                self._tables = looks.whole()
         self._waiting: deque[tuple[Slots, Any]] = deque()
         self._scattered = self._scatter()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import closing
 from pathlib import Path
 
 from experiment.config import Study, find, load
@@ -37,12 +38,13 @@ def run(
             print(f"{out}: all {count} participants are there", file=sys.stderr)
             return
         make_tables(job, min(count, b.CHUNK))
-        tables = Looks(job.tables) if scheduler is not None else None
-        with Progress("simulating", sum(map(len, chunks))) as progress:
+        with (
+            Progress("simulating", sum(map(len, chunks))) as progress,
+            closing(Looks(job.tables)) as tables,
+        ):
             for chunk in _played(job, chunks, workers, scheduler):
                 results.add(chunk)
-                if tables is not None:
-                    tables.add(chunk.looks)
+                tables.add(chunk.looks)  # of machines that share no disk with this one
                 progress.step(f"S{chunk.slots[-1]:02d}", len(chunk.slots))
 
 
@@ -64,8 +66,9 @@ def make_tables(job: b.Batch, walkers: int) -> bool:
     """
     study = load(job.study)
     what = f"{study.digest()}, {job.pool} scenes a task"
-    looks = Looks(job.tables)
-    if lacks := not looks.is_filled(what, walkers):
+    with closing(Looks(job.tables)) as looks:
+        if looks.is_filled(what, walkers):
+            return False
         worlds = len(b.abstract_trials(study)) * job.pool
         with Progress("making tables", worlds + walkers) as progress:
             b.fill(job, progress)
@@ -74,8 +77,7 @@ def make_tables(job: b.Batch, walkers: int) -> bool:
                 b.keep_tables()
                 progress.step(f"buildings, S{slot:02d}")
         looks.fill(what, walkers)
-    looks.close()
-    return lacks
+    return True
 
 
 def _played(
