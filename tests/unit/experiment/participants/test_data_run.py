@@ -79,3 +79,22 @@ def test_own_models_and_a_cluster_are_refused_in_a_line(tmp_path, capsys):
     line = f"seethrough: {tmp_path / 'own.toml'}: walkthrough.models = ['wedge']: expected none"
     assert told.startswith(line) and told.count("\n") == 1
     assert not (tmp_path / "o").exists()
+
+
+def test_tables_are_made_once_and_again_where_that_was_interrupted(tmp_path, monkeypatch):
+    job = Batch("demo", 1, 2, tmp_path / "t.db")
+    made = []
+
+    def fill(job, progress):
+        made.append(job.pool)
+        if len(made) == 1:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(data_run.b, "fill", fill)
+    monkeypatch.setattr(data_run.b, "play_chunk", made.append)
+    monkeypatch.setattr(data_run.b, "keep_tables", lambda: None)
+    with pytest.raises(KeyboardInterrupt):
+        data_run.make_tables(job, 1)
+    assert data_run.make_tables(job, 2) and made == [2, 2, [1], [2]]
+    assert not data_run.make_tables(job, 2) and not data_run.make_tables(job, 1)
+    assert data_run.make_tables(replace(job, pool=3), 1) and made[4:] == [3, [1]]
