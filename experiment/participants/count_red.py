@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -12,6 +13,7 @@ from experiment.participants.counting import seconds_to_count, slips
 from experiment.participants.glance import WHOLE, Glance, heading, noticed, uncrowded
 from experiment.participants.hands import Hands
 from experiment.participants.person import Mood
+from renderer.scene import Scene
 from tasks.events import Event
 
 RED_ENOUGH = 0.5  # a thing is red if this much of its colour is [ours]
@@ -58,9 +60,14 @@ def red_things(mood: Mood, glance: Glance) -> NDArray[np.int64]:
     """Indices of red things noticed now and not lost in a crowd."""
     seen = glance.look()
     index = noticed(seen, mood)
-    colors = [glance.view.scene.objects[i].color for i in index]
-    red = index[[c[0] > RED_ENOUGH and c[1] + c[2] < RED_ENOUGH for c in colors]]
-    return uncrowded(seen, red, mood)[0]
+    return uncrowded(seen, index[_red(glance.view.scene)[index]], mood)[0]
+
+
+@lru_cache(maxsize=64)
+def _red(scene: Scene) -> NDArray[np.bool_]:
+    """(n,) which objects of a scene are red (scenes are compared by identity)."""
+    colors = (thing.color for thing in scene.objects)
+    return np.array([r > RED_ENOUGH and g + b < RED_ENOUGH for r, g, b in colors], dtype=bool)
 
 
 def new_ones(

@@ -36,7 +36,8 @@ class Hands:
     def take(self) -> list[Event]:
         """The events since the last call; at least one, so that time goes on."""
         events, self._events = self._events, []
-        return [*events, Tick(self.time)]
+        events.append(Tick(self.time))
+        return events
 
     def wait(self, seconds: float) -> None:
         """Think: mental times go at the person's pace."""
@@ -91,15 +92,16 @@ class Hands:
         factor = 1.0
         if self.mood.uses("motor_noise"):
             factor += p.motor_noise * float(self.mood.rng.standard_normal())
-        dx, dy = -yaw * factor / self.gain, (pitch * factor / self.gain if drag else 0.0)
         x, y = GRIP
         if drag:
             self._events.append(PointerPress(self.time, x, y))
         began, moves = self.time, -(-MOVES // parts) * parts
-        for move in range(1, moves + 1):
-            x, y = x + dx / moves, y + dy / moves
-            self.time = began + seconds * _reach_time(move / moves)
-            self._events.append(PointerMove(self.time, x, y, dx / moves, dy / moves, drag))
+        dx = -yaw * factor / self.gain / moves
+        dy = pitch * factor / self.gain / moves if drag else 0.0
+        for move, share in enumerate(_reach(moves), start=1):
+            x, y = x + dx, y + dy
+            self.time = began + seconds * share
+            self._events.append(PointerMove(self.time, x, y, dx, dy, drag))
             if move < moves and move % (moves // parts) == 0:
                 yield False
         if drag:
@@ -119,6 +121,11 @@ class Hands:
 
 
 @cache
+def _reach(moves: int) -> tuple[float, ...]:
+    """After which share of its time a reach has come each of so many equal parts further."""
+    return tuple(_reach_time(move / moves) for move in range(1, moves + 1))
+
+
 def _reach_time(share: float) -> float:
     """Share of its time after which a reach has got that far (minimum jerk, Flash & Hogan 1985)."""
     if share > 0.5:

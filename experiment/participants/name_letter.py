@@ -81,7 +81,7 @@ def _remember(
 
 @cache
 def _templates() -> dict[str, NDArray[np.float64]]:
-    """Each letter as (36, n, 2) points along its strokes at 36 angles, two units high."""
+    """Each letter as (2, n, 36) points along its strokes at 36 angles, two units high."""
     templates = {}
     for letter, strokes in STROKES.items():
         points = [
@@ -89,9 +89,9 @@ def _templates() -> dict[str, NDArray[np.float64]]:
             for a, b in strokes
         ]
         flat = np.concatenate(points)
-        cos, sin = np.cos(ANGLES)[:, None], np.sin(ANGLES)[:, None]
-        x, z = flat[:, 0], flat[:, 1]
-        templates[letter] = np.stack([x * cos + z * sin, z * cos - x * sin], axis=-1)
+        cos, sin = np.cos(ANGLES), np.sin(ANGLES)
+        x, z = flat[:, :1], flat[:, 1:]
+        templates[letter] = np.stack([x * cos + z * sin, z * cos - x * sin])
     return templates
 
 
@@ -112,10 +112,11 @@ def letter_chances(places: NDArray[np.float64]) -> dict[str, float]:
 
 def _fit(template: NDArray[np.float64], places: NDArray[np.float64]) -> float:
     """Log-likelihood of the best angle."""
-    x = template[:, :, None, 0] - places[:, 0]
-    z = template[:, :, None, 1] - places[:, 1]
+    x, z = template[:, :, None] - places.T[:, None, :, None]
     apart = np.minimum(x * x + z * z, FAR**2)
-    misfit = apart.min(axis=1).mean(axis=1) + apart.min(axis=2).mean(axis=1)
+    # Nearest ones are found for all angles at once, in the last axis; means sum best along it.
+    to_cone, to_stroke = apart.min(axis=1).T.copy(), apart.min(axis=0).T.copy()
+    misfit = to_stroke.mean(axis=1) + to_cone.mean(axis=1)
     return float(-misfit.min() * len(places) / (2 * FIT**2))
 
 

@@ -82,7 +82,7 @@ class Layout:
         if cell not in self._blocked:
             blocked = crossings(self.centers[cell], self.centers, self.segments).T
             self._blocked[cell] = np.packbits(blocked, axis=1)  # 300 MB of a study would be 40
-        found = np.bitwise_or.reduce(self._blocked[cell][walls], axis=0)
+        found = np.bitwise_or.reduce(self._blocked[cell].compress(walls, axis=0), axis=0)
         return np.unpackbits(found, count=len(self.centers)).view(bool)
 
 

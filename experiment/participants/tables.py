@@ -25,6 +25,13 @@ from tasks.controls import turned
 YAWS = 12  # of the orbit's lattice: every 30°
 PITCHES = (-1.25, -0.8, -TILT, 0.0, TILT, 0.8, FROM_ABOVE)
 
+# Of each heading, the viewpoints from one cell to the next: the third word of their keys, and how
+# far in x and z they lie from the first cell's middle, in cells.
+PASSED = [
+    [(heading + part * DIRECTIONS, part / parts * x, part / parts * z) for part in range(parts)]
+    for heading, (parts, (x, z)) in enumerate(zip(STRIDES, AHEAD, strict=True))
+]
+
 Draw = Callable[[Scene, Camera], Visibility]
 
 
@@ -59,16 +66,14 @@ def walk_key(camera: Camera) -> Key:
     """
     yaw = atan2(-camera.rotation.item(2, 0), camera.rotation.item(0, 0))
     heading = round(yaw / (2 * pi / DIRECTIONS)) % DIRECTIONS
-    across, along = AHEAD[heading]
     x, _, z = camera.eye.tolist()
     x, z = x / CELL, z / CELL
     key, nearest = (0, 0, 0), inf
-    for part in range(STRIDES[heading]):
-        share = part / STRIDES[heading]
-        i, j = floor(x - share * across), floor(z - share * along)
-        way = abs(i + 0.5 + share * across - x) + abs(j + 0.5 + share * along - z)
+    for number, across, along in PASSED[heading]:
+        i, j = floor(x - across), floor(z - along)
+        way = abs(i + 0.5 + across - x) + abs(j + 0.5 + along - z)
         if way < nearest:
-            key, nearest = (i, j, heading + part * DIRECTIONS), way
+            key, nearest = (i, j, number), way
     return key
 
 

@@ -15,7 +15,7 @@ from experiment.participants.effects import plan_effects
 from experiment.participants.forms import Opinions
 from experiment.participants.glance import likely, noticed, uncrowded
 from experiment.participants.hands import Hands
-from experiment.participants.name_letter import letter_chances
+from experiment.participants.name_letter import FAR, FIT, _fit, _templates, letter_chances
 from experiment.participants.person import Mood, Person
 from experiment.participants.places import Known, apart, bearing, crossed, layout
 from experiment.participants.profile import AVERAGE
@@ -104,6 +104,22 @@ def test_clean_letters_are_told_apart_at_any_angle(letter):
         chances = letter_chances(letter_points(letter, 12.0, angle)[:, [0, 2]])
         assert max(chances, key=chances.get) == letter
         assert_allclose(sum(chances.values()), 1)
+
+
+def test_a_letter_fits_as_well_as_its_best_angle_says():
+    cones = np.random.default_rng(5).uniform(-1, 1, (9, 2))
+    strokes = np.concatenate(
+        [np.linspace((-0.6, -1), (0.6, 1), 9), np.linspace((0.6, -1), (-0.6, 1), 9)]
+    )
+    misfits = []
+    for angle in np.arange(36) * np.pi / 18:
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        apart = [[min(((cone - s @ turn) ** 2).sum(), FAR**2) for s in strokes] for cone in cones]
+        misfits.append(
+            np.mean([min(row) for row in apart])
+            + np.mean([min(column) for column in zip(*apart, strict=True)])
+        )
+    assert_allclose(_fit(_templates()["X"], cones), -min(misfits) * 9 / (2 * FIT**2), rtol=1e-12)
 
 
 def test_a_handful_of_cones_says_nothing():
