@@ -35,8 +35,8 @@ class Person:
     began: float | None = None
 
     def __post_init__(self) -> None:
-        drawn = self.rng.standard_normal(TRAITS)
-        draws = drawn if self.traits is None else np.array(self.traits)
+        given = self.traits is not None
+        draws = np.array(self.traits) if given else self.rng.standard_normal(TRAITS)
         p = self.profile
         if "people" in self.without:
             draws[:] = 0

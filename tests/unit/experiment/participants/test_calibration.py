@@ -21,7 +21,7 @@ from experiment.participants.calibration import (
     table,
 )
 from experiment.participants.code_hash import code_sha256
-from experiment.participants.fitting import FREE, LAST, Crowd, calibrate, with_free
+from experiment.participants.fitting import FREE, LAST, Crowd, _slopes, calibrate, with_free
 from experiment.participants.person import TRAITS, Person, mood_for
 from experiment.participants.pool import Pool
 from experiment.participants.profile import AVERAGE
@@ -116,6 +116,11 @@ def test_a_larger_crowd_corrects_what_was_peculiar_to_the_first():
     best, value = calibrate(AVERAGE, crowd(1.7), 60, last=larger)
     assert_allclose(best.pace, 1.5, rtol=0.02)
     assert value == misfit(measured(crowd(1.5)(best))) and 2 + len(FREE) < len(played) <= LAST
+
+
+def test_slopes_of_what_is_linear_are_its_matrix():
+    matrix = np.random.default_rng(1).integers(-9, 9, (5, 3))
+    assert_allclose(_slopes(lambda x: matrix @ x + 2, np.array([0.1, 0.0, -0.3])), matrix)
 
 
 def test_a_crowd_is_spread_evenly_over_what_people_are_like():
