@@ -33,6 +33,7 @@ from renderer.models.simple import simplified
 from renderer.techniques.standard import Standard
 from renderer.visibility import Visibility
 from tasks.base import View
+from tasks.events import Event, KeyPress, KeyRelease, Tick
 
 ASPECT = 4 / 3
 TRIALS = 384  # of the published study: what a way to look costs there is drawn
@@ -54,6 +55,11 @@ class Way:
         return f"visual, {self.height} px{models}{looks}" if self.height else "data mode, 150 px"
 
 
+# Of the figure: colour tells looks on the way (Okabe and Ito's, which colour-blind people tell
+# apart), the mark tells the picture's rows, a hollow one whole models.
+COLOURS = {0: "#0072B2", 1: "#000000", 2: "#D55E00"}
+MARKS = {300: "s", 150: "o", 75: "^", 38: "v", 0: "*"}
+
 # The reference first; then the default, coarser and finer pictures, fewer and more looks, tables.
 WAYS = (
     Way(300, simple=False, passing=2),
@@ -70,11 +76,12 @@ WAYS = (
 
 @dataclass(frozen=True)
 class Eyes:
-    """A way to look: its name, seconds a trial, the trials it led to."""
+    """A way to look: its name, seconds a trial, the trials it led to and their events."""
 
     name: str
     seconds: float
     trials: tuple[TrialRecord, ...]
+    events: tuple[Sequence[Event], ...] = ()
 
 
 class OpenEyes(Pool):
@@ -94,7 +101,7 @@ class OpenEyes(Pool):
 
 def play(trials: Sequence[Trial], pool: Pool, way: Way, repeats: int) -> Eyes:
     """Every trial `repeats` times, each by a person of its own: the same for every way to look."""
-    played = []
+    played, events = [], []
     profile = replace(AVERAGE, passing=way.passing)
     start = time.perf_counter()
     for k, trial in enumerate(trials):
@@ -102,9 +109,11 @@ def play(trials: Sequence[Trial], pool: Pool, way: Way, repeats: int) -> Eyes:
             person = SimulatedParticipant(generator(1, (SIMULATED, 1 + k, repeat)), profile)
             text = Paragraph(f"transparency.{trial.transparency}")
             person.answer(Page("instruction", "", (text,)))
-            played.append(play_trial(person, pool, trial)[0])
+            record, sent = play_trial(person, pool, trial)
+            played.append(record)
+            events.append(sent)
     seconds = (time.perf_counter() - start) / len(played)
-    return Eyes(way.name, seconds, tuple(played))
+    return Eyes(way.name, seconds, tuple(played), tuple(events))
 
 
 def measure(eyes: Eyes, reference: Eyes) -> dict[str, Any]:
@@ -117,6 +126,7 @@ def measure(eyes: Eyes, reference: Eyes) -> dict[str, Any]:
         "value": round(eyes.seconds * 1e3, 2),
         "unit": "ms a trial",
         "looks_a_second": round(_looks(eyes), 2),
+        "looks_a_second_walking": round(walking(eyes.events), 2),
         "time_error": round(float(np.expm1(slower.mean())), 4),
         "time_error_se": round(_se(slower), 4),
         "count_error": round(float(np.mean(counts[0] - counts[1])), 4),
@@ -128,6 +138,25 @@ def _looks(eyes: Eyes) -> float:
     """Looks a simulated second in the building, where every frame is looked at."""
     walks = [t for t in eyes.trials if t.trial.scenario != "abstract"]
     return sum(t.frames for t in walks) / sum(t.time for t in walks)
+
+
+def walking(events: Sequence[Sequence[Event]]) -> float:
+    """Looks a simulated second while the key that walks is held; 0 where nobody walks.
+
+    A look follows each tick: the thinking before a step begins counts for nothing here.
+    """
+    looks, seconds = 0, 0.0
+    for trial in events:
+        pressed: float | None = None
+        for event in trial:
+            if isinstance(event, KeyPress) and event.key == "up":
+                pressed = event.time
+            elif isinstance(event, KeyRelease) and event.key == "up" and pressed is not None:
+                looks, seconds = looks + 1, seconds + event.time - pressed  # at its end
+                pressed = None
+            elif isinstance(event, Tick) and pressed is not None:
+                looks += 1
+    return looks / seconds if seconds else 0.0
 
 
 def _count_errors(eyes: Eyes) -> list[int]:
@@ -157,7 +186,8 @@ def told(row: dict[str, Any]) -> str:
     """A row as a line."""
     return (
         f"{row['scene']:42s}{row['value']:8.1f} ms a trial, {row['looks_a_second']:.1f} looks a "
-        f"second; time {row['time_error']:+.3f} ± {row['time_error_se']:.3f}, "
+        f"second, {row['looks_a_second_walking']:.1f} walking; "
+        f"time {row['time_error']:+.3f} ± {row['time_error_se']:.3f}, "
         f"count {row['count_error']:+.2f} ± {row['count_error_se']:.2f}"
     )
 
@@ -170,13 +200,15 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(8, 4.5))
-    marks = "os^vD<>pP*"
     axes.axhline(0, color="0.8", linewidth=1)
-    for k, row in enumerate(rows):
+    ways = {way.name: way for way in WAYS}
+    for row in rows:
+        way = ways.get(row["scene"], Way(150))
         minutes = row["value"] * TRIALS / 60e3
         axes.errorbar(
-            minutes, 100 * row["time_error"], 200 * row["time_error_se"], color=f"C{k}",
-            marker=marks[k], capsize=3, linestyle="", label=row["scene"],
+            minutes, 100 * row["time_error"], 200 * row["time_error_se"], markersize=8,
+            color=COLOURS[way.passing], marker=MARKS[way.height], capsize=3, linestyle="",
+            markerfacecolor=COLOURS[way.passing] if way.simple else "white", label=row["scene"],
         )  # fmt: skip
     axes.set(
         xscale="log",

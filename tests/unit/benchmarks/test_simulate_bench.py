@@ -7,6 +7,7 @@ import pytest
 
 from benchmarks import simulate
 from experiment import cli
+from tasks.events import KeyPress, KeyRelease, Tick
 
 
 @pytest.mark.parametrize(
@@ -78,3 +79,18 @@ def test_a_way_to_look_is_told_by_its_pairs_with_the_reference():
 def test_ways_to_look_have_names_of_their_own():
     names = [way.name for way in simulate.eyes.WAYS]
     assert len(set(names)) == len(names) and "visual, 150 px" in names
+
+
+def test_looks_while_walking_leave_thinking_out():
+    """By hand: a step of a second and one of half, three looks; the looks between do not count."""
+    first = [KeyPress(5.0, "up"), Tick(5.5), KeyRelease(6.0, "up"), Tick(6.0), Tick(20.0)]
+    second = [KeyPress(30.0, "up"), KeyRelease(30.5, "up"), Tick(30.5)]
+    assert simulate.eyes.walking([[*first, *second]]) == 2.0
+    assert simulate.eyes.walking([[Tick(1.0)], []]) == 0.0
+
+
+def test_the_figure_tells_ways_to_look_apart():
+    """Colour tells looks on the way, the mark rows: no two ways look the same."""
+    bench = simulate.eyes
+    drawn = [(bench.COLOURS[w.passing], bench.MARKS[w.height], w.simple) for w in bench.WAYS]
+    assert len(set(drawn)) == len(drawn)
