@@ -20,7 +20,7 @@ from experiment.config import load
 from experiment.design import SIMULATED, generator, session_for
 from experiment.participants.data_mode import play_trial
 from experiment.participants.effects import EFFECTS, plan_effects
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 from experiment.participants.participant import STRATEGIES, SimulatedParticipant
 from experiment.participants.pool import Pool, drawing
 from experiment.participants.profile import Profile
@@ -152,7 +152,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = parser.parse_args(arguments)
     profile, tasks = find(chosen.profile), chosen.tasks.split(",")
     with tempfile.TemporaryDirectory() as folder:
-        looks = Looks(chosen.tables or Path(folder) / "tables.db")
+        looks = KeptLooks(chosen.tables or Path(folder) / "tables.db")
         pool = drawing(load(STUDY), chosen.pool, looks)
         for line in markdown(pool, chosen.participants, profile, tasks):
             print(line, flush=True)

@@ -203,7 +203,7 @@ def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
     axes.axhline(0, color="0.8", linewidth=1)
     ways = {way.name: way for way in WAYS}
     for row in rows:
-        way = ways.get(row["scene"], Way(150))
+        way = ways[row["scene"]]
         minutes = row["value"] * TRIALS / 60e3
         axes.errorbar(
             minutes, 100 * row["time_error"], 200 * row["time_error_se"], markersize=8,

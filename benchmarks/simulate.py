@@ -26,7 +26,7 @@ from experiment.config import load
 from experiment.participants import batch, data_run
 from experiment.participants.calibration import FITTED, HELD_OUT, measured, published
 from experiment.participants.fitting import Crowd
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 from experiment.participants.pool import drawing
 from experiment.participants.profile import Profile
 from experiment.participants.profile_file import find
@@ -156,7 +156,7 @@ def calibration(job: batch.Batch, profile: Profile) -> Iterator[Row]:
     As `calibrate` plays: trial by trial, so that the session's limit ends nobody's half-way.
     """
     assert job.tables is not None
-    crowd = Crowd(job.seed, PEOPLE, drawing(load(STUDY), job.pool, Looks(job.tables)))
+    crowd = Crowd(job.seed, PEOPLE, drawing(load(STUDY), job.pool, KeptLooks(job.tables)))
     found = measured(crowd.play(profile, (*FITTED, *HELD_OUT)))
     for half, tasks in (("fitted", FITTED), ("held out", HELD_OUT)):
         means = max(_off(found[t].means, published()[t].means) for t in tasks)

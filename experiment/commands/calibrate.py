@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
+from tempfile import TemporaryFile
 
 from experiment.config import load
 from experiment.errors import InputError
@@ -43,13 +44,14 @@ def run(arguments: argparse.Namespace) -> int:
     for name, low in least.items():
         if (value := getattr(arguments, name)) < low:
             raise InputError(f"--{name.replace('_', '-')} = {value}: expected at least {low}")
+    _check_out(arguments.out)
     from dataclasses import replace
 
     from experiment.participants import calibration, fitting
-    from experiment.participants.looks import Looks
+    from experiment.participants.looks import KeptLooks
     from experiment.participants.pool import drawing
 
-    pool = drawing(study, arguments.pool, Looks(arguments.tables))
+    pool = drawing(study, arguments.pool, KeptLooks(arguments.tables))
     crowd = fitting.Crowd(arguments.seed, arguments.participants, pool)
     last = fitting.Crowd(arguments.seed, arguments.last, pool)
     with Progress("calibrating", arguments.evaluations + fitting.LAST) as progress:
@@ -70,6 +72,18 @@ def run(arguments: argparse.Namespace) -> int:
     write(arguments.out, best, _provenance(arguments, start.name, misfit, table))
     print(f"profile: {arguments.out}")
     return 0
+
+
+def _check_out(out: Path) -> None:
+    """Ask before a fit of minutes whether its profile can be written. Raises InputError."""
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=out.parent):
+            pass
+    except OSError as error:
+        raise InputError(f"--out = {out}: cannot be written: {error.strerror}") from None
+    if out.is_dir():
+        raise InputError(f"--out = {out}: expected a file's name, not a folder's")
 
 
 def _provenance(

@@ -13,7 +13,7 @@ from experiment.design import Trial, session_for
 from experiment.participants.batch_files import CHUNK, Chunk, Slots, render
 from experiment.participants.code_hash import code_sha256
 from experiment.participants.data_mode import Played, play_session
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 from experiment.participants.pool import Pool, drawing
 from experiment.participants.profile import AVERAGE, Profile
 from experiment.participants.tables import views_of
@@ -62,7 +62,7 @@ def prepare(batch: Batch, study: Study | None = None, tables: bytes = b"") -> No
     `study` and the content of the tables' file are given where their files are on another machine.
     """
     study = study or load(batch.study)
-    looks = Looks(batch.tables, tables)
+    looks = KeptLooks(batch.tables, tables)
     pool = (drawing if batch.draws else Pool)(study, batch.pool, looks=looks)
     _ready.update(batch=batch, study=study, pool=pool)
 

@@ -22,7 +22,7 @@ from experiment.errors import InputError
 from experiment.participants import batch as b
 from experiment.participants.batch_files import Chunk, Slots, chunk_name
 from experiment.participants.code_hash import code_sha256
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 
 PATIENCE = 5.0  # seconds until a scheduler or workers that do not answer are not there
 AHEAD = 2  # chunks handed out for each thread of the cluster, so that none waits
@@ -82,7 +82,7 @@ class _Queue:
         self._job = pickle.dumps((replace(job, tables=None), study))
         self._tables = b""
         if job.tables is not None:
-            with closing(Looks(job.tables)) as looks:
+            with closing(KeptLooks(job.tables)) as looks:
                 self._tables = looks.whole()
         self._waiting: deque[tuple[Slots, Any]] = deque()
         self._scattered = self._scatter()

@@ -11,7 +11,7 @@ from experiment.config import Study, find, load
 from experiment.errors import InputError
 from experiment.participants import batch as b
 from experiment.participants.batch_files import Chunk, Results, Slots
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 from experiment.progress import Progress
 from experiment.workers import ordered_map
 
@@ -22,14 +22,14 @@ def run(
     """Simulate what `out` lacks of `count` participants. Raises InputError.
 
     The numbers are the same whoever simulates: this process, `workers` of them, or the Dask
-    cluster of a scheduler. Looks that nobody had drawn before are added to the tables' file.
+    cluster of a scheduler. KeptLooks that nobody had drawn before are added to the tables' file.
     """
     assert job.tables is not None
     study = load(job.study)
     if scheduler is not None:
         _check_models(job, study)
     if job.tables.exists():
-        Looks(job.tables).close()  # a file that holds something else is refused before anything
+        KeptLooks(job.tables).close()  # a file that holds something else is refused before anything
     with Results(out, study, job.about(study)) as results:
         chunks = results.missing(count)
         if results.note:
@@ -40,7 +40,7 @@ def run(
         make_tables(job, min(count, b.CHUNK))
         with (
             Progress("simulating", sum(map(len, chunks))) as progress,
-            closing(Looks(job.tables)) as tables,
+            closing(KeptLooks(job.tables)) as tables,
         ):
             for chunk in _played(job, chunks, workers, scheduler):
                 results.add(chunk)
@@ -66,7 +66,7 @@ def make_tables(job: b.Batch, walkers: int) -> bool:
     """
     study = load(job.study)
     what = f"{study.digest()}, {job.pool} scenes a task"
-    with closing(Looks(job.tables)) as looks:
+    with closing(KeptLooks(job.tables)) as looks:
         if looks.is_filled(what, walkers):
             return False
         worlds = len(b.abstract_trials(study)) * job.pool
@@ -76,7 +76,7 @@ def make_tables(job: b.Batch, walkers: int) -> bool:
                 b.play_chunk([slot])
                 b.keep_tables()
                 progress.step(f"buildings, S{slot:02d}")
-        looks.fill(what, walkers)
+        looks.mark_filled(what, walkers)
     return True
 
 

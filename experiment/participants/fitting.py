@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import least_squares
 from scipy.special import ndtri
 from scipy.stats.qmc import Halton
 
@@ -40,7 +41,7 @@ FREE = {
     "patience": 3.0,  # thoroughness: views without news before a count is believed
     "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
     "trust": 1.6,  # caution: how far a view through walls is believed
-    "trust_cloud": 2.4,  # caution: patience saved by seeing things through others
+    "trust_cloud": 2.4,  # caution: patience saved by seeing things through others, up to .96
     "sd_person": 4.0,
     "sd_task": 4.0,
     "sd_trial": 4.0,
@@ -183,8 +184,6 @@ def _least_squares(
     slopes: NDArray[np.float64] | None = None,
 ) -> None:
     """Go down from `x` in so many steps, with new derivatives in each unless `slopes` are given."""
-    from scipy.optimize import least_squares
-
     bounds = np.log(list(FREE.values()))
     # Its steps of derivation are shares of x: those of 1 + x are about `STEP` everywhere.
     least_squares(

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,8 +39,8 @@ _BEGIN = (
 )
 
 
-class Looks:
-    """Looks by table and viewpoint, in the file `path` or, without one, in this process alone.
+class KeptLooks:
+    """KeptLooks by table and viewpoint, in the file `path` or, without one, in this process alone.
 
     Fresh ones are written by `flush`. `content` is that of another machine's file (`whole`), in
     the place of a file. Raises InputError for a file that holds something else.
@@ -72,11 +73,11 @@ class Looks:
                 )
 
     def is_filled(self, what: str, walkers: int) -> bool:
-        """Whether `fill` was told this, of so many walkers or more."""
+        """Whether `mark_filled` was told this, of so many walkers or more."""
         question = "SELECT 1 FROM filled WHERE what = ? AND walkers >= ?"
         return bool(self._all(question, what, walkers))
 
-    def fill(self, what: str, walkers: int) -> None:
+    def mark_filled(self, what: str, walkers: int) -> None:
         """Remember that all was drawn that so many people look at."""
         with self._speaking(), self._file:
             self._file.execute("INSERT OR REPLACE INTO filled VALUES (?, ?)", (what, walkers))
@@ -98,19 +99,18 @@ class Looks:
     def _get(self, table: str, objects: int, key: Key) -> Kept:
         """The look as it was kept, the same to the last bit. Raises KeyError."""
         name = table, _name(key)
-        found: Rows | None = self._fresh.get(name)
-        if found is None:
-            rows = self._all("SELECT shown FROM looks WHERE scene = ? AND viewpoint = ?", *name)
-            if not rows:
-                raise KeyError(f"viewpoint {key} is in no table")
-            found = rows[0][0]
-        return Kept(objects, self._numbers(found))
+        if name in self._fresh:
+            return Kept(objects, self._numbers(self._fresh[name]))
+        rows = self._all("SELECT shown FROM looks WHERE scene = ? AND viewpoint = ?", *name)
+        if not rows:
+            raise KeyError(f"viewpoint {key} is in no table")
+        return Kept(objects, self._numbers(rows[0][0]))
 
     def _numbers(self, row: bytes) -> NDArray[np.float64]:
         with self._speaking():
             return np.frombuffer(row).reshape(NUMBERS, -1)
 
-    def _all(self, question: str, *values: object) -> list[tuple[str, ...]]:
+    def _all(self, question: str, *values: object) -> list[tuple[Any, ...]]:
         with self._speaking():
             return self._file.execute(question, values).fetchall()
 
@@ -120,8 +120,9 @@ class Looks:
         try:
             yield
         except (sqlite3.Error, OSError, ValueError, TypeError) as error:
+            where = self.path or "tables from another machine"
             raise InputError(
-                f"{self.path}: expected a file of visibility tables: {_reason(error)}"
+                f"{where}: expected a file of visibility tables: {_reason(error)}"
             ) from None
 
 
@@ -133,7 +134,9 @@ def _opened(path: Path | None, content: bytes) -> sqlite3.Connection:
         file.deserialize(content)
     (whose,) = file.execute("PRAGMA application_id").fetchone()
     (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
-    if whose != OURS and (whose or tables):
+    if whose == OURS:  # it may be read-only, and nobody waits for its lock
+        return file
+    if whose or tables:
         raise ValueError("another program's database")
     for command in _BEGIN:
         file.execute(command)

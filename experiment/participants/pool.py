@@ -13,7 +13,7 @@ import numpy as np
 
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, Trial, generator
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 from experiment.participants.tables import Draw, TableEyes
 from experiment.scenes import StudyScenes
 from renderer.camera import Camera
@@ -35,13 +35,13 @@ class Pool(StudyScenes):
     """
 
     def __init__(
-        self, study: Study, size: int, draw: Any = None, looks: Looks | None = None
+        self, study: Study, size: int, draw: Any = None, looks: KeptLooks | None = None
     ) -> None:
         if size < 0:
             raise ValueError(f"pool = {size}: expected at least 1 scene a task, 0 for the study's")
         super().__init__(study)
         self.size, self._draw = size, draw
-        self.looks = looks or Looks()
+        self.looks = looks or KeptLooks()
         self._scenes: dict[str, Any] = {}
         self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, its scenario
         self._draws: dict[str, Draw | None] = {}
@@ -93,7 +93,7 @@ class Pool(StudyScenes):
         return TableEyes(self.looks, table, len(scene.objects), scenario, self._draws[level])
 
 
-def drawing(study: Study, size: int, looks: Looks | None = None) -> Pool:
+def drawing(study: Study, size: int, looks: KeptLooks | None = None) -> Pool:
     """A pool that draws what its tables lack, in the study's window's shape."""
     return Pool(study, size, LazyDraw(study, study.display.width / study.display.height), looks)
 

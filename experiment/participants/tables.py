@@ -14,7 +14,7 @@ from math import asin, atan2, floor, inf, pi
 import numpy as np
 
 from experiment.participants.count_red import TILT
-from experiment.participants.looks import Key, Looks
+from experiment.participants.looks import KeptLooks, Key
 from experiment.participants.name_letter import FROM_ABOVE
 from experiment.participants.places import AHEAD, CELL, DIRECTIONS, STRIDES
 from renderer.camera import Camera
@@ -95,7 +95,7 @@ class TableEyes:
     """
 
     def __init__(
-        self, looks: Looks, name: str, objects: int, scenario: str, draw: Draw | None = None
+        self, looks: KeptLooks, name: str, objects: int, scenario: str, draw: Draw | None = None
     ) -> None:
         self.looks, self.name, self.objects = looks, name, objects
         self.draw = draw

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from experiment import cli
 from experiment.commands import calibrate as command
 from experiment.config import load
 from experiment.design import generator
@@ -206,3 +207,19 @@ def test_the_command_that_made_a_profile_can_be_given_again():
     assert (program, name) == ("seethrough", "calibrate")
     assert parser.parse_args([*again, *files]) == arguments
     assert code_sha256() in told["code"] and len(code_sha256()) == 12
+
+
+@pytest.mark.parametrize("where", ["", "a file/p.toml"])
+def test_a_profile_that_cannot_be_written_is_refused_before_anybody_plays(
+    tmp_path, capsys, monkeypatch, where
+):
+    monkeypatch.setattr(Crowd, "play", lambda *_: pytest.fail("played"))
+    (tmp_path / "a file").touch()
+    out = tmp_path / where
+    words = ["calibrate", "demo", "--tables", str(tmp_path / "t.db"), "--out", str(out)]
+    assert cli.main(words) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"seethrough: --out = {out}: ")
+    refused = ("expected a file's name, not a folder's", "File exists", "Not a directory")
+    assert line.endswith(refused)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a file"]

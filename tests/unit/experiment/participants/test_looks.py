@@ -9,14 +9,14 @@ from made_looks import random_look, same_look
 
 from experiment.errors import InputError
 from experiment.participants import looks as module
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 
 ADDS = """
 import sys
 from pathlib import Path
 from made_looks import random_look
-from experiment.participants.looks import Looks
-looks = Looks(Path(sys.argv[1]))
+from experiment.participants.looks import KeptLooks
+looks = KeptLooks(Path(sys.argv[1]))
 for k in range(40):
     looks.put("mine" + sys.argv[2], (k, 0), random_look(k))
     looks.put("both", (k, 0), random_look(k))
@@ -35,10 +35,10 @@ def adder(path, name):
 
 
 def test_a_look_comes_back_to_the_last_bit_before_and_after_it_is_written(tmp_path):
-    looks = Looks(tmp_path / "t.db")
+    looks = KeptLooks(tmp_path / "t.db")
     for k in range(5):
         looks.put("a-1/standard", (k, -2), random_look(k))
-    other = Looks(tmp_path / "t.db")
+    other = KeptLooks(tmp_path / "t.db")
     with pytest.raises(KeyError, match=r"viewpoint \(0, -2\) is in no table"):
         other.get("a-1/standard", 12, (0, -2))
     assert len(looks.flush()) == 5 and not looks.flush()
@@ -50,7 +50,7 @@ def test_a_look_comes_back_to_the_last_bit_before_and_after_it_is_written(tmp_pa
 
 
 def test_what_is_there_stays():
-    looks = Looks()
+    looks = KeptLooks()
     for seed in (1, 2):
         looks.put("a", (0,), random_look(seed))
         looks.flush()
@@ -59,7 +59,7 @@ def test_what_is_there_stays():
 
 def test_only_so_many_looks_are_held(monkeypatch):
     monkeypatch.setattr(module, "MOST_KEPT", 4)
-    looks = Looks()
+    looks = KeptLooks()
     for k in range(9):
         looks.put("a", (k,), random_look(k))
     looks.flush()
@@ -72,14 +72,14 @@ def test_only_so_many_looks_are_held(monkeypatch):
 
 
 def test_a_file_travels_by_value(tmp_path):
-    looks = Looks(tmp_path / "t.db")
+    looks = KeptLooks(tmp_path / "t.db")
     looks.put("a", (3,), random_look(3))
     looks.flush()
-    there = Looks(content=looks.whole())
+    there = KeptLooks(content=looks.whole())
     assert same_look(there.get("a", 12, (3,)), random_look(3))
     there.put("a", (4,), random_look(4))
     looks.add(there.flush())
-    assert Looks(tmp_path / "t.db").keys() == [("a", (3,)), ("a", (4,))]
+    assert KeptLooks(tmp_path / "t.db").keys() == [("a", (3,)), ("a", (4,))]
 
 
 def test_processes_share_a_file_and_one_that_is_killed_loses_only_what_it_had_not_written(tmp_path):
@@ -98,7 +98,7 @@ def test_processes_share_a_file_and_one_that_is_killed_loses_only_what_it_had_no
         for process in processes:
             process.kill()
             process.communicate()
-    found = Looks(path)
+    found = KeptLooks(path)
     counts = [
         sum(table == name for table, _ in found.keys()) for name in ("minex", "miney", "both")
     ]
@@ -108,11 +108,11 @@ def test_processes_share_a_file_and_one_that_is_killed_loses_only_what_it_had_no
 
 
 def test_what_was_filled_is_remembered_with_the_most_walkers(tmp_path):
-    looks = Looks(tmp_path / "t.db")
+    looks = KeptLooks(tmp_path / "t.db")
     assert not looks.is_filled("a study", 1)
     for walkers in (16, 128):
-        looks.fill("a study", walkers)
-    other = Looks(tmp_path / "t.db")
+        looks.mark_filled("a study", walkers)
+    other = KeptLooks(tmp_path / "t.db")
     assert other.is_filled("a study", 16) and other.is_filled("a study", 128)
     assert not other.is_filled("a study", 129) and not other.is_filled("another", 1)
 
@@ -131,28 +131,28 @@ def test_another_programs_database_is_refused_and_left_alone(tmp_path):
     before = path.read_bytes()
     message = f"{path}: expected a file of visibility tables: it is none, or not whole"
     with pytest.raises(InputError) as raised:
-        Looks(path)
+        KeptLooks(path)
     assert str(raised.value) == message and path.read_bytes() == before
     path.unlink()
     database(path, "PRAGMA application_id = 7")
     with pytest.raises(InputError, match="it is none"):
-        Looks(path)
+        KeptLooks(path)
 
 
 @pytest.mark.parametrize("row", ["x'00112233'", "'a text'"])
 def test_a_row_that_is_no_look_is_one_line(tmp_path, row):
-    Looks(tmp_path / "t.db").close()
+    KeptLooks(tmp_path / "t.db").close()
     database(tmp_path / "t.db", f"INSERT INTO looks VALUES ('a', '0', {row})")
     with pytest.raises(
         InputError, match=r"t\.db: expected a file of visibility tables: it is none"
     ):
-        Looks(tmp_path / "t.db").get("a", 12, (0,))
+        KeptLooks(tmp_path / "t.db").get("a", 12, (0,))
 
 
 def test_a_file_that_cannot_be_used_says_why(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", 0.1)
     path = tmp_path / "t.db"
-    looks = Looks(path)
+    looks = KeptLooks(path)
     held = sqlite3.connect(path, isolation_level=None)
     held.execute("BEGIN EXCLUSIVE")
     with pytest.raises(InputError, match=r"t\.db: expected .* tables: database is locked"):
@@ -161,4 +161,24 @@ def test_a_file_that_cannot_be_used_says_why(tmp_path, monkeypatch):
     with pytest.raises(
         InputError, match=r"t\.db/x: expected .* tables: File exists|Not a directory"
     ):
-        Looks(path / "x")
+        KeptLooks(path / "x")
+
+
+def test_a_file_that_is_there_opens_while_another_process_is_about_to_write(tmp_path, monkeypatch):
+    """What a read-only file needs as well: opening asks for no lock to write."""
+    monkeypatch.setattr(module, "PATIENCE", 0.1)
+    path = tmp_path / "t.db"
+    looks = KeptLooks(path)
+    looks.put("a", (0,), random_look(0))
+    looks.flush()
+    held = sqlite3.connect(path, isolation_level=None)
+    held.execute("BEGIN IMMEDIATE")
+    assert same_look(KeptLooks(path).get("a", 12, (0,)), random_look(0))
+    held.close()
+
+
+def test_tables_that_arrive_broken_are_one_line():
+    with pytest.raises(InputError) as raised:
+        KeptLooks(content=b"half of a file")
+    told = "tables from another machine: expected a file of visibility tables: it is none"
+    assert str(raised.value).startswith(told)

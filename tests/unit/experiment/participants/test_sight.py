@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from experiment.participants.glance import CLEAR, WINDOW_PIXELS, likely
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 from experiment.participants.profile import AVERAGE
 from experiment.participants.sight import sight
 from renderer import geometry
@@ -29,7 +29,7 @@ def look():
 
 
 def kept():
-    looks = Looks()
+    looks = KeptLooks()
     looks.put("a", (0, 0, 0), look())
     return looks.get("a", len(THINGS), (0, 0, 0))
 

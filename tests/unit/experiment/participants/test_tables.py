@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from experiment.config import load
 from experiment.design import generator
 from experiment.participants.data_mode import play_session, play_trial
-from experiment.participants.looks import Looks
+from experiment.participants.looks import KeptLooks
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.places import AHEAD, STRIDES
 from experiment.participants.pool import Pool, fingerprint
@@ -71,13 +71,13 @@ def test_eyes_draw_each_viewpoint_once_at_the_lattice_pose():
         drawn.append(camera)
         return random_look(len(drawn))
 
-    eyes = TableEyes(Looks(), "a", 12, "walkthrough", draw)
+    eyes = TableEyes(KeptLooks(), "a", 12, "walkthrough", draw)
     first = walk(BuildingParameters(), (2.6, 2.4), 0.05).camera()
     second = walk(BuildingParameters(), (2.4, 2.7), -0.1).camera()
     assert same_look(eyes.look(None, first), eyes.look(None, second))
     assert len(drawn) == 1
     assert_allclose(drawn[0].eye, (2.5, 3.2, 2.5))
-    blind = TableEyes(Looks(), "a", 12, "walkthrough")
+    blind = TableEyes(KeptLooks(), "a", 12, "walkthrough")
     with pytest.raises(KeyError, match=r"viewpoint \(0, 0, 0\) is in no table"):
         blind.look(None, first)
 
@@ -140,11 +140,11 @@ class OpenEyes(Pool):
 
 def test_tables_made_beforehand_play_the_same_without_drawing(tmp_path):
     study = small_study()
-    looks = Looks(tmp_path / "pool.db")
+    looks = KeptLooks(tmp_path / "pool.db")
     first = play_session(study, 1, 5, Pool(study, 2, shown, looks))
     assert {len(key) for _, key in looks.keys()} == {2, 3} and len(looks.keys()) > 10
     looks.flush()
-    again = play_session(study, 1, 5, Pool(study, 2, looks=Looks(tmp_path / "pool.db")))
+    again = play_session(study, 1, 5, Pool(study, 2, looks=KeptLooks(tmp_path / "pool.db")))
     assert first.trials == again.trials and first.questions == again.questions
     assert len({r["row_id"] for r in first.trials}) == len(first.trials) == 8
     assert first.status == "complete"
