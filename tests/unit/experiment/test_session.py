@@ -225,6 +225,27 @@ def test_going_on_after_escape_subtracts_the_question_from_the_clean_time():
     assert first.time - first.away == 4 * FRAME
 
 
+def test_what_came_with_a_question_is_not_taken_after_it():
+    """The keys of the same moment were meant for the question, or for nothing."""
+
+    class Interrupted(ScriptedInput):
+        def events(self, view):
+            events = super().events(view)
+            now = events[0].time
+            if self.frames == 2:
+                return [KeyPress(now, "escape"), KeyPress(now, "7"), KeyPress(now, "enter")]
+            return events
+
+        def ask(self, page):
+            return {**super().ask(page), "button": "0"}
+
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    world = World(FakeDisplay(clock), Interrupted(clock, ANSWERS), clock, recorder, TASKS)
+    run_session(study(), 1, world)
+    assert {r.outcome.answer for r in recorder.ended if r.trial.task == "count"} == {"20"}
+
+
 def test_trials_done_before_are_not_played_again():
     status, recorder, _, _ = play(study(), done=frozenset({1, 2, 3, 4, 5}))
     assert status == "complete"

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from experiment.participants.count_red import _red
 from experiment.participants.effects import EFFECTS, plan_effects
 from experiment.participants.hands import Hands
 from experiment.participants.participant import SimulatedParticipant
 from experiment.participants.profile import PROFILES, Profile, profile
 from renderer import geometry
+from renderer.scene import Object, Scene
 from renderer.visibility import Visibility
 from tasks.building import count_building, unique_building
 from tasks.catalog import TASKS
@@ -309,6 +311,19 @@ def test_seeing_through_things_saves_views_of_a_cloud(weight, sooner):
             looked += 1
         views.append(looked)
     assert (views[1] < views[0]) == sooner and views[1] <= views[0]
+
+
+def test_nobody_believes_a_first_view():
+    """The hastiest turn the cloud once, though nothing in it is hidden."""
+    hasty = replace(PROFILES["hasty"], patience=0.0)
+    _, _, events, _ = play("count", profile=hasty, without=QUIET)
+    assert sum(isinstance(event, PointerPress) for event in events) == 1
+
+
+def test_a_thing_is_red_by_what_it_has_of_each_colour():
+    colors = ((1, 0, 0), (0.6, 0.2, 0.2), (1, 1, 0), (1, 0.3, 0.3), (0.4, 0, 0), (0, 0, 1))
+    scene = Scene(tuple(Object(geometry.box(), color=color) for color in colors))
+    assert _red(scene).tolist() == [True, True, False, False, False, False]
 
 
 def test_effects_are_planned_with_reasons():

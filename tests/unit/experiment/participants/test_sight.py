@@ -61,6 +61,14 @@ def test_a_kept_look_serves_one_profile_after_the_other():
     assert sight(seen, SCENE, AVERAGE).things == first.things
 
 
+@pytest.mark.parametrize("eyes", ["notice", "notice_spread", "recognise", "recognise_spread"])
+def test_each_constant_of_the_eyes_makes_a_kept_look_another(eyes):
+    seen = kept()
+    before = sight(seen, SCENE, AVERAGE)
+    other = replace(AVERAGE, **{eyes: 2 * getattr(AVERAGE, eyes)})
+    assert sight(seen, SCENE, other).things == sight(look(), SCENE, other).things != before.things
+
+
 def test_a_value_changed_is_the_value_replaced():
     walker = walk(BuildingParameters(), (1.0, 2.0), 0.3)
     new = changed(walker, x=5.0, yaw=-1.0)

@@ -64,6 +64,18 @@ def test_walk_lattice_poses_are_their_own_nearest():
             )
 
 
+def test_a_walkers_viewpoint_is_the_nearest_of_its_heading():
+    """Against all viewpoints about: 200 places, by the sum of the ways in x and z."""
+    rng = np.random.default_rng(4)
+    for x, z, turn in zip(*rng.uniform(-8, 8, (2, 200)), rng.integers(0, 8, 200), strict=True):
+        camera = walk(BuildingParameters(), (x, z), turn * np.pi / 4).camera()
+        keys = [(i, j, turn + 8 * part) for i in range(-4, 4) for j in range(-4, 4)
+                for part in range(STRIDES[turn])]  # fmt: skip
+        ways = [np.abs(walk_camera(camera, key).eye - camera.eye).sum() for key in keys]
+        nearest = np.abs(walk_camera(camera, walk_key(camera)).eye - camera.eye).sum()
+        assert_allclose(nearest, min(ways), atol=1e-12)
+
+
 def test_eyes_draw_each_viewpoint_once_at_the_lattice_pose():
     drawn = []
 
