@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from plain_trials import MODELS
 
 from experiment.participants.effects import plan_effects
 from experiment.participants.glance import CLEAR, Glance
@@ -13,13 +14,11 @@ from experiment.participants.places import crossed
 from experiment.participants.profile import AVERAGE
 from experiment.participants.sight import Sight, Thing
 from experiment.participants.walking import Walker
-from renderer import geometry
 from renderer.visibility import Visibility
 from tasks.building import count_building
 from tasks.catalog import TASKS
 from tasks.parameters import BuildingParameters
 
-MODELS = {"crate": geometry.box, "ball": lambda: geometry.sphere(8, 5)}
 TASK = TASKS["count_in_building"]
 BUILDING = count_building(np.random.default_rng(1), BuildingParameters(), MODELS)
 

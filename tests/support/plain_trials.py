@@ -1,0 +1,69 @@
+"""Trials played by simulated participants in plain worlds, with looks that need no renderer."""
+
+import numpy as np
+
+from experiment.participants.participant import SimulatedParticipant
+from renderer import geometry
+from renderer.visibility import Visibility
+from tasks.building import count_building, unique_building
+from tasks.catalog import TASKS
+from tasks.parameters import AbstractParameters, BuildingParameters
+
+ASPECT = 4 / 3
+_MESHES = {
+    "ball": geometry.sphere(0.8),
+    "block": geometry.box(1, 1.5, 2),
+    "cone": geometry.cone(0.5, 1.5),
+    "drum": geometry.cylinder(0.7, 1),
+}
+MODELS = {name: (lambda mesh=mesh: mesh) for name, mesh in _MESHES.items()}
+
+
+def begun(name, seed):
+    """A trial's first state; buildings are furnished with plain shapes, which are quick to make."""
+    rng = np.random.default_rng(seed)
+    if TASKS[name].scenario == "abstract":
+        return TASKS[name].begin(rng, AbstractParameters(), ASPECT)
+    make = unique_building if name == "unique" else count_building
+    building = make(rng, BuildingParameters(), MODELS)
+    return TASKS[name].begin(rng, building.parameters, ASPECT, building)
+
+
+def sight(view, shown):
+    """All that `shown` (n,) marks and that lies in the view, large and clear; no occlusion."""
+    camera, scene = view.camera, view.scene
+    local = (scene.centers - camera.eye) @ camera.rotation
+    depth = -local[:, 2]
+    half = np.tan(camera.fov_y / 2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x = ASPECT / 2 + local[:, 0] / depth / half / 2
+        y = 0.5 - local[:, 1] / depth / half / 2
+    inside = (depth > 0.5) & (np.abs(x - ASPECT / 2) < ASPECT / 2) & (np.abs(y - 0.5) < 0.5)
+    seen = shown & (inside | np.array([o.kind in ("wall", "outer wall") for o in scene.objects]))
+    pixels = np.where(seen, 400, 0)
+    position = np.where(seen[:, None], np.stack([x, y], axis=1), np.nan)
+    on = seen.astype(float)
+    return Visibility(pixels, on, position, 0.6 * on, 400 / 30_000 * on)
+
+
+def play(name, seed=1, shown=lambda scene: np.ones(len(scene.objects), bool), most=4000, **more):
+    """One trial: (outcome, seconds, events, participant)."""
+    task = TASKS[name]
+    state = begun(name, seed)
+    participant = SimulatedParticipant(np.random.default_rng([seed, 100]), **more)
+    participant.begin_trial(name, 0.0)
+    now, events = 0.0, []
+    while task.outcome(state) is None and len(events) < most:
+        view = task.view(state)
+        visible = shown(view.scene)
+        batch = participant.events(view, lambda v=view, s=visible: sight(v, s), now, name)
+        assert batch and all(e.time >= now - 1e-12 for e in batch)
+        for event in batch:
+            state = task.on_event(state, event)
+        now = max(e.time for e in batch)
+        events += batch
+    return task.outcome(state), now, events, participant
+
+
+QUIET = ("slips", "view_changes", "crowding", "people", "trial_noise", "learning", "depth_noise",
+         "drift", "motor_noise", "fatigue")  # fmt: skip
