@@ -55,7 +55,7 @@ class Claim:
 
     @property
     def bound(self) -> bool:
-        return self.text.startswith("<")
+        return self.text.startswith(("<", ">"))
 
     def allows(self, low: float, high: float) -> bool:
         """Whether some p in [low, high] is printed like this."""
