@@ -120,7 +120,7 @@ def _replay(folder: Path) -> float:
     shown, start = 0.0, time.perf_counter()
     for number in range(1, 9):
         recorded = find_trial(folder / "replay", "S01", number)
-        looking = Looking(context, 4 / 3)
+        looking = Looking(context, recorded.size)
         looking.technique = recorded.technique
         times = []
         for frame in replay(recorded):

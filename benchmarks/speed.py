@@ -172,7 +172,7 @@ def _of_nothing(context) -> Figure:  # type: ignore[no-untyped-def]
 def _of_looks(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
     """What a look of a simulated participant takes: small pictures of simple models, measured."""
     size = (200, HEIGHT)
-    renderer = Renderer(context, size)
+    renderer = Renderer(context, SIZES[0])
     for name in ("abstract", "walkthrough"):
         scene, cameras = SCENES[name](size[0] / size[1], VIEWS)
         simple = simplified(scene)

@@ -92,7 +92,7 @@ class Certifier:
         self.study = study
         self.aspect = study.display.width / study.display.height
         self._scenes = StudyScenes(study)
-        self._looking = Looking(context, self.aspect)
+        self._looking = Looking(context, (study.display.width, study.display.height))
         self._known: dict[tuple[int, ...], Difficulty] = {}
 
     def measure(self, trial: Trial) -> Difficulty:

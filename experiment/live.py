@@ -66,7 +66,7 @@ def _simulated(participant: SimulatedParticipant, window: Window) -> Input:
     from experiment.looking import Looking
     from experiment.watched_input import WatchedInput
 
-    looking = Looking(window.context, window.aspect, simple=True)
+    looking = Looking(window.context, window.size, simple=True)
     return WatchedInput(participant, window, looking)
 
 

@@ -13,18 +13,31 @@ HEIGHT = 150  # pixels of the id picture
 
 
 class Looking:
-    """Looks at views of one aspect ratio; a view that did not change is drawn only once.
+    """Looks at views in a window; a view that did not change is drawn only once.
 
+    The picture is small, but what is counted in pixels of the window (how wide a mask is) keeps its
+    part of the picture: `window` is (width, height) of what the person has before the eyes.
     `simple` takes models of few triangles: in so small a picture nobody can tell.
     """
 
-    def __init__(self, context: Any, aspect: float, simple: bool = False) -> None:
+    def __init__(self, context: Any, window: tuple[int, int], simple: bool = False) -> None:
         self.simple = simple
-        self.size = (round(HEIGHT * aspect), HEIGHT)
-        self._renderer = Renderer(context, self.size)
+        self._renderer = Renderer(context, window)
         self._seen: tuple[Any, Any, Any, Visibility] | None = None
         self.technique: Any = None
         self.looks = 0
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) of the id picture."""
+        width, height = self._renderer.size
+        return (round(HEIGHT * width / height), HEIGHT)
+
+    def resize(self, window: tuple[int, int]) -> None:
+        """The window has another size now."""
+        if window != self._renderer.size:
+            self._renderer.resize(window)
+            self._seen = None
 
     def look(self, view: View) -> Visibility:
         """What can be seen in `view`, drawn with `technique`."""

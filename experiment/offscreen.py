@@ -18,7 +18,7 @@ class OffscreenDisplay:
     def __init__(self, context: Any, size: tuple[int, int], clock: Clock) -> None:
         self.size = size
         self.clock = clock
-        self.looking = Looking(context, self.aspect, simple=True)
+        self.looking = Looking(context, size, simple=True)
         self._context = context
         self._shown: View | None = None
 

@@ -37,6 +37,7 @@ class WatchedInput:
                 raise Leave
         now = self.window.clock.now()
         self.looking.technique = self.window.technique
+        self.looking.resize(self.window.size)
         if not self._coming:
             planned = self.participant.events(
                 view, lambda: self.looking.look(view), now, self._task

@@ -83,6 +83,11 @@ class Window:
     # Display
 
     @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) of the picture, in pixels."""
+        return self.stage.size
+
+    @property
     def aspect(self) -> float:
         """Width / height of the view."""
         return self.stage.aspect

@@ -83,7 +83,7 @@ def _visibility(recorded: Recorded, path: Path) -> None:
     from experiment.driver import open_context
     from experiment.looking import Looking
 
-    looking = Looking(open_context(), recorded.size[0] / recorded.size[1])
+    looking = Looking(open_context(), recorded.size)
     looking.technique = recorded.technique
     with open(path, "x", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")

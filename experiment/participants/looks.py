@@ -22,9 +22,12 @@ from experiment.participants.sight import Kept, shown
 from renderer.visibility import Visibility
 
 OURS = 0x53656521  # "See!" as SQLite's application id: what tells our files from others
+CONTENT = 2  # SQLite's user version: raised when a look of the same view holds something else
 MOST_KEPT = 32_768  # looks held, with what people make of them: some 5 KB each
 PATIENCE = 60.0  # seconds until another process has written its looks, which takes milliseconds
 NUMBERS = 7  # of each visible object: see `sight.shown`
+
+_OLD = "another version of Seethrough made it, whose people saw something else in the same view"
 
 Key = tuple[int, ...]
 Rows = Mapping[tuple[str, str], bytes]  # (table, viewpoint) → a look's numbers as the file has them
@@ -32,11 +35,16 @@ Rows = Mapping[tuple[str, str], bytes]  # (table, viewpoint) → a look's number
 _BEGIN = (
     "BEGIN IMMEDIATE",
     f"PRAGMA application_id = {OURS}",
+    f"PRAGMA user_version = {CONTENT}",
     "CREATE TABLE IF NOT EXISTS looks"
     " (scene TEXT, viewpoint TEXT, shown BLOB NOT NULL, PRIMARY KEY (scene, viewpoint))",
     "CREATE TABLE IF NOT EXISTS filled (what TEXT PRIMARY KEY, walkers INTEGER NOT NULL)",
     "COMMIT",
 )
+
+
+class _OtherVersion(ValueError):
+    """The file is ours; what it holds is what another version's eyes saw."""
 
 
 class KeptLooks:
@@ -134,6 +142,9 @@ def _opened(path: Path | None, content: bytes) -> sqlite3.Connection:
         file.deserialize(content)
     (whose,) = file.execute("PRAGMA application_id").fetchone()
     (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
+    (version,) = file.execute("PRAGMA user_version").fetchone()
+    if whose == OURS and version != CONTENT:
+        raise _OtherVersion(f"{_OLD}; remove it, or name another file with --tables")
     if whose == OURS:  # it may be read-only, and nobody waits for its lock
         return file
     if whose or tables:
@@ -145,7 +156,7 @@ def _opened(path: Path | None, content: bytes) -> sqlite3.Connection:
 
 def _reason(error: Exception) -> str:
     """An operating system's reason as it is; SQLite's where the file is ours but can't be used."""
-    if isinstance(error, sqlite3.OperationalError):
+    if isinstance(error, sqlite3.OperationalError | _OtherVersion):
         return str(error)  # locked, read-only, disk full
     return getattr(error, "strerror", None) or "it is none, or not whole"
 

@@ -17,7 +17,6 @@ from experiment.participants.looks import KeptLooks
 from experiment.participants.tables import Draw, TableEyes
 from experiment.scenes import StudyScenes
 from renderer.camera import Camera
-from renderer.models.simple import simplified
 from renderer.scene import Scene
 from renderer.visibility import Visibility
 from tasks.base import Task, View
@@ -87,7 +86,7 @@ class Pool(StudyScenes):
 
     def _open(self, scene: Scene, level: str) -> TableEyes:
         name, scenario = self._names[id(scene)]
-        table = f"{name}-{fingerprint(scene, self.study.dynamic)}/{level}"
+        table = f"{name}-{fingerprint(scene, self.study.dynamic, window_of(self.study))}/{level}"
         if level not in self._draws:
             self._draws[level] = None if self._draw is None else self._draw(level)
         return TableEyes(self.looks, table, len(scene.objects), scenario, self._draws[level])
@@ -95,12 +94,18 @@ class Pool(StudyScenes):
 
 def drawing(study: Study, size: int, looks: KeptLooks | None = None) -> Pool:
     """A pool that draws what its tables lack, in the study's window's shape."""
-    return Pool(study, size, LazyDraw(study, study.display.width / study.display.height), looks)
+    return Pool(study, size, LazyDraw(study), looks)
 
 
-def fingerprint(scene: Scene, technique: object) -> str:
-    """What a table depends on besides its viewpoints: objects, their meshes, the technique."""
-    digest = hashlib.sha256(f"{SIMPLE}{technique!r}".encode())
+def window_of(study: Study) -> tuple[int, int]:
+    """(width, height) in pixels of the window that people would look at."""
+    return (study.display.width, study.display.height)
+
+
+def fingerprint(scene: Scene, technique: object, window: tuple[int, int]) -> str:
+    """What a table depends on besides its viewpoints: objects, their meshes, the technique, and the
+    window, whose pixels the technique counts."""
+    digest = hashlib.sha256(f"{SIMPLE}{technique!r}, {window[0]} × {window[1]}".encode())
     digest.update((np.round(scene.transforms, 6) + 0.0).astype("<f8").tobytes())
     for thing in scene.objects:
         digest.update(f"{thing.kind},{thing.color},{len(thing.mesh.triangles)};".encode())
@@ -108,16 +113,14 @@ def fingerprint(scene: Scene, technique: object) -> str:
 
 
 class LazyDraw:
-    """`draw` for a pool: small id pictures from the real renderer.
+    """`draw` for a pool: looks as `Looking` has them, in the study's window.
 
     The context is made when something must be drawn for the first time.
     """
 
-    def __init__(self, study: Study, aspect: float) -> None:
-        from experiment.looking import HEIGHT
-
-        self.study, self.size = study, (round(HEIGHT * aspect), HEIGHT)
-        self._renderer: Any = None
+    def __init__(self, study: Study) -> None:
+        self.study = study
+        self._looking: Any = None
 
     def __call__(self, level: str) -> Draw:
         """What draws for a transparency level."""
@@ -127,9 +130,10 @@ class LazyDraw:
         return lambda scene, camera: self._look(scene, camera, technique)
 
     def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:
-        if self._renderer is None:
+        if self._looking is None:
             from experiment.driver import open_context
-            from renderer.gpu.renderer import Renderer
+            from experiment.looking import Looking
 
-            self._renderer = Renderer(open_context(), self.size)
-        return self._renderer.look(simplified(scene), camera, technique, self.size)
+            self._looking = Looking(open_context(), window_of(self.study), simple=True)
+        self._looking.technique = technique
+        return self._looking.look(View(scene, camera))

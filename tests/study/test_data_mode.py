@@ -16,7 +16,6 @@ from experiment.simulated_input import SimulatedInput
 from experiment.world import World
 from tasks.catalog import TASKS
 
-ASPECT = 4 / 3
 LATTICE = frozenset({"motor_noise"})  # without it a participant stands on the lattice: exact tables
 
 
@@ -35,7 +34,7 @@ def test_where_tables_are_exact_a_whole_session_is_the_same_event_for_event(cont
     """All four tasks at both levels, in the study's own scenes, drawn by the real renderer."""
     study = load("demo")
     eyes = with_open_eyes(context, study, 1, 5, LATTICE)
-    tables = play_session(study, 1, 5, Pool(study, 0, LazyDraw(study, ASPECT)),
+    tables = play_session(study, 1, 5, Pool(study, 0, LazyDraw(study)),
                           without=LATTICE, keep=True)  # fmt: skip
     assert eyes.status == tables.status == "complete"
     assert {(r.trial.task, r.trial.transparency) for r in eyes.records} == {

@@ -76,7 +76,7 @@ def test_eyes_take_simple_models_only_where_they_are_told_to(context):
     view = View(BUILDING.scene, walk(PARAMETERS, BUILDING.start, 0.8).camera())
     renderer = Renderer(context, SIZE)
     for simple in (False, True):
-        eyes = Looking(context, 4 / 3, simple=simple)
+        eyes = Looking(context, (800, 600), simple=simple)
         eyes.technique = Standard()
         scene = simplified(view.scene) if simple else view.scene
         expected = renderer.look(scene, view.camera, Standard(), SIZE)

@@ -139,6 +139,22 @@ def test_another_programs_database_is_refused_and_left_alone(tmp_path):
         KeptLooks(path)
 
 
+def test_looks_of_another_version_are_refused_in_a_line_and_left_alone(tmp_path):
+    """As version 0.1.0 made them: ours, without a version, and with masks four times too wide."""
+    path = tmp_path / "t.db"
+    KeptLooks(path).close()
+    database(path, "PRAGMA user_version = 0")
+    before = path.read_bytes()
+    with pytest.raises(InputError) as raised:
+        KeptLooks(path)
+    assert str(raised.value) == (
+        f"{path}: expected a file of visibility tables: another version of Seethrough made it, "
+        "whose people saw something else in the same view; remove it, or name another file with "
+        "--tables"
+    )
+    assert path.read_bytes() == before
+
+
 @pytest.mark.parametrize("row", ["x'00112233'", "'a text'"])
 def test_a_row_that_is_no_look_is_one_line(tmp_path, row):
     KeptLooks(tmp_path / "t.db").close()

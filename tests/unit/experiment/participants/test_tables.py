@@ -162,7 +162,7 @@ def test_tables_made_beforehand_play_the_same_without_drawing(tmp_path):
     assert first.status == "complete"
 
 
-def test_a_table_belongs_to_its_scene_and_technique():
+def test_a_table_belongs_to_its_scene_technique_and_window():
     study = small_study()
     trial = trial_of(study, "count", "dynamic")
     scene = Pool(study, 2).begin(TASKS["count"], trial, ASPECT).scene
@@ -170,8 +170,10 @@ def test_a_table_belongs_to_its_scene_and_technique():
     moved[0, 3] += 0.001
     objects = (type(scene.objects[0])(scene.objects[0].mesh, moved), *scene.objects[1:])
     other = type(scene)(objects)
-    names = {fingerprint(scene, "a"), fingerprint(other, "a"), fingerprint(scene, "b")}
-    assert len(names) == 3
+    window, larger = (800, 600), (1600, 1200)
+    names = {fingerprint(scene, "a", window), fingerprint(other, "a", window)}
+    names |= {fingerprint(scene, "b", window), fingerprint(scene, "a", larger)}
+    assert len(names) == 4
 
 
 def test_an_empty_pool_is_refused():
