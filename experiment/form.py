@@ -22,6 +22,7 @@ class Form:
     answers: Answers = field(default_factory=dict)
     insisted: bool = False
     waiting: bool = False
+    sought: str = ""  # name of the block to scroll to
     was_complete: bool = False  # when it was drawn last
     fitted: tuple[tuple[int, int], Setting, bool] | None = None  # window; whether it is too long
     number: int = field(default_factory=count().__next__)  # no other form has it

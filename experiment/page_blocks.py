@@ -47,7 +47,7 @@ class Blocks:
         self.texts = texts
         self.picture = picture
         self.inset = inset
-        self.show = ""  # name of the block to scroll to
+        self.on_slider = False  # whether the keyboard is on one
 
     def draw(self, form: Form, unit: float, measured: bool) -> None:
         """All of a form's blocks. `measured`: only their sizes are wanted."""
@@ -56,9 +56,9 @@ class Blocks:
             named = getattr(block, "name", "")
             marked = bool(named) and named in missing
             top = imgui.get_cursor_screen_pos()
-            if marked and named == self.show and not measured:
+            if marked and named == form.sought and not measured:
                 imgui.set_scroll_here_y(0.3)
-                self.show = ""
+                form.sought = ""
             self._block(block, form, unit, measured, marked)
             if marked:
                 _bar(top, imgui.get_item_rect_max().y, unit)
@@ -140,6 +140,7 @@ class Blocks:
         )
         if changed or imgui.is_item_activated():
             form.answers[scale.name] = str(value)
+        self.on_slider |= imgui.is_item_focused() and self.interface.io.nav_visible
         if beside:
             imgui.same_line()
             imgui.text_disabled(high)
@@ -153,7 +154,7 @@ class Blocks:
             if number and beside:
                 imgui.same_line(0, 2 * imgui.get_style().item_spacing.x)
             chosen = form.answers.get(choice.name) == str(number)
-            if imgui.radio_button(f"{self.texts.get(option)}##{choice.name}", chosen):
+            if _option(self.texts.get(option), f"{choice.name}{number}", chosen):
                 form.answers[choice.name] = str(number)
 
     def _text_field(self, field_: TextField, form: Form, unit: float, measured: bool) -> None:
@@ -212,6 +213,19 @@ class Blocks:
             imgui.same_line()
             imgui.text_wrapped(self.texts.get(text))
         imgui.end_group()
+
+
+def _option(text: str, name: str, chosen: bool) -> bool:
+    """A circle and its words, which are wrapped where they are too long for a line."""
+    gap = imgui.get_style().item_inner_spacing.x
+    room = imgui.get_content_region_avail().x - imgui.get_frame_height() - gap
+    if imgui.calc_text_size(text).x <= room:
+        return bool(imgui.radio_button(f"{text}##{name}", chosen))
+    pressed = imgui.radio_button(f"##{name}", chosen)
+    imgui.same_line(0, gap)
+    imgui.align_text_to_frame_padding()
+    imgui.text_wrapped(text)
+    return bool(pressed or imgui.is_item_clicked())
 
 
 def _disabled_wrapped(text: str) -> None:

@@ -143,10 +143,13 @@ class PageDrawing:
         pale = not form.complete or form.waiting
         if pale and not measured:
             imgui.push_style_var(imgui.StyleVar_.alpha, 0.6)
-        for number, text in enumerate(form.page.buttons):
-            if number:
-                imgui.same_line(0, 0.03 * unit)
-            if _button(self.texts.get(text), number) and imgui.is_item_visible():
+        gap, end = 0.03 * unit, imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+        for number, key in enumerate(form.page.buttons):
+            text = self.texts.get(key)
+            wide = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+            if number and imgui.get_item_rect_max().x + gap + wide <= end:
+                imgui.same_line(0, gap)
+            if _button(text, number) and imgui.is_item_visible():
                 chosen = number
             if imgui.is_item_focused() and imgui.is_item_visible():
                 focused = number
@@ -164,7 +167,7 @@ class PageDrawing:
         if chosen is None:
             return False
         if not form.complete:
-            form.insisted, self.blocks.show = True, form.missing[0]
+            form.insisted, form.sought = True, form.missing[0]
             return False
         form.answers["button"] = str(chosen)
         return True
@@ -180,7 +183,9 @@ class PageDrawing:
             text, color = self.texts.fill("page.missing", open_), COLORS["wrong"]
         else:
             return
-        if form.page.buttons:
+        room = imgui.get_content_region_avail().x
+        end = imgui.get_cursor_screen_pos().x + room
+        if form.page.buttons and end - imgui.get_item_rect_max().x > 0.3 * room:
             imgui.same_line()
         imgui.align_text_to_frame_padding()
         imgui.push_style_color(imgui.Col_.text, color)
@@ -190,12 +195,12 @@ class PageDrawing:
     def _enter(self, form: Form, before: dict[str, str]) -> bool:
         """Whether Enter was pressed for the page as a whole, not typed into a text field.
 
-        Enter on an open scale only answers it, on the last one too.
+        Enter on an open scale only answers it, on the last one too; on a slider it opens it.
         """
         pressed = imgui.is_key_pressed(imgui.Key.enter, False)
         if not pressed or self.interface.io.want_text_input or form.answers != before:
             return False
-        return form.was_complete or not imgui.is_any_item_active()
+        return form.was_complete or not self.blocks.on_slider
 
 
 def _column(width: int, height: int) -> float:

@@ -18,7 +18,7 @@ from tasks.letters import LETTERS
 from tasks.parameters import AbstractParameters
 
 SIZE, GAP, EDGE = 0.07, 0.012, 0.02
-HIGHER = (0.8, 1.2)  # radians of pitch, for the instruction's picture
+HIGHER = (1.0,)  # radians of pitch, for the instruction's picture
 NAMED = (("letters", ", ".join(sorted(LETTERS))),)
 
 
