@@ -14,7 +14,7 @@ from PIL import Image
 from experiment import blocks
 from experiment.config import load
 from experiment.design import Trial, session_for
-from experiment.page_drawing import Form
+from experiment.form import Form
 from experiment.pages import Page
 from experiment.questionnaire import after, asked, before
 from experiment.session import _feedback, _instruction, _page
@@ -93,7 +93,7 @@ def main() -> None:
     camera.stage.pilot = True
     camera.page(_page("pause"), "pilot")
     camera.stage.pilot = False
-    list(asked(after(study, camera.stage.aspect), camera))  # type: ignore[arg-type]
+    list(asked(after(study), camera))  # type: ignore[arg-type]
     camera.page(_page("thanks"))
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from experiment.config import Study
 from experiment.design import STUDY_SCENES, generator
-from experiment.pages import Choice, Page, Picture
+from experiment.pages import PICTURE_ASPECT, Choice, Page, Picture
 from renderer.camera import Camera
 from renderer.scene import Object
 from renderer.transforms import rotation_y
@@ -38,7 +38,7 @@ class DepthTest:
 
     def pages(self, technique: object) -> list[Page]:
         """The picture once for each pair, large."""
-        picture = Picture(self.view, technique, height=0.56)
+        picture = Picture(lambda: self.view, technique, height=0.56)
         return [
             Page(
                 f"depth test {n}",
@@ -56,25 +56,26 @@ class DepthTest:
         return answers[f"pair_{number}"] == str(self.nearer[number])
 
 
-def depth_test(study: Study, aspect: float) -> DepthTest:
+def depth_test(study: Study) -> DepthTest:
     """The study's own test, the same for everybody. Raises ValueError if no scene shows six kinds.
 
     Each kind in a pair occurs once in the picture, so that its name is enough to point at it, and
-    is large enough to be recognised.
+    is large enough to be recognised. The window's shape plays no part: every picture on
+    a page has the same.
     """
-    return _made(study.study.seed, study.walkthrough, aspect)
+    return _made(study.study.seed, study.walkthrough)
 
 
 @lru_cache(maxsize=4)
-def _made(seed: int, building: BuildingParameters, aspect: float) -> DepthTest:
+def _made(seed: int, building: BuildingParameters) -> DepthTest:
     task = TASKS["unique"]
     for number in range(MOST_SCENES):
         rng = generator(seed, (*STREAM, number))
         scene = task.make_scene(rng, building)
-        shown = task.view(task.begin(rng, building, aspect, scene))
+        shown = task.view(task.begin(rng, building, PICTURE_ASPECT, scene))
         for camera in _around(shown.camera):
             view = View(shown.scene, camera)
-            depths = _depths(view, aspect)
+            depths = _depths(view)
             names = [str(name) for name in rng.permutation(sorted(depths))]
             pairs = _pairs(names, depths)
             if len(pairs) == PAIRS:
@@ -90,7 +91,7 @@ def _around(camera: Camera) -> list[Camera]:
     return [Camera(camera.eye, turn @ camera.rotation, **lens) for turn in turns]
 
 
-def _depths(view: View, aspect: float) -> dict[str, float]:
+def _depths(view: View) -> dict[str, float]:
     """View depth of each kind that occurs just once in the picture, large, whole and by itself."""
     things = [i for i, o in enumerate(view.scene.objects) if o.target]
     centers = view.scene.centers[things]
@@ -100,8 +101,8 @@ def _depths(view: View, aspect: float) -> dict[str, float]:
     size = np.array([_radius(view.scene.objects[i]) for i in things]) / np.where(ahead, depth, 1)
     size /= np.tan(view.camera.fov_y / 2)  # half-heights of the picture
     place = on_picture(view.camera, centers)
-    shown = ahead & (np.abs(place) < [aspect * 1.15, 1.15]).all(axis=1)
-    whole = shown & (np.abs(place) + size[:, None] < [aspect, 1.0]).all(axis=1)
+    shown = ahead & (np.abs(place) < [PICTURE_ASPECT * 1.15, 1.15]).all(axis=1)
+    whole = shown & (np.abs(place) + size[:, None] < [PICTURE_ASPECT, 1.0]).all(axis=1)
     found = {}
     for i in np.nonzero(whole & (size >= SMALLEST))[0]:
         apart = np.linalg.norm(place - place[i], axis=1) >= APART * (size + size[i])

@@ -134,6 +134,7 @@ def _style() -> None:
     colors = {
         imgui.Col_.window_bg: (0.97, 0.97, 0.98, 1),
         imgui.Col_.text: (0.10, 0.11, 0.13, 1),
+        imgui.Col_.text_disabled: (0.38, 0.40, 0.44, 1),
         imgui.Col_.frame_bg: (1, 1, 1, 1),
         imgui.Col_.border: (0.62, 0.65, 0.70, 1),
         imgui.Col_.button: (0.16, 0.40, 0.70, 1),

@@ -56,7 +56,16 @@ def play_in_window(
         person: Input = window if watched is None else _simulated(watched, window)
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts)
-        world = World(window, person, clock, recorder, TASKS, say, period=window.period)
+        world = World(
+            window,
+            person,
+            clock,
+            recorder,
+            TASKS,
+            say,
+            period=window.period,
+            waiting=window.waiting,
+        )
         return run_session(study, start.slot, world, start.done, start.given)
     finally:
         window.close()

@@ -1,86 +1,115 @@
-"""Draws a page as a form and keeps what is filled in; mouse alone or keyboard alone will do."""
+"""Draws a page as a form and keeps what is filled in; mouse alone or keyboard alone will do.
+
+A page of questions that is higher than the window is set closer, then smaller, so that all of it
+can be seen; a text that is much longer keeps its size and is scrolled, and a line below says so.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from itertools import count
 
 from imgui_bundle import imgui
 
+from experiment.form import Form, Setting
 from experiment.interface import SCREENS, Interface
-from experiment.pages import (
-    Answers,
-    Choice,
-    Page,
-    Paragraph,
-    Picture,
-    PlatePicture,
-    Scale,
-    TextField,
-)
-from experiment.plates import Plate
+from experiment.page_blocks import COLORS, Blocks
+from experiment.pages import Picture
 from experiment.texts import Texts
+from tasks.hud import Inset
 
 COLUMN = 1.05  # widest text column, in heights of the screen
-MOST_RADIOS = 10  # a scale of more steps is a slider
-
-
-@dataclass
-class Form:
-    """A page while it is being filled in."""
-
-    page: Page
-    answers: Answers = field(default_factory=dict)
-    was_complete: bool = False  # when it was drawn last
-    number: int = field(default_factory=count().__next__)  # no other form has it
-
-    @property
-    def complete(self) -> bool:
-        """Whether every scale and choice has an answer."""
-        return all(name in self.answers for name in self.page.required)
+MARGIN = 0.06  # above and below, in heights of the screen
+SETTINGS = (  # (size of text, of the gaps about it), until a page fits
+    (1.0, 1.0), (1.0, 0.7), (1.0, 0.5), (0.95, 0.4), (0.9, 0.4), (0.85, 0.35), (0.8, 0.3),
+    (0.75, 0.3), (0.7, 0.3),
+)  # fmt: skip
+READABLE = 0.85  # running text is not drawn smaller than that: it is scrolled
+FOOT = 0.07  # where a page says that there is more of it, in heights of the screen
+DOTS = 0.4  # s a dot of what says that something goes on
 
 
 class PageDrawing:
-    """Draws forms at a height of `scale` pixels."""
+    """Draws forms into a window's width and height, in pixels."""
 
     def __init__(
-        self, interface: Interface, texts: Texts, picture: Callable[[Picture, int, int], int]
+        self,
+        interface: Interface,
+        texts: Texts,
+        picture: Callable[[Picture, int, int], int],
+        inset: Callable[[int, Inset, float], int],
     ) -> None:
         self.interface = interface
         self.texts = texts
-        self.picture = picture
+        self.blocks = Blocks(interface, texts, picture, inset)
 
     def draw(self, form: Form, width: int, height: int) -> bool:
         """Draw; whether a button was pressed (then answers["button"] says which)."""
-        column = min(COLUMN * height, 0.9 * width)
-        imgui.set_next_window_pos(imgui.ImVec2(0, 0))
-        imgui.set_next_window_size(imgui.ImVec2(width, height))
-        flags = imgui.WindowFlags_
-        style = imgui.get_style()
-        style.window_padding = imgui.ImVec2((width - column) / 2, 0.06 * height)
-        style.item_spacing = imgui.ImVec2(0.012 * height, 0.016 * height)
-        style.frame_padding = imgui.ImVec2(0.022 * height, 0.012 * height)
-        imgui.push_font(self.interface.regular, 0.034 * height)
-        imgui.begin(
-            # A window of its own for each form: ImGui gives a new one the keyboard.
-            f"page{form.number}",
-            None,
-            flags.no_decoration & ~flags.no_scrollbar | flags.no_move | flags.no_saved_settings,
-        )
+        if form.fitted is None or form.fitted[0] != (width, height):
+            form.fitted = ((width, height), *self._fit(form, width, height))
+        _, setting, long = form.fitted
+        scale = setting[0]
+        before = dict(form.answers)
+        # A window of its own for each form: ImGui gives a new one the keyboard.
+        foot = FOOT * height if long else 0.0
+        self._begin(f"page{form.number}", width, height - foot, height, setting)
         self._scroll(form, height)
-        imgui.push_font(self.interface.bold, 0.058 * height)
-        imgui.text_wrapped(self.texts.get(form.page.title))
-        imgui.pop_font()
-        imgui.dummy(imgui.ImVec2(0, 0.01 * height))
-        for block in form.page.blocks:
-            self._block(block, form, column, height)
-        imgui.dummy(imgui.ImVec2(0, 0.01 * height))
-        pressed = self._buttons(form)
-        imgui.end()
-        imgui.pop_font()
+        self._contents(form, height * scale, False)
+        pressed = self._buttons(form, before, height * scale, False)
+        below = imgui.get_scroll_y() < imgui.get_scroll_max_y() - 1
+        self._end()
+        if long and below:
+            self._say_that_there_is_more(width, height)
         form.was_complete = form.complete
         return pressed
+
+    def _fit(self, form: Form, width: int, height: int) -> tuple[Setting, bool]:
+        """The first setting in which all of it lies in the window, and whether there is none."""
+        for setting in SETTINGS:
+            if setting[0] < READABLE and not form.page.asks:
+                break
+            if self._measured(form, width, height, setting) <= height:
+                return setting, False
+        return SETTINGS[0], True
+
+    def _measured(self, form: Form, width: int, height: int, setting: Setting) -> float:
+        """Height of a form with all that it may ever say: laid out, with nothing drawn."""
+        imgui.push_style_var(imgui.StyleVar_.alpha, 1e-6)  # 0 would not be laid out at all
+        flags = imgui.WindowFlags_
+        unseen = flags.no_inputs | flags.no_focus_on_appearing | flags.no_background
+        self._begin(f"measured{setting}", width, height, height, setting, unseen)
+        self._contents(form, height * setting[0], True)
+        self._buttons(form, form.answers, height * setting[0], True)
+        bottom = imgui.get_cursor_pos_y() - imgui.get_style().item_spacing.y
+        self._end()
+        imgui.pop_style_var()
+        return bottom + MARGIN * setting[1] * height
+
+    def _begin(
+        self, name: str, width: int, high: float, height: int, setting: Setting, more: int = 0
+    ) -> None:
+        imgui.set_next_window_pos(imgui.ImVec2(0, 0))
+        imgui.set_next_window_size(imgui.ImVec2(width, high))
+        flags, unit, gaps = imgui.WindowFlags_, height * setting[0], setting[1]
+        style = imgui.get_style()
+        side = (width - _column(width, height)) / 2
+        style.window_padding = imgui.ImVec2(side, MARGIN * gaps * height)
+        style.item_spacing = imgui.ImVec2(0.012 * unit, 0.016 * gaps * unit)
+        style.frame_padding = imgui.ImVec2(0.022 * unit, 0.012 * gaps * unit)
+        imgui.push_font(self.interface.regular, 0.034 * unit)
+        plain = flags.no_decoration & ~flags.no_scrollbar | flags.no_move | flags.no_saved_settings
+        imgui.begin(name, None, plain | more)
+
+    def _end(self) -> None:
+        imgui.end()
+        imgui.pop_font()
+
+    def _contents(self, form: Form, unit: float, measured: bool) -> None:
+        imgui.push_font(self.interface.bold, 0.058 * unit)
+        imgui.text_wrapped(self.texts.get(form.page.title))
+        imgui.pop_font()
+        imgui.dummy(imgui.ImVec2(0, imgui.get_style().item_spacing.y / 2))
+        self.blocks.draw(form, unit, measured)
+        imgui.dummy(imgui.ImVec2(0, imgui.get_style().item_spacing.y / 2))
 
     def _scroll(self, form: Form, height: int) -> None:
         """Scroll as far as keys say that were pressed since the last frame.
@@ -94,127 +123,103 @@ class PageDrawing:
             imgui.set_scroll_y(min(max(to, 0.0), most))
             self.interface.scroll = 0.0
 
-    def _block(self, block: object, form: Form, column: float, height: int) -> None:
-        match block:
-            case Paragraph():
-                imgui.text_wrapped(self.texts.fill(block.text, block.values))
-            case Scale():
-                self._scale(block, form)
-            case Choice():
-                self._choice(block, form)
-            case TextField():
-                self._text_field(block, form, column, height)
-            case PlatePicture():
-                _plate(block.plate, 0.42 * height)
-            case Picture():
-                high = int(block.height * height)
-                wide = high * 4 // 3
-                reference = imgui.ImTextureRef(self.picture(block, wide, high))
-                size = imgui.ImVec2(wide, high)
-                imgui.image(reference, size, imgui.ImVec2(0, 1), imgui.ImVec2(1, 0))
+    def _say_that_there_is_more(self, width: int, height: int) -> None:
+        """A line below the page; nothing of the page lies there."""
+        lines, text = imgui.get_foreground_draw_list(), self.texts.get("page.more")
+        imgui.push_font(self.interface.regular, 0.03 * height)
+        size = imgui.calc_text_size(text)
+        left, top = (width - size.x) / 2, height * (1 - FOOT / 2) - size.y / 2
+        lines.add_text(imgui.ImVec2(left, top), COLORS["ink"], text)
+        imgui.pop_font()
 
-    def _scale(self, scale: Scale, form: Form) -> None:
-        imgui.text_wrapped(self.texts.fill(scale.text, scale.values))
-        if scale.steps > MOST_RADIOS:
-            self._slider(scale, form)
-            return
-        imgui.align_text_to_frame_padding()
-        imgui.text_disabled(self.texts.get(scale.low))
-        for step in range(scale.steps):
-            imgui.same_line()
-            chosen = form.answers.get(scale.name) == str(step)
-            if imgui.radio_button(f"{step}##{scale.name}", chosen):
-                form.answers[scale.name] = str(step)
-        imgui.same_line()
-        imgui.text_disabled(self.texts.get(scale.high))
-
-    def _slider(self, scale: Scale, form: Form) -> None:
-        """A scale of many steps: unanswered until it was touched."""
-        imgui.align_text_to_frame_padding()
-        imgui.text_disabled(self.texts.get(scale.low))
-        imgui.same_line()
-        imgui.set_next_item_width(0.5 * imgui.get_content_region_avail().x)
-        answered = scale.name in form.answers
-        value = int(form.answers.get(scale.name, (scale.steps - 1) // 2))
-        changed, value = imgui.slider_int(
-            f"##{scale.name}",
-            value,
-            0,
-            scale.steps - 1,
-            "%d" if answered else "?",
-            imgui.SliderFlags_.always_clamp,  # a number may be typed as well
-        )
-        if changed or imgui.is_item_activated():
-            form.answers[scale.name] = str(value)
-        imgui.same_line()
-        imgui.text_disabled(self.texts.get(scale.high))
-
-    def _choice(self, choice: Choice, form: Form) -> None:
-        """Options side by side where they fit, else one below the other."""
-        if choice.text:
-            imgui.text_wrapped(self.texts.get(choice.text))
-        gap = imgui.get_frame_height() + 3 * imgui.get_style().item_spacing.x
-        widths = [imgui.calc_text_size(self.texts.get(o)).x + gap for o in choice.options]
-        beside = sum(widths) <= imgui.get_content_region_avail().x
-        for number, option in enumerate(choice.options):
-            if number and beside:
-                imgui.same_line(0, 2 * imgui.get_style().item_spacing.x)
-            chosen = form.answers.get(choice.name) == str(number)
-            if imgui.radio_button(f"{self.texts.get(option)}##{choice.name}", chosen):
-                form.answers[choice.name] = str(number)
-
-    def _text_field(self, field_: TextField, form: Form, column: float, height: int) -> None:
-        imgui.text_wrapped(self.texts.get(field_.text))
-        name, text = f"##{field_.name}", form.answers.get(field_.name, "")
-        if field_.lines == 1:
-            imgui.set_next_item_width(0.3 * column)
-            _, text = imgui.input_text(name, text)
-        else:
-            size = imgui.ImVec2(column, 0.05 * field_.lines * height)
-            _, text = imgui.input_text_multiline(name, text, size)
-        form.answers[field_.name] = text
-
-    def _buttons(self, form: Form) -> bool:
-        """The page's buttons; Enter presses the focused one, or else the first.
+    def _buttons(self, form: Form, before: dict[str, str], unit: float, measured: bool) -> bool:
+        """The page's buttons, and beside them what is missing; Enter presses the focused one, or
+        else the first.
 
         Nobody agrees by a key to what they have not seen: in a long text, Enter goes on reading.
         """
         chosen = focused = None
         most = imgui.get_scroll_max_y()
-        imgui.begin_disabled(not form.complete)
-        imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(1, 1, 1, 1))
-        for number, text in enumerate(form.page.buttons):
-            if number:
-                imgui.same_line()
-            if imgui.button(f"{self.texts.get(text)}##button{number}") and imgui.is_item_visible():
+        pale = not form.complete or form.waiting
+        if pale and not measured:
+            imgui.push_style_var(imgui.StyleVar_.alpha, 0.6)
+        gap, end = 0.03 * unit, imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
+        for number, key in enumerate(form.page.buttons):
+            text = self.texts.get(key)
+            wide = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
+            if number and imgui.get_item_rect_max().x + gap + wide <= end:
+                imgui.same_line(0, gap)
+            if _button(text, number) and imgui.is_item_visible():
                 chosen = number
             if imgui.is_item_focused() and imgui.is_item_visible():
                 focused = number
-        imgui.pop_style_color()
-        imgui.end_disabled()
-        if chosen is None and self._enter(form):
-            if focused is None and self.interface.reading and imgui.get_scroll_y() < 0.99 * most:
+        if pale and not measured:
+            imgui.pop_style_var()
+        self._beside_buttons(form, measured)
+        if measured or form.waiting:
+            return False
+        if chosen is None and self._enter(form, before):
+            reading = self.interface.reading and imgui.get_scroll_y() < 0.99 * most
+            if focused is None and reading:
                 self.interface.scroll += SCREENS["pagedown"]
-            else:
+            elif form.page.buttons:
                 chosen = focused or 0
-        if chosen is not None:
-            form.answers["button"] = str(chosen)
-        return chosen is not None
+        if chosen is None:
+            return False
+        if not form.complete:
+            form.insisted, form.sought = True, form.missing[0]
+            return False
+        form.answers["button"] = str(chosen)
+        return True
 
-    def _enter(self, form: Form) -> bool:
+    def _beside_buttons(self, form: Form, measured: bool) -> None:
+        """What is missing, or what is being done."""
+        missing = form.missing
+        if form.waiting:
+            dots = "." * (1 + int(imgui.get_time() / DOTS) % 3)
+            text, color = self.texts.get("wait.scene") + dots, COLORS["accent"]
+        elif (form.insisted and missing) or (measured and form.page.asks):
+            open_ = (("open", str(len(missing))),)
+            text, color = self.texts.fill("page.missing", open_), COLORS["wrong"]
+        else:
+            return
+        room = imgui.get_content_region_avail().x
+        end = imgui.get_cursor_screen_pos().x + room
+        if form.page.buttons and end - imgui.get_item_rect_max().x > 0.3 * room:
+            imgui.same_line()
+        imgui.align_text_to_frame_padding()
+        imgui.push_style_color(imgui.Col_.text, color)
+        imgui.text_wrapped(text)
+        imgui.pop_style_color()
+
+    def _enter(self, form: Form, before: dict[str, str]) -> bool:
         """Whether Enter was pressed for the page as a whole, not typed into a text field.
 
-        The form must have been complete before: Enter on the last open scale only answers it.
+        Enter on an open scale only answers it, on the last one too; on a slider it opens it.
         """
         pressed = imgui.is_key_pressed(imgui.Key.enter, False)
-        return pressed and form.was_complete and not self.interface.io.want_text_input
+        if not pressed or self.interface.io.want_text_input or form.answers != before:
+            return False
+        return form.was_complete or not self.blocks.on_slider
 
 
-def _plate(plate: Plate, side: float) -> None:
-    """A plate of dots at the cursor, `side` pixels wide."""
-    corner, dots = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
-    for (x, y), radius, color in zip(plate.places, plate.radii, plate.colors, strict=True):
-        center = imgui.ImVec2(corner.x + x * side, corner.y + y * side)
-        ink = imgui.color_convert_float4_to_u32(imgui.ImVec4(*color, 1.0))
-        dots.add_circle_filled(center, radius * side, ink, 20)
-    imgui.dummy(imgui.ImVec2(side, side))
+def _column(width: int, height: int) -> float:
+    """How wide the text is, in pixels."""
+    return min(COLUMN * height, 0.9 * width)
+
+
+def _button(text: str, number: int) -> bool:
+    """A button; the first is what is usually meant, and filled. Whether it was pressed."""
+    if number == 0:
+        colors = {imgui.Col_.text: COLORS["paper"]}
+    else:
+        colors = {
+            imgui.Col_.button: COLORS["paper"],
+            imgui.Col_.button_hovered: COLORS["pale"],
+            imgui.Col_.button_active: COLORS["pale"],
+        }
+    for which, color in colors.items():
+        imgui.push_style_color(which, color)
+    pressed = imgui.button(f"{text}##button{number}")
+    imgui.pop_style_color(len(colors))
+    return bool(pressed)

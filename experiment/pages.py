@@ -5,13 +5,18 @@ Every `text` is a key of the language file or of the study's [texts].
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 from experiment.plates import Plate
 from renderer.techniques.standard import Standard
 from tasks.base import View
+from tasks.hud import FloorPlan
 
 Answers = dict[str, str]
+Values = tuple[tuple[str, str | float], ...]  # a placeholder's name, and what to put there
+PICTURE_ASPECT = 4 / 3  # width / height of every picture on a page, whatever the window's
 
 
 @dataclass(frozen=True)
@@ -19,7 +24,7 @@ class Paragraph:
     """Running text; `values` fill its placeholders."""
 
     text: str
-    values: tuple[tuple[str, str], ...] = ()
+    values: Values = ()
 
 
 @dataclass(frozen=True)
@@ -31,7 +36,7 @@ class Scale:
     low: str
     high: str
     steps: int = 5
-    values: tuple[tuple[str, str], ...] = ()
+    values: Values = ()
 
 
 @dataclass(frozen=True)
@@ -49,20 +54,48 @@ class Choice:
 
 @dataclass(frozen=True)
 class TextField:
-    """Free text, may stay empty."""
+    """Free text, or with `most` a whole number from 0 up to it; either may stay empty.
+
+    `wrong` is what to say of anything else: a text with places for {most} and the field's name.
+    """
 
     name: str
     text: str
     lines: int = 5
+    most: int | None = None
+    wrong: str = ""
+
+    def takes(self, text: str) -> bool:
+        """Whether the text can be an answer."""
+        text = text.strip()
+        if self.most is None or not text:
+            return True
+        return text.isascii() and text.isdigit() and len(text) <= 9 and int(text) <= self.most
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A live picture of a trial's view, in the study's technique; height in screen heights."""
+    """A live picture of a view, in the study's technique; height in screen heights.
 
-    view: View
+    The view's insets are drawn over it. `look` makes the view, once, when somebody wants to see it.
+    """
+
+    look: Callable[[], View]
     technique: object = Standard()
     height: float = 0.36
+
+    @cached_property
+    def view(self) -> View:
+        """What it shows."""
+        return self.look()
+
+
+@dataclass(frozen=True)
+class PlanPicture:
+    """A floor plan with what is marked on it; height in screen heights."""
+
+    plan: FloorPlan
+    height: float = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,14 +105,15 @@ class PlatePicture:
     plate: Plate
 
 
-Block = Paragraph | Scale | Choice | TextField | Picture | PlatePicture
+Block = Paragraph | Scale | Choice | TextField | Picture | PlanPicture | PlatePicture
 
 
 @dataclass(frozen=True)
 class Page:
     """A page; `buttons` are text keys, the answer's "button" is the position of the one pressed.
 
-    A page with scales or choices goes on only when each is answered.
+    A page with scales or choices goes on only when each is answered. The first button is what is
+    usually meant, and looks so; the others do something else.
     """
 
     name: str
@@ -100,3 +134,16 @@ class Page:
             for b in self.blocks
             if isinstance(b, Scale) or (isinstance(b, Choice) and not b.optional)
         )
+
+    @property
+    def takes_time(self) -> bool:
+        """Whether something on it has to be worked out before it can be drawn."""
+        return any(isinstance(b, Picture | PlatePicture) for b in self.blocks)
+
+    def prepare(self) -> None:
+        """Work it out: no graphics, so another thread may."""
+        for block in self.blocks:
+            if isinstance(block, Picture):
+                _ = block.view
+            elif isinstance(block, PlatePicture):
+                _ = block.plate.places

@@ -61,7 +61,7 @@ def before(study: Study, slot: int) -> Iterator[Step]:
             yield _plate(f"color_plate_{number}", plate)
 
 
-def after(study: Study, aspect: float) -> Iterator[Step]:
+def after(study: Study) -> Iterator[Step]:
     """Every block the study asks for, in the order of its config."""
     levels = study.design.transparency
     for block in study.session.questionnaire:
@@ -79,7 +79,7 @@ def after(study: Study, aspect: float) -> Iterator[Step]:
                 yield _sus(level)
         elif block == "depth_test":
             for number in range(PAIRS):
-                yield _pair(study, aspect, number)
+                yield _pair(study, number)
         elif block == "remarks":
             yield Step((("remarks", "", ""),), _remarks)
 
@@ -93,19 +93,13 @@ def _consent(person: Input, given: Given) -> list[Row]:
 
 
 def _demographics(person: Input, given: Given) -> list[Row]:
-    note: tuple[Paragraph, ...] = ()
-    while True:
-        genders = ("gender.female", "gender.male", "gender.other")
-        fields = (
-            TextField("age", "demographics.age", lines=1),
-            Choice("gender", "demographics.gender", genders, optional=True),
-        )
-        page = Page("demographics", "demographics.title", (*note, *fields))
-        answers = person.ask(page)
-        age = answers.get("age", "").strip()
-        if not age or (age.isascii() and age.isdigit() and int(age) <= OLDEST):
-            break
-        note = (Paragraph("demographics.wrong", (("age", age[:20]), ("most", str(OLDEST)))),)
+    genders = ("gender.female", "gender.male", "gender.other")
+    fields = (
+        TextField("age", "demographics.age", lines=1, most=OLDEST, wrong="demographics.wrong"),
+        Choice("gender", "demographics.gender", genders, optional=True),
+    )
+    answers = person.ask(Page("demographics", "demographics.title", fields))
+    age = answers.get("age", "").strip()
     rows = [_row("age", age)] if age else []
     if "gender" in answers:
         rows.append(
@@ -166,12 +160,12 @@ def _sus(level: str) -> Step:
     return Step((("sus", level, ""),), ask)
 
 
-def _pair(study: Study, aspect: float, number: int) -> Step:
+def _pair(study: Study, number: int) -> Step:
     """A pair of the depth test; value 1 where it was right. The last brings the score."""
     item = f"depth_pair_{number + 1}"
 
     def ask(person: Input, given: Given) -> list[Row]:
-        test = depth_test(study, aspect)
+        test = depth_test(study)
         answers = person.ask(test.pages(study.dynamic)[number])
         rows = [_row(item, str(int(test.right(number, answers))))]
         if number == PAIRS - 1:

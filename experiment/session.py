@@ -8,15 +8,17 @@ offscreen, and in tests.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from experiment import questionnaire
 from experiment.config import Study
 from experiment.design import TaskSet, Trial, session_for
 from experiment.display import DisplayLost, Leave
-from experiment.pages import Page, Paragraph, Picture
+from experiment.pages import Page, Paragraph, Picture, PlanPicture, Values
 from experiment.questionnaire import Given, Step
 from experiment.trial import TrialRun
 from experiment.world import TrialRecord, World
+from tasks.parameters import METRES
 
 
 class TimeIsUp(Leave):
@@ -72,7 +74,7 @@ def _run(study: Study, slot: int, world: World, done: frozenset[int], given: Giv
         if _over(world.clock.now() - start, study.session.session_limit):
             world.input.ask(_page("time"))
             raise TimeIsUp
-    _ask(questionnaire.after(study, world.display.aspect), world, given)
+    _ask(questionnaire.after(study), world, given)
     world.input.ask(_page("thanks"))
 
 
@@ -126,7 +128,7 @@ def _instruction(trial: Trial, total: int, run: TrialRun) -> Page:
             Paragraph(f"{trial.task}.instruction"),
             Paragraph(f"{trial.scenario}.controls"),
             Paragraph(f"transparency.{trial.transparency}"),
-            Picture(run.preview(trial), run.technique(trial)),
+            Picture(partial(run.preview, trial), run.technique(trial)),
             Paragraph("progress", values),
         ),
         ("begin",),
@@ -137,11 +139,13 @@ def _feedback(record: TrialRecord) -> Page:
     outcome = record.outcome
     if outcome is None:
         return Page("feedback", "feedback.title", (Paragraph("feedback.time"),))
-    values = (("answer", outcome.answer), ("truth", outcome.truth))
-    right = "feedback.right" if outcome.correct else "feedback.wrong"
+    values: Values = (("answer", outcome.answer), ("truth", outcome.truth))
+    text = "feedback.right" if outcome.correct else "feedback.wrong"
     if outcome.distance is not None:
-        right, values = "feedback.distance", (("distance", f"{outcome.distance:.1f}"),)
-    return Page("feedback", "feedback.title", (Paragraph(right, values),))
+        text = "feedback.distance" if outcome.correct else "feedback.other_room"
+        values = (("distance", METRES * outcome.distance),)
+    pictures = () if record.solution is None else (PlanPicture(record.solution),)
+    return Page("feedback", "feedback.title", (Paragraph(text, values), *pictures))
 
 
 def _over(passed: float, limit: float) -> bool:

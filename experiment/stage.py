@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import hashlib
+from functools import partial
 from typing import Any
 
 import moderngl
 
+from experiment.form import Form
 from experiment.hud_drawing import HudDrawing, draw_progress
 from experiment.interface import INSET_TEXTURES, Interface
-from experiment.page_drawing import Form, PageDrawing
+from experiment.page_drawing import PageDrawing
 from experiment.pages import Picture
 from experiment.texts import Texts
 from renderer.gpu.renderer import Renderer
 from renderer.techniques.standard import Standard
 from tasks.base import View
-from tasks.hud import Inset
+from tasks.hud import Inset, Label
 
 
 class Stage:
@@ -33,6 +35,7 @@ class Stage:
         self.done = 0.0  # part of the session
         self.pilot = False
         self.pointer: tuple[float, float] | None = None
+        self.last: Form | tuple[View, Any] | None = None  # what was drawn
         self._pictures: dict[int, _SmallPicture] = {}
 
     @property
@@ -49,9 +52,11 @@ class Stage:
         self, view: View, technique: Any, target: moderngl.Framebuffer, passed: float
     ) -> None:
         """Draw a task's view with its HUD."""
+        self.last = (view, technique)
         self.renderer.draw(view.scene, view.camera, technique, target)
         self.interface.begin(self.size, passed)
-        hud = HudDrawing(self.interface, self.texts, self.size[1], self._inset)
+        inset = partial(self._inset, scale=self.size[1])
+        hud = HudDrawing(self.interface, self.texts, self.size[1], inset)
         hud.draw(view.hud)
         if self.pointer is not None and not view.captured:
             hud.draw_pointer(self.pointer)
@@ -64,17 +69,34 @@ class Stage:
 
     def draw_form(self, form: Form, target: moderngl.Framebuffer, passed: float) -> bool:
         """Draw a page; whether one of its buttons was pressed."""
+        self.last = form
         target.use()
         target.clear(0.97, 0.97, 0.98, 1.0)
         self.interface.begin(self.size, passed)
-        pressed = PageDrawing(self.interface, self.texts, self._picture).draw(form, *self.size)
+        drawing = PageDrawing(self.interface, self.texts, self._picture, self._inset)
+        pressed = drawing.draw(form, *self.size)
         draw_progress(self.size, self.done, self.pilot)
         self.interface.end(target)
         return pressed
 
-    def _inset(self, number: int, inset: Inset) -> int:
-        height = self.size[1]
-        size = (round(inset.rect.width * height), round(inset.rect.height * height))
+    @property
+    def on_page(self) -> bool:
+        """Whether a page was drawn last."""
+        return isinstance(self.last, Form)
+
+    def draw_waiting(self, target: moderngl.Framebuffer, passed: float) -> None:
+        """What was drawn last, and that something is being made."""
+        if isinstance(self.last, Form):
+            self.last.waiting = True
+            self.draw_form(self.last, target, passed)
+        elif self.last is not None:
+            (view, technique), middle = self.last, (self.aspect / 2, 0.47)
+            word = Label("wait.scene", middle, align="center")
+            self.draw_view(View(view.scene, view.camera, (word,)), technique, target, passed)
+            self.last = (view, technique)
+
+    def _inset(self, number: int, inset: Inset, scale: float) -> int:
+        size = (round(inset.rect.width * scale), round(inset.rect.height * scale))
         return self._small(number, size).draw(View(inset.scene, inset.camera), Standard())
 
     def _picture(self, picture: Picture, width: int, height: int) -> int:

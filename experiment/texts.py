@@ -32,12 +32,18 @@ class Texts:
         of a study's own models."""
         return self._texts.get(key, key.removeprefix("kind."))
 
-    def fill(self, key: str, values: Iterable[tuple[str, str]] = ()) -> str:
+    def fill(self, key: str, values: Iterable[tuple[str, str | float]] = ()) -> str:
         """The text with its {placeholders} filled; values that are keys are looked up too."""
         text = self.get(key)
         for name, value in values:
-            text = text.replace("{" + name + "}", self.get(value))
+            shown = self.get(value) if isinstance(value, str) else self.number(value)
+            text = text.replace("{" + name + "}", shown)
         return text
+
+    def number(self, value: float) -> str:
+        """A measured number as people write it: from ten on without a fraction."""
+        digits = 1 if round(abs(value), 1) < 10 else 0
+        return f"{value:.{digits}f}".replace(".", self["decimal"])
 
     def keys(self) -> frozenset[str]:
         """Every key there is."""

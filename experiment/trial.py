@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from math import acos, dist, inf
 from typing import Any, TypeGuard
 
+from experiment import viewpoint
 from experiment.config import Study
 from experiment.design import Trial
 from experiment.display import Leave
-from experiment.pages import Page, Paragraph, TextField
+from experiment.pages import PICTURE_ASPECT, Page, Paragraph, TextField
 from experiment.scenes import StudyScenes
 from experiment.world import TrialRecord, World
 from renderer.camera import Camera
 from renderer.techniques.standard import Standard
 from tasks.base import Outcome, View
 from tasks.events import Event, FocusChange, KeyPress
+from tasks.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5
@@ -84,15 +87,19 @@ class TrialRun:
         return self.scenes.begin(task, trial, self.world.display.aspect)
 
     def preview(self, trial: Trial) -> View:
-        """What the instruction page shows: a scene of the task that is no trial's scene."""
+        """What the instruction page shows: a scene of the task that is no trial's scene, seen from
+        where it shows what is asked for."""
         example = self.scenes.example(trial)
-        view = self.world.tasks[trial.task].view(self.begin(example))
-        return View(view.scene, view.camera)
+        task, state = self.world.tasks[trial.task], self.begin(example)
+        view = task.view(state)
+        camera = viewpoint.best(view.scene, task.example(state, PICTURE_ASPECT))
+        return View(view.scene, camera, tuple(e for e in view.hud if isinstance(e, Inset)))
 
     def play(self, trial: Trial, limit: float) -> TrialRecord:
         """Run one trial to its confirmed answer or its limit (seconds; 0: none). Raises Leave."""
         world = self.world
-        running = Running(self, trial, self.begin(trial), limit)
+        state = world.waiting(partial(self.begin, trial))
+        running = Running(self, trial, state, limit)
         world.recorder.trial_begins(trial)
         world.input.begin_trial(trial.task, trial.training)
         running.show()
@@ -128,16 +135,22 @@ class Running:
         self._lost_focus: float | None = None
         self._outcome: Outcome | None = None
         self._timed_out = self._repeat = False
-        self.view = self._task.view(state)
+        self._marks = (practice_mark(run.world.display.aspect),) if trial.training else ()
+        self.view = self._viewed()
 
     @property
     def ended(self) -> bool:
         """Whether there is an answer, the time is over, or the trial is to be repeated."""
         return self._outcome is not None or self._timed_out or self._repeat
 
+    def _viewed(self) -> View:
+        """What the task shows now; all through a practice trial, with a mark that says so."""
+        view = self._task.view(self._state)
+        return replace(view, hud=(*view.hud, *self._marks)) if self._marks else view
+
     def show(self) -> None:
         """Show the view as it is now and note the frame."""
-        self.view = self._task.view(self._state)
+        self.view = self._viewed()
         flip = self._world.display.show(self.view, self._technique)
         if self._watch.frames == 0:
             self.first = flip
@@ -205,4 +218,5 @@ class Running:
             path_length=watch.path,
             turned=watch.turned,
             repeat=self._repeat,
+            solution=self._task.solution(self._state) if self._trial.training else None,
         )

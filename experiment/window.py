@@ -24,13 +24,14 @@ from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for, window_context
 from experiment.errors import InputError
 from experiment.event_time import EventTime, x11_stamp
+from experiment.form import Form
 from experiment.key_names import KEY_NAMES
-from experiment.page_drawing import Form
 from experiment.pages import Answers, Page
 from experiment.refresh import rate_of
 from experiment.stage import Stage
 from experiment.texts import Texts
 from experiment.trial import LEAVE
+from experiment.waiting import Waits
 from tasks.base import View
 from tasks.events import (
     Event,
@@ -52,7 +53,7 @@ BROKEN = (moderngl.Error, pyglet.gl.GLException, pyglet.gl.ContextException)
 GONE = ("GL_UNKNOWN_ERROR", "GL_OUT_OF_MEMORY")
 
 
-class Window:
+class Window(Waits):
     """Display and Input of a session. Raises InputError where no window can be opened."""
 
     def __init__(self, table: DisplayTable, texts: Texts, clock: Clock, title: str) -> None:
@@ -146,6 +147,8 @@ class Window:
 
     def ask(self, page: Page) -> Answers:
         """Show a page until it is answered; Esc asks whether to leave. Raises Leave."""
+        if page.takes_time:
+            self.waiting(page.prepare)
         self._window.set_exclusive_mouse(False)
         gc.enable()
         form, self._form_shown = Form(page), inf
@@ -157,21 +160,16 @@ class Window:
             if self._closed:
                 raise Leave
             if page.name != "leave" and self._escape_pressed():
-                if self.ask(LEAVE)["button"] == "1":
-                    raise Leave
+                self.confirm_leaving()
                 self._form = form
         self._form = None
         self._events.clear()
         return form.answers
 
-    def present(self, page: Page, answers: Answers, seconds: float) -> None:
-        """Show a page that somebody else has filled in. Raises Leave on Esc or a closed window."""
-        form = Form(page, dict(answers))
-        end = self.clock.now() + seconds
-        while self.clock.now() < end:
-            self._draw_page(form)
-            if self._closed or self._escape_pressed():
-                raise Leave
+    def confirm_leaving(self) -> None:
+        """Ask whether to leave. Raises Leave if so."""
+        if self.ask(LEAVE)["button"] == "1":
+            raise Leave
 
     def left(self) -> bool:
         """Handle what came in; whether Esc was pressed or the window closed."""

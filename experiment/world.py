@@ -11,6 +11,7 @@ from experiment.design import Trial
 from experiment.display import Display, Input
 from experiment.scenes import StudyScenes
 from tasks.base import Outcome, Task
+from tasks.hud import FloorPlan
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,7 @@ class TrialRecord:
     path_length: float
     turned: float
     repeat: bool = False
+    solution: FloorPlan | None = None  # for the feedback of a practice trial
 
     @property
     def time(self) -> float:
@@ -74,3 +76,4 @@ class World:
     progress: Callable[[TrialRecord], None] = lambda record: None
     scenes: StudyScenes | None = None  # others than the study's own
     period: float | None = None  # s, of the display, where it was measured
+    waiting: Callable[[Callable[[], Any]], Any] = lambda work: work()  # says so, then does it

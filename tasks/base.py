@@ -10,7 +10,7 @@ from numpy.random import Generator
 from renderer.camera import Camera
 from renderer.scene import Scene
 from tasks.events import Event
-from tasks.hud import Element
+from tasks.hud import Element, FloorPlan
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +37,15 @@ class Outcome:
     distance: float | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class Example:
+    """What an instruction's picture may show: `asked`, the indices of the objects that the question
+    is about, seen by one of the `cameras`."""
+
+    asked: tuple[int, ...]
+    cameras: tuple[Camera, ...]
+
+
 class Task(Protocol):
     """One task, without state of its own: states are frozen values that replace each other."""
 
@@ -60,3 +69,9 @@ class Task(Protocol):
 
     def outcome(self, state: Any) -> Outcome | None:
         """The scored answer once the participant has confirmed one, else None."""
+
+    def solution(self, state: Any) -> FloorPlan | None:
+        """After a practice trial: what was marked and what is right, if there is a plan of it."""
+
+    def example(self, state: Any, aspect: float) -> Example:
+        """What the instruction's picture, so wide for its height, may show of a trial's start."""

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.random import Generator
 
 from renderer.scene import Scene
 from tasks.abstract_scene import abstract_scene
-from tasks.base import Outcome, View
+from tasks.base import Example, Outcome, View
 from tasks.controls import Orbit, of_view, orbit
 from tasks.entry import NumberEntry
 from tasks.events import Event
+from tasks.example import around
 from tasks.hud import Label
 from tasks.parameters import AbstractParameters
 
@@ -62,6 +64,14 @@ class Count:
         if not state.entry.confirmed:
             return None
         return number_outcome(state.entry, int(state.scene.targets.sum()))
+
+    def solution(self, state: CountState) -> None:
+        """A number needs no picture."""
+
+    def example(self, state: CountState, aspect: float) -> Example:
+        """The red objects, from all sides."""
+        asked = tuple(np.nonzero(state.scene.targets)[0].tolist())
+        return Example(asked, around(state.orbit, (state.orbit.pitch,), aspect))
 
 
 def number_outcome(entry: NumberEntry, truth: int) -> Outcome:

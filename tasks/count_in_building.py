@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from numpy.random import Generator
 
-from tasks.base import Outcome, View
+from tasks.base import Example, Outcome, View
 from tasks.building import Building, count_building
 from tasks.count import number_outcome
 from tasks.entry import NumberEntry
 from tasks.events import Event, KeyPress
+from tasks.example import before
 from tasks.hud import Label
 from tasks.parameters import BuildingParameters
 from tasks.visit import Visit, visit
@@ -62,10 +63,17 @@ class CountInBuilding:
 
     def view(self, state: CountInBuildingState) -> View:
         """What to show for `state`."""
-        return state.visit.view(QUESTION, state.entry.field())
+        return state.visit.view(QUESTION, state.entry.field(), *state.entry.notes())
 
     def outcome(self, state: CountInBuildingState) -> Outcome | None:
         """The scored answer once confirmed: `count_error` is answer − truth."""
         if not state.entry.confirmed:
             return None
         return number_outcome(state.entry, len(state.building.asked_objects))
+
+    def solution(self, state: CountInBuildingState) -> None:
+        """A number needs no picture."""
+
+    def example(self, state: CountInBuildingState, aspect: float) -> Example:
+        """Things of the kind asked for."""
+        return Example(tuple(state.building.asked_objects), before(state.visit))

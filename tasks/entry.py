@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from tasks.events import Event, KeyPress, PointerPress, PointerRelease
-from tasks.hud import Button, Element, Entry, Rect
+from tasks.hud import Button, Element, Entry, Label, Rect, hint
 
 KEYS = ("7", "8", "9", "4", "5", "6", "1", "2", "3", "backspace", "0", "enter")
 MOST_DIGITS = 4
@@ -18,13 +18,14 @@ class NumberEntry:
     """What has been typed, and whether it has been confirmed. `aspect` places the buttons.
 
     `pressed` says that the pointer went down on a button, so that its moves until it comes up
-    are no drag.
+    are no drag. `hint` says why the last key did nothing.
     """
 
     aspect: float
     text: str = ""
     confirmed: bool = False
     pressed: bool = False
+    hint: str = ""
 
     def on_event(self, event: Event) -> NumberEntry:
         """Digits, backspace and enter, typed or clicked. An empty entry can't be confirmed."""
@@ -40,12 +41,16 @@ class NumberEntry:
     def type(self, key: str) -> NumberEntry:
         """The entry after one key; keys that mean nothing to it leave it as it is."""
         if key == "enter":
-            return replace(self, confirmed=bool(self.text))
+            return replace(self, confirmed=bool(self.text), hint="" if self.text else "hint.number")
         if key == "backspace":
-            return replace(self, text=self.text[:-1])
-        if len(key) == 1 and key in "0123456789" and len(self.text) < MOST_DIGITS:
-            return replace(self, text=(self.text + key).lstrip("0") or "0")
-        return self
+            return replace(self, text=self.text[:-1], hint="")
+        if len(key) != 1:
+            return self
+        if key not in "0123456789":
+            return replace(self, hint="hint.digits")
+        if len(self.text) == MOST_DIGITS:
+            return replace(self, hint="hint.long")
+        return replace(self, text=(self.text + key).lstrip("0") or "0", hint="")
 
     def buttons(self) -> tuple[tuple[str, Rect], ...]:
         """Each key's name and place: three columns in the lower right corner of the view."""
@@ -55,9 +60,16 @@ class NumberEntry:
         """The typed number."""
         return _field(self.aspect, self.text)
 
+    def notes(self) -> tuple[Label, ...]:
+        """What is missing, if anything, above the typed number."""
+        if not self.hint:
+            return ()
+        top = self.field().rect.y
+        return (hint(self.hint, (self.aspect, top), (("most", str(MOST_DIGITS)),)),)
+
     def elements(self) -> tuple[Element, ...]:
         """The typed number above its buttons."""
-        return (self.field(), *_labelled(self.aspect))
+        return (self.field(), *_labelled(self.aspect), *self.notes())
 
 
 @lru_cache(maxsize=8)

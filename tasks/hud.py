@@ -30,13 +30,18 @@ class Rect:
 
 @dataclass(frozen=True)
 class Label:
-    """A line of text. `text` is a key of the language file, `values` fill its placeholders."""
+    """A line of text. `text` is a key of the language file, `values` fill its placeholders.
+
+    `at` is its upper left corner, or the middle or right end of its upper edge. A "hint" says what
+    is missing, "practice" that nothing counts yet.
+    """
 
     text: str
     at: Point
     size: float = 0.035
-    align: str = "left"  # or "center"
+    align: str = "left"  # or "center" or "right"
     values: tuple[tuple[str, str], ...] = ()
+    tone: str = "plain"  # or "hint" or "practice"
 
 
 @dataclass(frozen=True)
@@ -75,7 +80,8 @@ class Inset:
 
 @dataclass(frozen=True)
 class FloorPlan:
-    """Walls seen from above as ((x0, y0), (x1, y1)) lines, and the participant's mark, if set.
+    """Walls seen from above as ((x0, y0), (x1, y1)) lines, the participant's mark, if set, and
+    where the thing really stands, once that may be known.
 
     All in view units, within `rect`.
     """
@@ -83,6 +89,19 @@ class FloorPlan:
     rect: Rect
     walls: tuple[tuple[Point, Point], ...]
     mark: Point | None = None
+    place: Point | None = None
 
 
 Element = Label | Button | Entry | Inset | FloorPlan
+MARGIN = 0.02  # from the view's border
+
+
+def hint(text: str, corner: Point, values: tuple[tuple[str, str], ...] = ()) -> Label:
+    """What is missing, on the right, above whatever begins at `corner`: (aspect, its top)."""
+    size = 0.035
+    return Label(text, (corner[0] - MARGIN, corner[1] - 1.6 * size), size, "right", values, "hint")
+
+
+def practice_mark(aspect: float) -> Label:
+    """Says in the upper right corner that nothing counts yet."""
+    return Label("hint.practice", (aspect - MARGIN, MARGIN), 0.028, "right", tone="practice")

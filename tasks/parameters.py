@@ -10,6 +10,7 @@ from math import pi
 
 SHAPES = ("sphere", "cone", "box", "torus")
 PALETTES = ("published", "colour-blind-safe")
+METRES = 0.5  # in a world unit of the building; the abstract world has no size of its own
 
 
 def _between(name: str, value: float, low: float, high: float) -> None:
@@ -94,12 +95,12 @@ class OwnModel:
 
 @dataclass(frozen=True)
 class BuildingParameters:
-    """The building, what stands in it, and the walk through it. One world unit is half a metre.
+    """The building, what stands in it, and the walk through it.
 
-    The paper prints the grid and the number of objects; sizes and speeds are ours: a building of
-    80 × 80 units, doors 2.1 m high, eyes at 1.6 m, walking at 3 m/s. `count` is how often the
-    asked type occurs in the counting task, `types` the models to use (none: all there are),
-    `models` those that the study brings along.
+    One world unit is METRES. The paper prints the grid and the number of objects; sizes and
+    speeds are ours: a building of 80 × 80 units, doors 2.1 m high, eyes at 1.6 m, walking at 3
+    m/s. `count` is how often the asked type occurs in the counting task, `types` the models to
+    use (none: all there are), `models` those that the study brings along.
     """
 
     grid: int = 16

@@ -9,14 +9,17 @@ from numpy.random import Generator
 
 from renderer.scene import Scene
 from tasks.abstract_scene import abstract_scene
-from tasks.base import Outcome, View
+from tasks.base import Example, Outcome, View
 from tasks.controls import Orbit, changed, of_view, orbit
 from tasks.events import Event, KeyPress, PointerPress, PointerRelease
-from tasks.hud import Button, Element, Label, Rect
+from tasks.example import around
+from tasks.hud import Button, Element, Label, Rect, hint
 from tasks.letters import LETTERS
 from tasks.parameters import AbstractParameters
 
 SIZE, GAP, EDGE = 0.07, 0.012, 0.02
+HIGHER = (1.0,)  # radians of pitch, for the instruction's picture
+NAMED = (("letters", ", ".join(sorted(LETTERS))),)
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,7 @@ class PatternState:
     chosen: str | None = None
     confirmed: bool = False
     pressed: bool = False
+    hint: str = ""
 
 
 class Pattern:
@@ -79,6 +83,9 @@ class Pattern:
         for text, rect in buttons(state.aspect).items():
             label = "button.confirm" if text == "enter" else text
             hud.append(Button(label, rect, chosen=text == state.chosen))
+        if state.hint:
+            top = min(rect.y for rect in buttons(state.aspect).values())
+            hud.append(hint(state.hint, (state.aspect, top), NAMED))
         return View(state.world.scene, state.orbit.camera(), tuple(hud))
 
     def outcome(self, state: PatternState) -> Outcome | None:
@@ -86,6 +93,15 @@ class Pattern:
         if not state.confirmed or state.chosen is None:
             return None
         return Outcome(state.chosen, state.world.letter, state.chosen == state.world.letter)
+
+    def solution(self, state: PatternState) -> None:
+        """A letter needs no picture."""
+
+    def example(self, state: PatternState, aspect: float) -> Example:
+        """The letter's cones, from all sides and from higher up: they lie flat."""
+        things = state.world.scene.objects
+        asked = tuple(i for i, o in enumerate(things) if o.target and o.kind == "cone")
+        return Example(asked, around(state.orbit, (state.orbit.pitch, *HIGHER), aspect))
 
 
 @lru_cache(maxsize=8)
@@ -105,5 +121,8 @@ def _chosen(state: PatternState, key: str) -> PatternState:
     if state.confirmed:
         return state
     if key == "enter":
-        return changed(state, confirmed=state.chosen is not None)
-    return changed(state, chosen=key.upper()) if key.upper() in LETTERS else state
+        missing = state.chosen is None
+        return changed(state, confirmed=not missing, hint="hint.letter" if missing else "")
+    if key.upper() in LETTERS:
+        return changed(state, chosen=key.upper(), hint="")
+    return changed(state, hint="hint.letters") if len(key) == 1 else state

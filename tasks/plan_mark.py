@@ -15,12 +15,16 @@ STEPS = 32  # arrow keys move the mark by one part in so many of the building's 
 
 @dataclass(frozen=True)
 class PlanMark:
-    """A mark in world units (x, z), or none yet, and whether it has been confirmed."""
+    """A mark in world units (x, z), or none yet, and whether it has been confirmed.
+
+    `hint` says why the last click or key did nothing.
+    """
 
     aspect: float
     side: float
     mark: Point | None = None
     confirmed: bool = False
+    hint: str = ""
 
     @property
     def rect(self) -> Rect:
@@ -39,14 +43,18 @@ class PlanMark:
             return self
         if isinstance(event, PointerPress):
             if self.rect.contains(event.x, event.y):
-                return replace(self, mark=self.world(event.x, event.y))
+                return replace(self, mark=self.world(event.x, event.y), hint="")
             hit = self.button.contains(event.x, event.y)
-            return replace(self, confirmed=self.mark is not None) if hit else self
+            return self._confirm() if hit else replace(self, hint="hint.outside")
         if not isinstance(event, KeyPress):
             return self
         if event.key == "enter":
-            return replace(self, confirmed=self.mark is not None)
+            return self._confirm()
         return self._stepped(event.key)
+
+    def _confirm(self) -> PlanMark:
+        missing = self.mark is None
+        return replace(self, confirmed=not missing, hint="hint.mark" if missing else "")
 
     def _stepped(self, key: str) -> PlanMark:
         """The mark after an arrow key; the first one puts it in the middle."""
@@ -54,13 +62,13 @@ class PlanMark:
         if key not in steps:
             return self
         if self.mark is None:
-            return replace(self, mark=(0.0, 0.0))
+            return replace(self, mark=(0.0, 0.0), hint="")
         half, step = self.side / 2, self.side / STEPS
         x, z = (
             min(half, max(-half, old + way * step))
             for old, way in zip(self.mark, steps[key], strict=True)
         )
-        return replace(self, mark=(x, z))
+        return replace(self, mark=(x, z), hint="")
 
     def world(self, x: float, y: float) -> Point:
         """World (x, z) of a point of the view."""
@@ -74,9 +82,13 @@ class PlanMark:
 
     def elements(self, building: Building) -> tuple[Element, ...]:
         """The plan with its mark, all in view units, and the button."""
+        return (self.plan(building), Button("button.confirm", self.button))
+
+    def plan(self, building: Building, place: Point | None = None) -> FloorPlan:
+        """The plan with its mark; where the answer is shown, with the true `place` (x, z) too."""
         lines = tuple((self.on_view(*a), self.on_view(*b)) for a, b in wall_lines(building))
         mark = None if self.mark is None else self.on_view(*self.mark)
-        return (FloorPlan(self.rect, lines, mark), Button("button.confirm", self.button))
+        return FloorPlan(self.rect, lines, mark, None if place is None else self.on_view(*place))
 
 
 def wall_lines(building: Building) -> list[tuple[Point, Point]]:

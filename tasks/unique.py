@@ -6,12 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.random import Generator
+from numpy.typing import NDArray
 
-from tasks.base import Outcome, View
+from tasks.base import Example, Outcome, View
 from tasks.building import Building, unique_building
 from tasks.events import Event, KeyPress
+from tasks.example import before
 from tasks.floor import room_at
-from tasks.hud import Label
+from tasks.hud import FloorPlan, Label
 from tasks.parameters import BuildingParameters
 from tasks.plan_mark import PlanMark
 from tasks.visit import Visit, visit
@@ -68,7 +70,9 @@ class Unique:
         """What to show for `state`: the building, then its plan over it."""
         if not state.found:
             return state.visit.view(SEARCH)
-        mark = Label("unique.mark", (state.plan.aspect / 2, 0.03), align="center")
+        tone = "hint" if state.plan.hint else "plain"
+        text = state.plan.hint or "unique.mark"
+        mark = Label(text, (state.plan.aspect / 2, 0.03), align="center", tone=tone)
         plan = state.plan.elements(state.building)
         return state.visit.view(mark, *plan, captured=False)
 
@@ -76,9 +80,7 @@ class Unique:
         """Once confirmed: `distance` from the mark, and as `correct`, whether the room is right."""
         if not state.plan.confirmed or state.plan.mark is None:
             return None
-        b = state.building
-        index = b.asked_objects[0]
-        place = b.scene.transforms[index, [0, 2], 3]
+        b, place = state.building, _place(state.building)
         mark = np.array(state.plan.mark)
         rooms = [room_at(b.floor, at[0], at[1], b.parameters) for at in (mark, place)]
         return Outcome(
@@ -87,3 +89,18 @@ class Unique:
             correct=rooms[0] == rooms[1],
             distance=float(np.hypot(*(mark - place))),
         )
+
+    def solution(self, state: UniqueState) -> FloorPlan | None:
+        """The plan with the mark and the thing's true place."""
+        x, z = _place(state.building).tolist()
+        return state.plan.plan(state.building, (x, z))
+
+    def example(self, state: UniqueState, aspect: float) -> Example:
+        """The thing itself."""
+        return Example(tuple(state.building.asked_objects), before(state.visit))
+
+
+def _place(building: Building) -> NDArray[np.float64]:
+    """(2,) world x and z of the thing asked for."""
+    place: NDArray[np.float64] = building.scene.transforms[building.asked_objects[0], [0, 2], 3]
+    return place

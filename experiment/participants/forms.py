@@ -8,10 +8,18 @@ from statistics import fmean
 import numpy as np
 
 from experiment.depth_test import on_picture
-from experiment.pages import Choice, Page, Paragraph, Picture, PlatePicture, Scale, TextField
+from experiment.pages import (
+    PICTURE_ASPECT,
+    Choice,
+    Page,
+    Paragraph,
+    Picture,
+    PlatePicture,
+    Scale,
+    TextField,
+)
 from experiment.participants.person import Person
 
-ASPECT = 4 / 3  # of a page's picture
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]
 MIDDLE, STEEPNESS, WOBBLE = 0.57, 0.28, 0.15  # ratings, 0–1, against log2 of relative time [ours]
@@ -92,7 +100,7 @@ class Opinions:
         camera, scene = picture.view.camera, picture.view.scene
         depth = camera.depth(scene.centers)
         place = np.abs(on_picture(camera, scene.centers))
-        shown = (depth > 0) & (place < [ASPECT, 1.0]).all(axis=1)
+        shown = (depth > 0) & (place < [PICTURE_ASPECT, 1.0]).all(axis=1)
         looks = []
         for kind in kinds:
             same = [depth[i] for i in np.nonzero(shown)[0] if scene.objects[i].kind == kind]

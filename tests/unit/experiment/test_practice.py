@@ -1,0 +1,151 @@
+"""Practice trials are marked as such, feedback is in metres, and waiting is told."""
+
+import threading
+import time
+
+import pytest
+from every_page import begun, ended
+from every_page import marked as mark
+
+from experiment.clock import SimulatedClock
+from experiment.config import load
+from experiment.design import session_for
+from experiment.pages import PlanPicture
+from experiment.session import _feedback
+from experiment.texts import Texts
+from experiment.trial import TrialRun
+from experiment.waiting import PATIENCE, meanwhile
+from experiment.world import TrialRecord, World
+from tasks.base import Outcome
+from tasks.catalog import TASKS
+from tasks.events import KeyPress, Tick
+from tasks.hud import Label
+
+STUDY = load("published")
+SETS = session_for(1, STUDY.design.factors())
+
+
+def marked(view):
+    return any(isinstance(e, Label) and e.tone == "practice" for e in view.hud)
+
+
+class Looker:
+    """Display, input and recorder of a trial in which nobody answers."""
+
+    aspect = 4 / 3
+
+    def __init__(self, clock):
+        self.clock, self.shown = clock, []
+
+    def show(self, view, technique):
+        self.shown.append(view)
+        return self.clock.now()
+
+    def events(self, view):
+        self.clock.advance(self.clock.now() + 0.25)
+        return [KeyPress(self.clock.now(), "enter"), Tick(self.clock.now())]
+
+    def digest(self):
+        return ""
+
+    def nothing(self, *_):
+        pass
+
+    begin_trial = trial_begins = frame = event = nothing
+
+
+def played(trial, **how):
+    """(views, record) of a trial that ends at its limit of 2 s."""
+    clock = SimulatedClock(1.0)
+    looker = Looker(clock)
+    world = World(looker, looker, clock, looker, TASKS, **how)
+    return looker.shown, TrialRun(STUDY, world).play(trial, 2.0)
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_every_frame_of_a_practice_trial_is_marked_and_none_of_any_other(task):
+    (task_set, *_) = [t for t in SETS if t.trials[0].task == task]
+    for trial in (task_set.training[0], task_set.trials[0]):
+        views, record = played(trial)
+        assert len(views) == 9 - 1 and record.timed_out
+        assert [marked(v) for v in views] == [trial.training] * 8
+        hints = [e.text for e in views[-1].hud if isinstance(e, Label) and e.tone == "hint"]
+        assert hints  # Enter without an answer, in every task
+
+
+@pytest.mark.parametrize(
+    ("units", "correct", "en", "de"),
+    [
+        (41.6, False, "not in the right room. It was 21 m", "nicht im richtigen Raum. Sie war 21"),
+        (9.3, True, "in the right room, 4.7 m from", "im richtigen Raum, 4,7 m vom"),
+        (19.88, True, "9.9 m", "9,9 m"),
+        (19.98, True, " 10 m", " 10 m"),
+        (0.0, True, "0.0 m", "0,0 m"),
+    ],
+)  # fmt: skip
+def test_distances_are_in_metres_with_the_digits_that_matter(units, correct, en, de):
+    outcome = Outcome("0,0", "1,1", correct, distance=units)
+    record = TrialRecord(None, outcome, 1, 0.0, 1.0, 0.0, False, 9, 0, 0.0, 0.0, 0.0)
+    paragraph = _feedback(record).blocks[0]
+    assert en in Texts("en").fill(paragraph.text, paragraph.values)
+    assert de in Texts("de").fill(paragraph.text, paragraph.values)
+
+
+def test_feedback_of_a_marked_place_has_its_plan():
+    task = TASKS["unique"]
+    state = mark(begun("unique", 4 / 3), "left")
+    page = _feedback(ended(None, task.outcome(state), task.solution(state)))
+    (plan,) = [b.plan for b in page.blocks if isinstance(b, PlanPicture)]
+    assert plan.mark is not None and plan.place is not None and len(plan.walls) > 4
+
+
+def test_meanwhile_shows_frames_until_the_work_is_done_and_gives_its_result():
+    go, frames = threading.Event(), []
+
+    def frame():
+        frames.append(time.monotonic())
+        if len(frames) == 5:
+            go.set()
+
+    def work():
+        assert go.wait(20)
+        return "made"
+
+    assert meanwhile(work, frame, 0.0) == "made"
+    assert len(frames) >= 5
+
+
+def test_meanwhile_says_nothing_of_quick_work_but_on_a_page_once():
+    frames = []
+    assert meanwhile(lambda: 1, lambda: frames.append(1), 60.0) == 1
+    assert frames == []
+    assert meanwhile(lambda: 1, lambda: frames.append(1), 0.0) == 1
+    assert len(frames) >= 1
+    assert PATIENCE < 0.2
+
+
+def test_what_goes_wrong_in_the_work_or_in_a_frame_is_raised():
+    def fails():
+        raise ValueError("no room")
+
+    with pytest.raises(ValueError, match="no room"):
+        meanwhile(fails, lambda: None, 0.0)
+
+    def left():
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        meanwhile(lambda: time.sleep(0.05), left, 0.0)
+
+
+def test_the_scene_is_made_while_the_world_waits():
+    """What `waiting` is given makes the trial's first state; nothing else is done in it."""
+    made = []
+
+    def waiting(work):
+        made.append(work())
+        return made[-1]
+
+    trial = next(t.trials[0] for t in SETS if t.trials[0].task == "count")
+    views, _ = played(trial, waiting=waiting)
+    assert [state.scene for state in made] == [views[0].scene]
