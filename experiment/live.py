@@ -56,7 +56,10 @@ def play_in_window(
         person: Input = window if watched is None else _simulated(watched, window)
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts)
-        world = World(window, person, clock, recorder, TASKS, say, period=window.period)
+        world = World(
+            window, person, clock, recorder, TASKS, say, period=window.period,
+            flip_within=lambda: window.flip_within,
+        )  # fmt: skip
         return run_session(study, start.slot, world, start.done, start.given)
     finally:
         window.close()

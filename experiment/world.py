@@ -30,6 +30,8 @@ class TrialRecord:
     path_length: float
     turned: float
     repeat: bool = False
+    within: float = 0.0  # s: how much longer than `time` it may have been
+    early: int = 0  # presses from before the first frame, which answered nothing
 
     @property
     def time(self) -> float:
@@ -74,3 +76,4 @@ class World:
     progress: Callable[[TrialRecord], None] = lambda record: None
     scenes: StudyScenes | None = None  # others than the study's own
     period: float | None = None  # s, of the display, where it was measured
+    flip_within: Callable[[], float] = lambda: 0.0  # s: the last flip may have been so much earlier
