@@ -58,8 +58,20 @@ TRIALS = (
     Column("count_error", "integer", "answer − truth, for the counting tasks", "objects"),
     Column("distance", "number", "from the mark to the target's place, for T3", "world units"),
     Column("time", "number", "first frame shown to the answer's confirmation", "s"),
+    Column(
+        "time_within",
+        "number",
+        "how much longer than `time` it may have been: the first frame's flip and the last event "
+        "are known no better",
+        "s",
+    ),
     Column("time_clean", "number", "time, less what passed while the window had no focus", "s"),
     Column("timed_out", "boolean", "whether the trial ended at its time limit"),
+    Column(
+        "early",
+        "integer",
+        "keys and buttons pressed before a frame could answer them: not taken",
+    ),
     Column("frames", "integer", "frames shown", "frames"),
     Column(
         "frames_missed",

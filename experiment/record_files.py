@@ -24,6 +24,7 @@ from experiment.private import FILE, refused, write, write_new
 from tasks.base import View
 from tasks.events import Event, Tick
 
+EVENTS = "time,event,x,y,dx,dy,dragging,key,within"
 CHUNK = 1 << 16  # bytes of traces that are kept before they are written
 
 
@@ -126,7 +127,7 @@ class Traces:
     """What happened between a trial's first frame and its end, in two files of its own."""
 
     def __init__(self, folder: Path, name: str) -> None:
-        self.events = Trace(folder / f"{name}_events.csv", "time,event,x,y,dx,dy,dragging,key")
+        self.events = Trace(folder / f"{name}_events.csv", EVENTS)
         eye, forward = "eye_x,eye_y,eye_z", "forward_x,forward_y,forward_z"
         self.camera = Trace(folder / f"{name}_camera.csv", f"time,{eye},{forward},digest")
         self._last_camera: Any = None
@@ -134,12 +135,13 @@ class Traces:
     def event(self, event: Event) -> None:
         """One input event."""
         if isinstance(event, Tick):
-            kind, rest = "tick", ",,,,,"
+            kind, rest = "tick", ",,,,,,"
         else:
             values = asdict(event)
             kind = type(event).__name__
             names = ("x", "y", "dx", "dy", "dragging", "key")
-            rest = ",".join(cell(values.get(n)) for n in names)
+            # Where the time is known, the last cell is empty.
+            rest = ",".join([*(cell(values.get(n)) for n in names), cell(event.within or None)])
         self.events.line(f"{cell(event.time)},{kind},{rest}")
 
     def frame(self, time: float, view: View, digest: str) -> None:

@@ -17,12 +17,23 @@ from experiment.world import TrialRecord, World
 from renderer.camera import Camera
 from renderer.techniques.standard import Standard
 from tasks.base import Outcome, View
-from tasks.events import Event, FocusChange, KeyPress
+from tasks.events import (
+    Event,
+    FocusChange,
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerRelease,
+    Tick,
+)
 from tasks.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5
 DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares
+
+MEANT = ("escape", "f1")  # keys that are for the session, whenever they were pressed
+POINTER = "pointer"  # the left button, among the keys that are down
 
 LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
 MENU = Page(
@@ -64,6 +75,11 @@ class _Watch:
             self._camera, self._eye, self._back = camera, eye, back
         self._time = time
 
+    @property
+    def seen(self) -> bool:
+        """Whether a frame is on the screen: not before the first one, nor after a page."""
+        return self._time is not None
+
     def pause(self) -> None:
         """The next frame comes after a page: its distance to the last one is not a missed frame."""
         self._time = None
@@ -104,21 +120,19 @@ class TrialRun:
         world.input.begin_trial(trial.task, trial.training)
         running.show()
         while not running.ended:
-            for event in world.input.events(running.view):
-                if event.time < running.first:  # pressed while the first frame was being drawn:
-                    if not _interrupts(event):  # no answer to it, but Esc is meant all the same
-                        continue
-                    event = replace(event, time=running.first)
+            for event in map(running.admitted, world.input.events(running.view)):
+                if event is None:
+                    continue
                 world.recorder.event(event)
                 if running.take(event):
                     break
-            else:
+            if not running.ended:
                 running.show()
         return running.record()
 
 
 def _interrupts(event: Event) -> TypeGuard[KeyPress]:
-    return isinstance(event, KeyPress) and event.key in ("escape", "f1")
+    return isinstance(event, KeyPress) and event.key in MEANT
 
 
 class Running:
@@ -129,7 +143,10 @@ class Running:
         self._technique = run.technique(trial)
         self._trial, self._state, self._limit = trial, state, limit
         self._watch = _Watch(run.world.period or 1.0 / run.study.display.refresh)
-        self.first = self._confirmed = 0.0
+        self.first = self._confirmed = self._since = 0.0
+        self._first_within = self._within = 0.0
+        self._down: set[str] = set()  # pressed in this trial and not released
+        self._early = 0
         self._digested = -inf
         self._away = 0.0
         self._lost_focus: float | None = None
@@ -153,22 +170,48 @@ class Running:
         self.view = self._viewed()
         flip = self._world.display.show(self.view, self._technique)
         if self._watch.frames == 0:
-            self.first = flip
+            self.first, self._first_within = flip, self._world.flip_within()
+        if not self._watch.seen:
+            self._since = flip
         self._watch.frame(flip, self.view)
         due = flip - self._digested >= DIGEST_EVERY
         digest = self._world.display.digest() if due else ""
         self._digested = flip if due else self._digested
         self._world.recorder.frame(flip, self.view, digest)
 
+    def admitted(self, event: Event) -> Event | None:
+        """The event as far as the trial has to do with it, None if it came from before.
+
+        What was pressed before the first frame, or while a page lay over the trial, answers
+        nothing, and neither does what may have been. Nor do the releases and drags that follow.
+        """
+        if _interrupts(event) or isinstance(event, Tick | FocusChange):
+            return event
+        if isinstance(event, KeyRelease | PointerRelease):
+            key = event.key if isinstance(event, KeyRelease) else POINTER
+            known = key in self._down
+            self._down.discard(key)
+            return event if known else None
+        if event.time < self._since:
+            self._early += not isinstance(event, PointerMove)
+            return None
+        if isinstance(event, PointerMove):
+            stale = event.dragging and POINTER not in self._down
+            return replace(event, dragging=False) if stale else event
+        self._down.add(event.key if isinstance(event, KeyPress) else POINTER)
+        return event
+
     def take(self, event: Event) -> bool:
         """Let an event change the trial; whether that ended or interrupted it. Raises Leave."""
-        self._confirmed = event.time
+        self._confirmed, self._within = max(event.time, self.first), 0.0
         if _interrupts(event):
             self._interrupt(event)
             return True
         if isinstance(event, FocusChange):
             self._focus(event)
             return False
+        if not isinstance(event, Tick):
+            self._within = event.within
         state = self._task.on_event(self._state, event)
         if state is not self._state:
             self._state, self._outcome = state, self._task.outcome(state)
@@ -178,14 +221,14 @@ class Running:
 
     def _focus(self, event: FocusChange) -> None:
         if not event.focused:
-            self._lost_focus = event.time
+            self._lost_focus = max(event.time, self.first)
         elif self._lost_focus is not None:
-            self._away += event.time - self._lost_focus
+            self._away += max(event.time - self._lost_focus, 0.0)
             self._lost_focus = None
 
     def _interrupt(self, event: KeyPress) -> None:
         """Esc asks whether to leave, F1 opens the experimenter's menu; both stop the clean time."""
-        before = self._world.clock.now()
+        before, handled = max(event.time, self.first), self._world.clock.now()
         if event.key == "escape":
             if self._world.input.ask(LEAVE)["button"] == "1":
                 raise Leave
@@ -196,14 +239,34 @@ class Running:
             if answers["button"] == "2":
                 raise Leave
             self._repeat = answers["button"] == "1"
-        self._away += self._world.clock.now() - before
+        if self._repeat:
+            self._confirmed = handled
+        else:
+            self._go_on(before, self._world.clock.now())
+
+    def _go_on(self, before: float, now: float) -> None:
+        """After a page: its time counts once, and what was down came up on it."""
+        self._away += now - before
+        if self._lost_focus is not None:
+            self._away += before - self._lost_focus
+            self._lost_focus = now
         self._watch.pause()
+        up: list[Event] = [
+            PointerRelease(before, 0.0, 0.0, now - before)
+            if key == POINTER
+            else KeyRelease(before, key, now - before)
+            for key in sorted(self._down)
+        ]
+        self._down.clear()
+        for event in (*up, Tick(now)):
+            self._world.recorder.event(event)
+            self.take(event)
 
     def record(self) -> TrialRecord:
         """What became of the trial; the frame it ended on is noted with its digest."""
         watch = self._watch
         self._world.recorder.frame(self._confirmed, self.view, self._world.display.digest())
-        lost = 0.0 if self._lost_focus is None else self._confirmed - self._lost_focus
+        lost = 0.0 if self._lost_focus is None else max(self._confirmed - self._lost_focus, 0.0)
         return TrialRecord(
             trial=self._trial,
             outcome=self._outcome,
@@ -219,4 +282,6 @@ class Running:
             turned=watch.turned,
             repeat=self._repeat,
             solution=self._task.solution(self._state) if self._trial.training else None,
+            within=self._first_within + self._within,
+            early=self._early,
         )

@@ -1,10 +1,8 @@
-"""The only pyglet import: a window that shows views and pages, and turns its events into ours."""
+"""A window that shows views and pages, and turns its events into ours."""
 
 from __future__ import annotations
 
 import gc
-import os
-import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -22,15 +20,15 @@ from experiment.clock import Clock
 from experiment.config import DisplayTable
 from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for, window_context
-from experiment.errors import InputError
-from experiment.event_time import EventTime, x11_stamp
+from experiment.event_time import EventTime
 from experiment.form import Form
 from experiment.key_names import KEY_NAMES
 from experiment.pages import Answers, Page
 from experiment.refresh import rate_of
 from experiment.stage import Stage
+from experiment.system_window import ON_X11, open_window, say_when_the_server_goes
 from experiment.texts import Texts
-from experiment.trial import LEAVE
+from experiment.trial import LEAVE, MEANT
 from experiment.waiting import Waits
 from tasks.base import View
 from tasks.events import (
@@ -52,15 +50,17 @@ _KEYS = {getattr(key, theirs): ours for theirs, ours in KEY_NAMES.items()}
 BROKEN = (moderngl.Error, pyglet.gl.GLException, pyglet.gl.ContextException)
 GONE = ("GL_UNKNOWN_ERROR", "GL_OUT_OF_MEMORY")
 
+WITHIN = "within the frame before its dispatch, each with its bound"
+
 
 class Window(Waits):
     """Display and Input of a session. Raises InputError where no window can be opened."""
 
     def __init__(self, table: DisplayTable, texts: Texts, clock: Clock, title: str) -> None:
         self.clock = clock
-        self._window = _open(table, title)
-        if _ON_X11:
-            _say_when_the_server_goes()
+        self._window = open_window(table, title)
+        if ON_X11:
+            say_when_the_server_goes()
         self.context = window_context()
         self.declared, self.measured = table.refresh, rate_of(self._bare_flips())  # Hz
         self.period = 1.0 / (self.measured or self.declared)
@@ -68,16 +68,17 @@ class Window(Waits):
         samples = samples_for(table.samples, self.context)
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, samples)
         self.technique: Any = None  # what the view shown last was drawn with
-        self._when = EventTime(clock.now)
-        self._window.event_time = self._when
+        self._when = self._window.event_time = EventTime(clock.now)
+        self._window.compare_clocks()
         self._events: list[Event] = []
         self._down: set[str] = set()
+        self._focused = True
         self._form: Form | None = None
         self._form_shown = inf  # when its first frame was
         self._closed = False
+        self.flip_within = 0.0  # s: the last flip may have been shown so much earlier
         self._flipped = time.perf_counter()
         self._passed = self.period
-        self._pressed = False
         self._window.push_handlers(self)
         self.on_frame: Callable[[], None] = lambda: None
 
@@ -123,27 +124,37 @@ class Window(Waits):
             "refresh_measured": f"{self.measured:.2f}" if self.measured else "does not wait",
             "refresh_of_screen": str(rate or "unknown"),
             "window": "yes",
-            "input_time": "X11 event time, 1 ms" if _ON_X11 else "dispatch, one frame",
-            "focus_time": "dispatch, one frame",
+            "input_time": "X11 event time, 1 ms" if self._when.trusted else WITHIN,
+            "focus_time": WITHIN,
         }
 
     # Input
 
     def begin_trial(self, task: str, training: bool) -> None:
-        """Forget what was pressed before the trial."""
-        self._events.clear()
+        """Forget what was pressed before the trial, but for Esc and F1: they mean no task."""
         # A search for cyclic garbage can take longer than a frame: now, and then after the trial.
         gc.collect()
         gc.disable()
+        self._window.compare_clocks()
+        self._pump()
+        self._events = [e for e in self._events if isinstance(e, KeyPress) and e.key in MEANT]
+        if not self._focused:  # lost on a page before
+            self._events.append(FocusChange(self.clock.now(), False))
 
     def events(self, view: View) -> list[Event]:
-        """What happened until the next frame is due. Raises Leave when the window was closed."""
-        self._pump()
+        """What happened until now, in its order. Raises Leave when the window was closed.
+
+        Events of a later moment that came in already are kept for the next time, so that time
+        never runs back from one call to the next.
+        """
+        now = self._pump()
         if self._closed:
             raise Leave
         # Keys and pointer come from different queues of the system.
-        happened, self._events = sorted(self._events, key=lambda e: e.time), []
-        return [*happened, Tick(self.clock.now())]
+        self._events.sort(key=lambda e: e.time)
+        happened = [e for e in self._events if e.time <= now]
+        self._events = self._events[len(happened) :]
+        return [*happened, Tick(now)]
 
     def ask(self, page: Page) -> Answers:
         """Show a page until it is answered; Esc asks whether to leave. Raises Leave."""
@@ -151,17 +162,14 @@ class Window(Waits):
             self.waiting(page.prepare)
         self._window.set_exclusive_mouse(False)
         gc.enable()
-        form, self._form_shown = Form(page), inf
-        self._form = form
-        self._events.clear()
-        # Keys that were down in the view before, and whose release went elsewhere, are up now.
-        self.stage.interface.io.clear_input_keys()
+        form = Form(page)
+        self._turn_to(form)
         while not self._draw_page(form):
             if self._closed:
                 raise Leave
             if page.name != "leave" and self._escape_pressed():
                 self.confirm_leaving()
-                self._form = form
+                self._turn_to(form)
         self._form = None
         self._events.clear()
         return form.answers
@@ -170,6 +178,17 @@ class Window(Waits):
         """Ask whether to leave. Raises Leave if so."""
         if self.ask(LEAVE)["button"] == "1":
             raise Leave
+
+    def _turn_to(self, form: Form) -> None:
+        """From its first frame on a page takes what is pressed; nothing from before."""
+        self._form, self._form_shown = form, inf
+        self._events.clear()
+        # Keys that were down in the view before, and whose release went elsewhere, are up now;
+        # what was pressed more than once on the page before waits there, one a frame.
+        io = self.stage.interface.io
+        io.clear_events_queue()
+        io.clear_input_keys()
+        io.clear_input_mouse()
 
     def left(self) -> bool:
         """Handle what came in; whether Esc was pressed or the window closed."""
@@ -201,9 +220,14 @@ class Window(Waits):
         self._events.clear()
         return pressed
 
-    def _pump(self) -> None:
+    def _pump(self) -> float:
+        """Dispatch what came in; the time before which nothing is left to come."""
+        now = self.clock.now()
         self._window.switch_to()
+        self._window.settle()
         self._window.dispatch_events()
+        self._when.drained(now)
+        return now
 
     @contextmanager
     def _graphics(self) -> Iterator[None]:
@@ -228,9 +252,12 @@ class Window(Waits):
 
         The time is that of the flip; what is left of the period is waited for after it.
         """
+        began = self.clock.now()
         with self._graphics():
             self._window.flip()
+            self._window.settle()  # where pictures are copied, this one was
         shown = self.clock.now()
+        self.flip_within = shown - began
         early = self._flipped + self._pace - time.perf_counter()
         if early > 0:
             time.sleep(early)
@@ -240,7 +267,11 @@ class Window(Waits):
 
     def _blind(self) -> bool:
         """Whether the event came before anybody saw the page: meant for the one before it."""
-        return self._form is not None and self._when.time() < self._form_shown
+        return self._form is not None and self._when.moment()[0] < self._form_shown
+
+    def _note(self, kind: Callable[..., Event], *what: Any) -> None:
+        time, within = self._when.moment()
+        self._events.append(kind(time, *what, within))
 
     # pyglet's events. Its pixels count from the lower left corner of the window.
 
@@ -262,35 +293,35 @@ class Window(Waits):
 
     def _moved(self, x: int, y: int, dx: int, dy: int, dragging: bool) -> None:
         self._io_pointer(x, y)
-        height = self._window.height
-        self._events.append(
-            PointerMove(self._when.time(), *self._at(x, y), dx / height, -dy / height, dragging)
-        )
+        (time, within), height = self._when.moment(), self._window.height
+        turn = dx / height, -dy / height
+        self._events.append(PointerMove(time, *self._at(x, y), *turn, dragging, within))
 
     def on_mouse_press(self, x: int, y: int, button: int, _: int) -> None:
         """A button went down."""
         if button == mouse.LEFT and not self._blind():
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, True)
-            self._events.append(PointerPress(self._when.time(), *self._at(x, y)))
+            self._note(PointerPress, *self._at(x, y))
 
     def on_mouse_release(self, x: int, y: int, button: int, _: int) -> None:
         """A button went up."""
         if button == mouse.LEFT:
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, False)
-            self._events.append(PointerRelease(self._when.time(), *self._at(x, y)))
+            self._note(PointerRelease, *self._at(x, y))
 
     def on_mouse_scroll(self, x: int, y: int, _: float, dy: float) -> None:
         """The wheel turned: pages scroll."""
-        self.stage.interface.io.add_mouse_wheel_event(0, dy)
+        if not self._blind():
+            self.stage.interface.io.add_mouse_wheel_event(0, dy)
 
     def on_key_press(self, symbol: int, _: int) -> bool:
         """A key went down. Handled: pyglet would close the window on Esc."""
         name = _KEYS.get(symbol)
         if name == "escape" or (name and not self._blind()):
             self.stage.interface.key(name, True)
-            self._events.append(KeyPress(self._when.time(), name))
+            self._note(KeyPress, name)
             self._down.add(name)
         return pyglet.event.EVENT_HANDLED
 
@@ -299,7 +330,7 @@ class Window(Waits):
         name = _KEYS.get(symbol)
         if name:
             self.stage.interface.key(name, False)
-            self._events.append(KeyRelease(self._when.time(), name))
+            self._note(KeyRelease, name)
             self._down.discard(name)
 
     def on_text(self, text: str) -> None:
@@ -317,79 +348,19 @@ class Window(Waits):
 
     def on_activate(self) -> None:
         """The window has the desktop's focus."""
-        self._events.append(FocusChange(self._when.time(), True))
+        self._focused = True
+        self._note(FocusChange, True)
 
     def on_deactivate(self) -> None:
         """Another window has the focus now; keys that were down come up unseen."""
-        now = self._when.time()
-        self._events += [KeyRelease(now, name) for name in sorted(self._down)]
+        for name in sorted(self._down):
+            self._note(KeyRelease, name)
         self._down.clear()
         self.stage.interface.io.clear_input_keys()
-        self._events.append(FocusChange(now, False))
+        self._focused = False
+        self._note(FocusChange, False)
 
     def on_close(self) -> bool:
         """The desktop closes the window: the session saves and leaves. Handled by us."""
         self._closed = True
         return pyglet.event.EVENT_HANDLED
-
-
-class _StampedWindow(pyglet.window.Window):
-    """Keeps the system's stamp of the event that is being dispatched, where the system has one."""
-
-    event_time: EventTime | None = None
-
-    def dispatch_platform_event(self, event: Any) -> None:
-        """X11 only: keys come this way."""
-        self._stamped(super().dispatch_platform_event, event)
-
-    def dispatch_platform_event_view(self, event: Any) -> None:
-        """X11 only: the pointer's events come this way."""
-        self._stamped(super().dispatch_platform_event_view, event)
-
-    def _stamped(self, dispatch: Callable[[Any], None], event: Any) -> None:
-        if self.event_time is None:
-            return dispatch(event)
-        self.event_time.stamp = x11_stamp(event)
-        try:
-            return dispatch(event)
-        finally:
-            self.event_time.stamp = None
-
-
-def _open(table: DisplayTable, title: str) -> pyglet.window.Window:
-    config = pyglet.gl.Config(
-        double_buffer=True, major_version=3, minor_version=3, forward_compatible=True
-    )
-    try:
-        return _StampedWindow(
-            table.width, table.height, title, fullscreen=table.fullscreen, vsync=True,
-            resizable=not table.fullscreen, config=config,
-        )  # fmt: skip
-    except Exception as error:  # pyglet raises a different class on each platform
-        raise InputError(f"display: no window can be opened: {error}") from error
-
-
-_ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
-_kept_handlers: list[Any] = []  # Xlib does not keep them
-
-
-def _say_when_the_server_goes() -> None:
-    """Xlib ends the program when its server does: with one line of ours instead of its own."""
-    from pyglet.libs.x11 import xlib
-
-    def end(_: Any) -> int:
-        line = "seethrough: display: the desktop went away; every completed trial is saved"
-        print(line, file=sys.stderr, flush=True)
-        os._exit(2)
-
-    _kept_handlers.append(xlib.XIOErrorHandler(end))
-    xlib.XSetIOErrorHandler(_kept_handlers[-1])
-
-
-def available() -> bool:
-    """Whether there is a desktop to open a window on."""
-    try:
-        pyglet.display.get_display()
-    except Exception:  # a different class on each platform; the answer is the point
-        return False
-    return True

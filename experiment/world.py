@@ -32,6 +32,8 @@ class TrialRecord:
     turned: float
     repeat: bool = False
     solution: FloorPlan | None = None  # for the feedback of a practice trial
+    within: float = 0.0  # s: how much longer than `time` it may have been
+    early: int = 0  # presses from before the first frame, which answered nothing
 
     @property
     def time(self) -> float:
@@ -77,3 +79,4 @@ class World:
     scenes: StudyScenes | None = None  # others than the study's own
     period: float | None = None  # s, of the display, where it was measured
     waiting: Callable[[Callable[[], Any]], Any] = lambda work: work()  # says so, then does it
+    flip_within: Callable[[], float] = lambda: 0.0  # s: the last flip may have been so much earlier

@@ -1,5 +1,6 @@
 """What a participant does, as values. A window, a replay and a simulated participant send the same.
 
+An event happened at `time`, or up to `within` seconds later where that cannot be known.
 Positions are in view units: the origin is the upper left corner of the view, y points down and
 runs from 0 to 1, x from 0 to the aspect ratio. Times are seconds on the session's clock.
 Keys are lower-case names: "a"…"z", "0"…"9", "left", "right", "up", "down", "enter", "space",
@@ -21,6 +22,7 @@ class PointerMove:
     dx: float
     dy: float
     dragging: bool = False
+    within: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,7 @@ class PointerPress:
     time: float
     x: float
     y: float
+    within: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ class PointerRelease:
     time: float
     x: float
     y: float
+    within: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,7 @@ class KeyPress:
 
     time: float
     key: str
+    within: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,7 @@ class KeyRelease:
 
     time: float
     key: str
+    within: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -63,6 +69,7 @@ class FocusChange:
 
     time: float
     focused: bool
+    within: float = 0.0
 
 
 @dataclass(frozen=True)

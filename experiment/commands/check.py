@@ -180,7 +180,7 @@ def _machine(study: Study, measured: list[Difficulty], context: Any, seconds: fl
 
 def _refresh(study: Study) -> bool:
     """Measured against declared refresh rate, where there is a display."""
-    from experiment.window import available
+    from experiment.system_window import available
 
     if not available():
         print("machine     no display: refresh rate not measured")

@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _desktop() -> bool:
-    from experiment.window import available  # only here: needs no display, but costs time
+    from experiment.system_window import available  # only here: needs no display, but costs time
 
     return available()
 

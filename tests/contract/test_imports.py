@@ -58,7 +58,11 @@ print("FOUND", json.dumps(found))
 # owns each toolkit). A trailing "/" is a folder.
 OWNERS = {
     "moderngl": ("renderer/gpu/", "experiment/", "benchmarks/"),
-    "pyglet": ("experiment/window.py", "experiment/viewer_window.py"),
+    "pyglet": (
+        "experiment/window.py",
+        "experiment/system_window.py",
+        "experiment/viewer_window.py",
+    ),
     "imgui_bundle": ("experiment/",),
     "pandas": ("analysis/", "experiment/", "benchmarks/"),
     "statsmodels": ("analysis/", "experiment/", "benchmarks/"),

@@ -44,6 +44,32 @@ class XServer:
         self._fake(code, 0)
         return before, after
 
+    def move(self, x, y):
+        """The pointer to a pixel; (before, after) in s, monotonic."""
+        before = time.monotonic()
+        self._test.XTestFakeMotionEvent(self._display, -1, int(x), int(y), ctypes.c_ulong(0))
+        self._x.XSync(self._display, 0)
+        return before, time.monotonic()
+
+    def click(self):
+        """Press and release the left button; (before, after) of its press in s, monotonic."""
+        before = time.monotonic()
+        self._test.XTestFakeButtonEvent(self._display, 1, 1, ctypes.c_ulong(0))
+        self._x.XSync(self._display, 0)
+        after = time.monotonic()
+        self._test.XTestFakeButtonEvent(self._display, 1, 0, ctypes.c_ulong(0))
+        self._x.XSync(self._display, 0)
+        return before, after
+
+    def part(self, x, y, width, height):
+        """The bytes of a rectangle of the screen, four a pixel."""
+        words = (x, y, width, height, ALL_PLANES, Z_PIXMAP)
+        image = ctypes.c_void_p(self._x.XGetImage(self._display, self._root, *words))
+        data = ctypes.cast(image, ctypes.POINTER(_Image)).contents.data
+        found = ctypes.string_at(data, 4 * width * height)
+        self._x.XDestroyImage(image)
+        return found
+
     def _fake(self, code, down):
         self._test.XTestFakeKeyEvent(self._display, code, down, ctypes.c_ulong(0))
         self._x.XSync(self._display, 0)  # returns when the server has made the event
