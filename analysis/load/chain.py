@@ -3,34 +3,29 @@
 A table with a chain ends in the column `chain`: in each row the SHA-256, in hexadecimal, of the
 value in the row before followed by the row's own text up to (without) the comma before `chain`.
 The sidecar's `chain.start` stands before the first row; it is itself made from the sidecar and the
-table's header. Each row holds the hashes of its trial's traces. The session's end file, if the
-session was closed, holds the last value and the hashes of the session's other files: a table or
-trace of the session that neither holds was added later. The end file's `seal` is the hash of the
-rest of it; the sidecar of a session that goes on holds the last value of the one before, and, if
-that one was never closed, the hashes of its other files (CONVENTIONS.md).
+table's header (CONVENTIONS.md). What one participant's files say together is in `person.py`.
 
-Data may be handed on without their traces: a session whose traces folder is gone is verified
-without them and says so. A single trace that is missing was removed.
+A program that opened the table and saved it again may have left every cell as it was: that gets a
+line of its own, since the original is then still what it was.
 """
 
 from __future__ import annotations
 
 import csv
 import hashlib
+import io
 import json
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
-from analysis.errors import DataError
-from analysis.load.table import Source
+from analysis.load.files import AGAIN, MARKS
 
 COLUMN = "chain"
-TRIALS_TABLE, ANSWERS_TABLE = "_trials_data.csv", "_questionnaire_data.csv"
-END = "_end.json"
-TRACES = "traces"
-_PAIRS = (("events_file", "events_sha256"), ("camera_file", "camera_sha256"))
+LONGEST_CELL = 2**31 - 1  # characters: Python's own limit of 131,072 is less than a remark may have
+HALF = "half-written"
+SEPARATORS = (",", ";", "\t")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,14 +33,13 @@ class ChainState:
     """`state`: verified, open (verified, but the session was never closed), or none.
 
     `traces`: how many trace files were verified, None where their folder is gone; `last`: the
-    chain's end; `chained`: the traces that the rows hold, None where their folder is gone.
+    chain's end.
     """
 
     file: str
     state: str
     traces: int | None = 0
     last: str = ""
-    chained: tuple[str, ...] | None = ()
 
 
 def link(before: str, text: str) -> str:
@@ -66,145 +60,139 @@ def seal_of(end: Mapping[str, Any]) -> str:
     return link("", json.dumps(plain, sort_keys=True, ensure_ascii=False))
 
 
-def verify_all(
-    sources: Sequence[Source], sidecars: Mapping[str, Mapping[str, Any]], folder: Path
-) -> list[ChainState]:
-    """Every table, and that each participant's sessions follow one another.
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A trial table as its chain has it: the problems found, its cells, and the chain's end.
 
-    Raises DataError naming the first place that is not as it was written.
+    `half`: the line for a last row that a crash left half-written, where that is all.
     """
-    ends: dict[str, ChainState] = {}
-    states = {}
-    for source in sorted(sources, key=lambda s: _session(s.name)):
-        sidecar = sidecars.get(source.name, {})
-        state = verify(source, sidecar, folder)
-        person = source.name.rpartition("/")[0]
-        if state.state != "none":
-            before = ends.get(person)
-            if sidecar["chain"].get("follows", "") != (before.last if before else ""):
-                raise DataError(f"{source.name}: does not follow the session before it")
-            if before and isinstance(holds := sidecar["chain"].get("holds"), Mapping):
-                _verify_files(before.file, holds, folder, before.chained)
-            ends[person] = state
-        states[source.name] = state
-    for person in ends:
-        _no_answers_alone(folder / person, folder)
-    return [states[source.name] for source in sources]
+
+    problems: tuple[str, ...]
+    rows: tuple[Mapping[str, str], ...] = ()
+    last: str = ""
+    half: str = ""
 
 
-def _session(name: str) -> tuple[str, int]:
-    """Participants, and their sessions in order: session-10 comes after session-9."""
-    number = name.partition("_session-")[2].partition("_")[0]
-    return name.rpartition("/")[0], int(number) if number.isdigit() else 0
+def read_rows(text: str, separator: str = ",") -> list[list[str]]:
+    """The cells of a table's rows, however long a cell is. Raises csv.Error."""
+    csv.field_size_limit(LONGEST_CELL)
+    return list(csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True))
 
 
-def verify(source: Source, sidecar: Mapping[str, Any], folder: Path) -> ChainState:
-    """Check header, sidecar, every row, the traces and the session's end.
+def is_chained(data: bytes) -> bool:
+    """Whether a table's header ends in the chain's column, whoever saved it last."""
+    text, _ = _decoded(data)
+    head = re.split("[\r\n]", text, maxsplit=1)[0]
+    return any(head.rpartition(s)[2].strip('"') == COLUMN for s in SEPARATORS)
 
-    Raises DataError naming the first place that is not as it was written.
-    """
-    lines = source.data.decode("utf-8").split("\n")
-    if lines[0].rpartition(",")[2] != COLUMN:
-        return ChainState(source.name, "none")
+
+def check_table(name: str, data: bytes, sidecar: Mapping[str, Any]) -> Table:
+    """A table with a chain, row by row, against the sidecar that the chain starts from."""
+    text, marks = _decoded(data)
+    lines = list(_lines(text))
+    problems = list(_row_problems(name, lines, sidecar))
+    if not problems and not marks:
+        return Table((), _cells(lines), _last(lines, sidecar))
+    plain = _as_recorded(text)
+    again = [] if plain is None else list(_row_problems(name, list(_lines(plain)), sidecar))
+    if len(problems) == 1 and HALF in problems[0] and (plain is None or again):
+        return Table((), _cells(lines[:-1]), _last(lines[:-1], sidecar), problems[0])
+    if plain is None or plain.encode("utf-8", "replace") == data:
+        return Table(tuple(problems) or (f"{name}: {AGAIN} ({marks})",))
+    how = marks or ("line ends" if "\r" in text else "quotes, separators or empty lines")
+    if not again:
+        return Table((f"{name}: {AGAIN} ({how})",))
+    more = f" and {len(again) - 1} rows more" if len(again) > 1 else ""
+    return Table((f"{again[0]}{more}; {AGAIN} ({how})",))
+
+
+def cells_have(data: bytes, digest: str) -> bool:
+    """Whether a table's cells, written as the recorder does, have this SHA-256."""
+    plain = _as_recorded(_decoded(data)[0])
+    return (
+        plain is not None and hashlib.sha256(plain.encode("utf-8", "replace")).hexdigest() == digest
+    )
+
+
+def _decoded(data: bytes) -> tuple[str, str]:
+    """The table's text, and the mark that a program which saved it again left before it."""
+    for mark, what in MARKS.items():
+        if data.startswith(mark):
+            code = "utf-8-sig" if mark == b"\xef\xbb\xbf" else "utf-16"
+            return data.decode(code, "replace"), what
+    return data.decode("utf-8", "replace"), ""
+
+
+def _lines(text: str) -> Iterator[str]:
+    """The rows' texts, each with its line's end: the line breaks in a quoted cell end no row."""
+    held = ""
+    for line in _split(text):
+        held += line
+        if held.count('"') % 2 == 0:
+            yield held
+            held = ""
+    if held:
+        yield held
+
+
+def _split(text: str) -> Iterator[str]:
+    """Lines that end in \\n and nothing else."""
+    start = 0
+    while (end := text.find("\n", start)) >= 0:
+        yield text[start : end + 1]
+        start = end + 1
+    if start < len(text):
+        yield text[start:]
+
+
+def _row_problems(name: str, lines: list[str], sidecar: Mapping[str, Any]) -> Iterator[str]:
+    """What of header and rows is not as it was written."""
+    header = lines[0].removesuffix("\n") if lines else ""
+    if header.rpartition(",")[2] != COLUMN:
+        yield f"{name}: column = chain: missing, though its sidecar begins a chain"
+        return
     chain = sidecar.get("chain")
     if not isinstance(chain, Mapping) or "start" not in chain:
-        raise DataError(f"{source.name}: column = chain: expected chain.start in its sidecar")
+        yield f"{name}: column = chain: expected chain.start in its sidecar"
+        return
     before = str(chain["start"])
-    if start_of(sidecar, lines[0]) != before:
-        raise DataError(f"{source.name}: row 1: this header, or its sidecar, was changed")
-    for number, row in enumerate((line for line in lines[1:] if line), start=2):
-        text, _, value = row.rpartition(",")
-        if value != link(before, text):
-            raise DataError(f"{source.name}: row {number}: changed, or a row before it removed")
+    if start_of(sidecar, header) != before:
+        yield f"{name}: row 1: this header, or its sidecar, was changed"
+    for number, line in enumerate(lines[1:], start=2):
+        text, _, value = line.removesuffix("\n").rpartition(",")
+        if not line.endswith("\n"):
+            yield f"{name}: row {number}: {HALF}: the line has no end"
+        elif value != link(before, text):
+            yield f"{name}: row {number}: changed, or a row before it removed"
         before = value
-    traces = _verify_traces(source.name, lines, folder)
-    state, more = _verify_end(source.name, before, folder, traces)
-    if traces is None:
-        return ChainState(source.name, state, None, before, None)
-    return ChainState(source.name, state, len(traces) + more, before, tuple(traces))
 
 
-def _verify_traces(name: str, lines: Sequence[str], folder: Path) -> list[str] | None:
-    """The traces named in the rows, each verified; None if their folder is gone."""
-    own = (folder / name).parent
-    header, *rows = csv.reader(lines)
-    places = [(header.index(f), header.index(h)) for f, h in _PAIRS if f in header and h in header]
-    if not (own / TRACES).is_dir():
-        return None
-    traces = []
-    for number, cells in enumerate((row for row in rows if row), start=2):
-        for file, digest in places:
-            if cells[file]:
-                where = f" (the trial in row {number} of {name})"
-                _same(own, cells[file], cells[digest], folder, where)
-                traces.append(cells[file])
-    return traces
+def _cells(lines: list[str]) -> tuple[Mapping[str, str], ...]:
+    header, *rows = read_rows("".join(lines))
+    return tuple(dict(zip(header, row, strict=False)) for row in rows)
 
 
-def _same(own: Path, name: str, digest: str, folder: Path, where: str = "") -> None:
-    """Raises DataError unless the file beside the table is as it was written."""
-    path = own / name
-    if not path.resolve().is_relative_to(own.resolve()):
-        raise DataError(f"{own.relative_to(folder)}: {name!r}: expected a file in this folder")
-    if not path.is_file():
-        raise DataError(f"{path.relative_to(folder)}: removed after the session{where}")
-    if hashlib.sha256(path.read_bytes()).hexdigest() != digest:
-        raise DataError(f"{path.relative_to(folder)}: changed after the session{where}")
+def _last(lines: list[str], sidecar: Mapping[str, Any]) -> str:
+    if len(lines) > 1:
+        return lines[-1].removesuffix("\n").rpartition(",")[2]
+    return str(sidecar["chain"]["start"])
 
 
-def _verify_end(
-    name: str, last: str, folder: Path, chained: Sequence[str] | None
-) -> tuple[str, int]:
-    """The end file against the table and the session's other files; how many were traces.
+def _as_recorded(text: str) -> str | None:
+    """The same cells as the recorder writes them; None where they are no table.
 
-    `chained`: the traces that the rows hold, None where no traces are there.
+    A row is quoted where it must be and ends in a line feed; its chain stands last.
     """
-    path = folder / name.replace(TRIALS_TABLE, END)
-    if not path.is_file():
-        return "open", 0
+    head = re.split("[\r\n]", text, maxsplit=1)[0]
+    separator = max(SEPARATORS, key=head.count)
     try:
-        end = json.loads(path.read_bytes())
-        files = {str(name): str(digest) for name, digest in dict(end["files"]).items()}
-    except (ValueError, KeyError, TypeError, RecursionError):
-        raise DataError(f"{path.relative_to(folder)}: expected a session's end, as JSON") from None
-    if "seal" not in end:
-        raise DataError(f"{path.relative_to(folder)}: seal = missing: expected the file's own hash")
-    if end["seal"] != seal_of(end):
-        raise DataError(f"{path.relative_to(folder)}: changed after the session")
-    if end.get("chain") != last:
-        raise DataError(f"{name}: rows at its end were removed or added, or {path.name} changed")
-    return "verified", _verify_files(name, files, folder, chained)
-
-
-def _verify_files(
-    name: str, files: Mapping[str, str], folder: Path, chained: Sequence[str] | None
-) -> int:
-    """A session's files that its rows do not hold, and that there are no others; the traces.
-
-    Raises DataError naming the first that is not as it was written.
-    """
-    traces = 0
-    for other, digest in files.items():
-        trace = other.startswith(f"{TRACES}/")
-        if trace and chained is None:
-            continue
-        _same((folder / name).parent, other, digest, folder)
-        traces += trace
-    _nothing_added(folder / name, {*files, *(chained or ()), Path(name).name}, folder)
-    return traces
-
-
-def _nothing_added(table: Path, held: set[str], folder: Path) -> None:
-    """Raises DataError if a closed session has a table or a trace that nothing holds."""
-    stem, number = table.name.removesuffix(TRIALS_TABLE), _session(table.name)[1]
-    tables = (p for p in table.parent.glob("*_data.csv") if p.name.startswith(f"{stem}_"))
-    for path in (*sorted(tables), *sorted((table.parent / TRACES).glob(f"session-{number}_*"))):
-        if path.relative_to(table.parent).as_posix() not in held:
-            raise DataError(f"{path.relative_to(folder)}: added after the session")
-
-
-def _no_answers_alone(own: Path, folder: Path) -> None:
-    """Raises DataError if a participant with a chain has answers of a session that never was."""
-    for path in sorted(own.glob(f"*{ANSWERS_TABLE}")):
-        if not path.with_name(path.name.replace(ANSWERS_TABLE, TRIALS_TABLE)).is_file():
-            raise DataError(f"{path.relative_to(folder)}: expected its session's trial table")
+        rows = read_rows(text if "\n" in text else text.replace("\r", "\n"), separator)
+    except csv.Error:
+        return None
+    out = io.StringIO()
+    for row in rows:
+        if row:
+            line = io.StringIO()
+            csv.writer(line, lineterminator="\r\n").writerow(row)
+            out.write(line.getvalue()[:-2] + "\n")
+    return out.getvalue()

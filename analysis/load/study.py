@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -14,8 +13,12 @@ import pandas as pd
 
 from analysis.errors import DataError
 from analysis.load import schema
-from analysis.load.chain import ChainState, verify_all
-from analysis.load.table import Source, read_table
+from analysis.load.chain import ChainState
+from analysis.load.files import Source, is_there, read_bytes
+from analysis.load.ledger import NO_LEDGER, Ledger
+from analysis.load.person import table_name
+from analysis.load.table import read_table
+from analysis.load.whole import verified
 
 CERTIFICATE = "certificate.csv"
 """The difficulty certificate, where the study has one, beside dataset_description.json."""
@@ -45,6 +48,7 @@ class Study:
     chains: tuple[ChainState, ...] = ()
     other_sources: tuple[str, ...] = ()
     certificate: pd.DataFrame | None = None
+    ledger: Ledger = NO_LEDGER
 
 
 def load_study(folder: Path, source: str | None = None) -> Study:
@@ -52,44 +56,40 @@ def load_study(folder: Path, source: str | None = None) -> Study:
 
     Raises DataError with one line for each problem.
     """
-    about = _description(folder)
-    chosen, others = _source(folder, source)
-    base = folder / "data" / chosen
-    paths = sorted(base.glob("*/*_trials_data.csv"))
-    if not paths:
+    whole = verified(folder, source)
+    sources = [s.table for s in whole.sessions if s.table is not None]
+    answers = [s.answers for p in whole.people for s in p.sessions if s.answers is not None]
+    if not sources:
+        base = folder / "data" / whole.source
         raise DataError(f"{base}: no trial tables (*_trials_data.csv): expected one a participant")
-    asked = sorted(base.glob("*/*_questionnaire_data.csv"))
-    sources = [_source_file(path, folder) for path in paths]
-    answers = [_source_file(path, folder) for path in asked]
     trials = read_table(sources, schema.TRIALS)
-    check_trials(trials, chosen)
+    check_trials(trials, whole.source)
     empty = {name: pd.Series(dtype="object") for name in (*schema.QUESTIONNAIRE, "_file", "_row")}
     questions = read_table(answers, schema.QUESTIONNAIRE) if answers else pd.DataFrame(empty)
     if answers:
         _check_ids(questions)
-        _check_source(questions, chosen)
+        _check_source(questions, whole.source)
     _same_people(trials, questions)
     files = [*_records(sources, trials), *_records(answers, questions)]
     certificate = None
-    if (folder / CERTIFICATE).is_file():
-        hardness = _source_file(folder / CERTIFICATE, folder)
+    if is_there(folder / CERTIFICATE):
+        hardness = Source(CERTIFICATE, read_bytes(folder / CERTIFICATE, folder))
         certificate = read_table([hardness], schema.CERTIFICATE)
         _check_levels(certificate, ("task", "transparency"))
         files += _records([hardness], certificate)
-    sidecars = _sidecars(paths, folder)
-    chains = verify_all(sources, sidecars, folder)
     return Study(
         folder,
-        str(about.get("name", folder.name)),
-        str(about.get("description", "")),
-        chosen,
+        str(whole.about.get("name", folder.name)),
+        str(whole.about.get("description", "")),
+        whole.source,
         trials,
         questions,
-        sidecars,
+        {table_name(s): s.sidecar for s in whole.sessions if s.sidecar is not None},
         tuple(files),
-        tuple(chains),
-        others,
+        tuple(s.chain for s in whole.sessions if s.chain is not None),
+        whole.others,
         certificate,
+        whole.ledger,
     )
 
 
@@ -100,63 +100,12 @@ def _same_people(*tables: pd.DataFrame) -> None:
         table["participant"] = pd.Categorical(table["participant"].astype("str"), categories=names)
 
 
-def _description(folder: Path) -> dict[str, Any]:
-    """The dataset's description; its presence is what makes a folder a dataset."""
-    if not folder.is_dir():
-        raise DataError(f"{folder}: no such folder")
-    path = folder / "dataset_description.json"
-    if not path.is_file():
-        what = "an empty folder" if not any(folder.iterdir()) else "no dataset"
-        raise DataError(f"{folder}: {what}: expected dataset_description.json in it")
-    return _json(path, folder)
-
-
-def _json(path: Path, folder: Path) -> dict[str, Any]:
-    name = path.relative_to(folder)
-    try:
-        value = json.loads(path.read_bytes())
-    except (ValueError, RecursionError) as error:
-        raise DataError(f"{name}: not JSON ({error})") from None
-    if not isinstance(value, dict):
-        raise DataError(f"{name}: expected a JSON object")
-    return value
-
-
-def _source(folder: Path, wanted: str | None) -> tuple[str, tuple[str, ...]]:
-    """Which of data/human, data/simulated, data/pilot to read; they are never mixed."""
-    there = [s for s in schema.SOURCES if any((folder / "data" / s).glob("*/*_data.csv"))]
-    if wanted is not None and wanted not in there:
-        have = ", ".join(there) or "none"
-        raise DataError(f"{folder}: source = {wanted}: expected one that has data ({have})")
-    if not there:
-        raise DataError(f"{folder}: no participants yet: expected data/SOURCE/PARTICIPANT/*.csv")
-    if wanted is None and len(there) > 1:
-        have = ", ".join(there)
-        raise DataError(f"{folder}: source = {have}: sources are never mixed: choose with --source")
-    chosen = wanted or there[0]
-    return chosen, tuple(s for s in there if s != chosen)
-
-
-def _source_file(path: Path, folder: Path) -> Source:
-    return Source(path.relative_to(folder).as_posix(), path.read_bytes())
-
-
 def _records(sources: Iterable[Source], table: pd.DataFrame) -> list[FileRead]:
     counts = table["_file"].value_counts().to_dict() if len(table) else {}
     return [
         FileRead(s.name, hashlib.sha256(s.data).hexdigest(), int(counts.get(s.name, 0)))
         for s in sources
     ]
-
-
-def _sidecars(paths: Iterable[Path], folder: Path) -> dict[str, Mapping[str, Any]]:
-    """The trial tables' sidecars; a table without one is possible and shows in the report."""
-    found: dict[str, Mapping[str, Any]] = {}
-    for path in paths:
-        sidecar = path.with_suffix(".json")
-        if sidecar.is_file():
-            found[path.relative_to(folder).as_posix()] = _json(sidecar, folder)
-    return found
 
 
 def at(table: pd.DataFrame, index: Any) -> str:

@@ -11,12 +11,13 @@ import csv
 import io
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
 from analysis.errors import DataError
+from analysis.load.chain import read_rows
+from analysis.load.files import AGAIN, MARKS, Source
 
 NEWLINE = b"\n"
 CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
@@ -26,14 +27,6 @@ WANTED = {
     "number": "a finite number",
     "boolean": "true or false",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Source:
-    """A file's name as shown, and its bytes."""
-
-    name: str
-    data: bytes
 
 
 def read_table(sources: Sequence[Source], columns: Mapping[str, str]) -> pd.DataFrame:
@@ -87,7 +80,7 @@ def _plain_body(data: bytes) -> bytes:
 
 def _cells(body: bytes) -> list[list[str]]:
     """The rows' cells, read strictly. Raises csv.Error."""
-    return list(csv.reader(io.StringIO(body.decode("utf-8"), newline=""), strict=True))
+    return read_rows(body.decode("utf-8"))
 
 
 def _rows(body: bytes) -> int:
@@ -98,6 +91,9 @@ def _rows(body: bytes) -> int:
 def _shape_problems(source: Source, columns: Mapping[str, str]) -> list[str]:
     """Encoding, header, and rows that are not as long as the header."""
     head, _, body = source.data.partition(b"\n")
+    for mark, what in MARKS.items():
+        if head.startswith(mark):
+            return [f"{source.name}: {AGAIN} ({what})"]
     try:
         source.data.decode("utf-8")
     except UnicodeDecodeError as error:

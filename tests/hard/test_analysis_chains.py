@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import shutil
 from pathlib import Path
 
 import pytest
 from data_folders import ANSWERS, TRIALS, edit, refused
+from made_chains import chain
 from made_data import Made, make_folder
 
-from analysis.load.chain import link, seal_of, start_of
+from analysis.load.chain import start_of
 from analysis.load.study import load_study
 from analysis.page.markdown import as_markdown
 from analysis.report import Options, make_report
@@ -27,50 +27,11 @@ def folder(made, tmp_path) -> Path:
     return Path(shutil.copytree(made, tmp_path / "data"))
 
 
-def sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def chain(folder: Path) -> Path:
-    """Give P01's table a hash chain and traces, as the recorder does."""
-    path = folder / TRIALS
-    traces = path.parent / "traces"
-    traces.mkdir()
-    lines = path.read_text().rstrip("\n").split("\n")
-    names = lines[0].split(",")
-    header = lines[0] + ",events_sha256,camera_sha256,chain"
-    sidecar = path.with_suffix(".json")
-    about = {**json.loads(sidecar.read_text()), "chain": {}}
-    before = start_of(about, header)
-    sidecar.write_text(json.dumps({**about, "chain": {"start": before}}))
-    out = [header]
-    for number, line in enumerate(lines[1:], start=1):
-        cells = line.split(",")
-        for trace in ("events", "camera"):
-            name = f"traces/session-1_trial-{number:03d}_{trace}.csv"
-            (path.parent / name).write_text(f"t,{trace}\n{number},0.5\n")
-            cells[names.index(f"{trace}_file")] = name
-        cells += [
-            sha256(path.parent / cells[names.index(f"{t}_file")]) for t in ("events", "camera")
-        ]
-        before = link(before, ",".join(cells))
-        out.append(",".join([*cells, before]))
-    path.write_text("\n".join(out) + "\n")
-    training = traces / "session-1_training-101_events.csv"
-    training.write_text("t,event\n")
-    others = [p for p in (folder / ANSWERS, training) if p.is_file()]
-    files = {str(p.relative_to(path.parent)): sha256(p) for p in others}
-    end = path.with_name(path.name.replace("_trials_data.csv", "_end.json"))
-    about = {"status": "complete", "chain": before, "files": files}
-    end.write_text(json.dumps({**about, "seal": seal_of(about)}))
-    return end
-
-
 def test_a_good_chain_is_verified(folder):
     end = chain(folder)
     states = {c.file: c.state for c in load_study(folder).chains}
     assert states[TRIALS] == "verified"
-    assert sorted(states.values()) == ["none", "none", "verified"]
+    assert list(states.values()) == ["verified"] * 3
     end.unlink()
     assert {c.file: c.state for c in load_study(folder).chains}[TRIALS] == "open"
 
@@ -167,8 +128,8 @@ def test_the_report_prints_what_the_chains_say(folder):
     chain(folder)
     text = as_markdown(make_report(folder, Options()))
     rows = (folder / TRIALS).read_text().count("\n") - 1
-    assert "1 verified to the end of the session; 2 without a chain" in text
-    assert f"{2 * rows + 1} traces as they were recorded" in text
+    assert "of 3 trial tables 3 verified to the end of the session" in text
+    assert f"{3 * (2 * rows + 1)} traces as they were recorded" in text
 
 
 def test_a_session_that_does_not_follow_the_one_before_is_found(folder):
