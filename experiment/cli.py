@@ -58,7 +58,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return int(arguments.run(arguments) or 0)
     except InputError as error:
-        print(f"seethrough: {one_line(str(error))}", file=sys.stderr)
+        for line in error.lines:
+            print(f"seethrough: {one_line(line)}", file=sys.stderr)
         return 2
     except OSError as error:
         if error.filename is None:

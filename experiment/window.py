@@ -19,7 +19,6 @@ pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
 from experiment.clock import Clock
-from experiment.config import DisplayTable
 from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for, window_context
 from experiment.errors import InputError
@@ -29,6 +28,7 @@ from experiment.page_drawing import Form
 from experiment.pages import Answers, Page
 from experiment.refresh import rate_of
 from experiment.stage import Stage
+from experiment.study_tables import DisplayTable
 from experiment.texts import Texts
 from experiment.trial import LEAVE
 from tasks.base import View
