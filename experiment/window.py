@@ -20,8 +20,7 @@ from pyglet.window import key, mouse
 
 from experiment.clock import Clock
 from experiment.display import DisplayLost, Leave
-from experiment.driver import describe, samples_for, window_context
-from experiment.errors import InputError
+from experiment.driver import describe, no_window, samples_for, window_context
 from experiment.event_time import EventTime, x11_stamp
 from experiment.key_names import KEY_NAMES
 from experiment.page_drawing import Form
@@ -368,7 +367,7 @@ def _open(table: DisplayTable, title: str) -> pyglet.window.Window:
             resizable=not table.fullscreen, config=config,
         )  # fmt: skip
     except Exception as error:  # pyglet raises a different class on each platform
-        raise InputError(f"display: no window can be opened: {error}") from error
+        raise no_window(error) from error
 
 
 _ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
