@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
-from analysis.errors import DataError
 from analysis.exclude import apply_rules
-from analysis.load.study import load_study
+from analysis.load.study import Study, load_study
+from analysis.page import folder
 from analysis.page.blocks import Figure, Report, Section, Table, walk
 from analysis.page.html import as_html
 from analysis.page.markdown import as_markdown
 from analysis.page.pdf import find_browser, print_pdf
 from analysis.page.tables_csv import as_csv
-from analysis.plan import TESTS, make_plan
+from analysis.plan import TESTS, config_of, make_plan
 from analysis.sections.accuracy import accuracy_section
 from analysis.sections.context import Context
 from analysis.sections.participants import participants_section
@@ -49,8 +49,15 @@ def make_report(data: Path, options: Options) -> Report:
     context = Context(study, plan, trials, excluded, options.seed)
     sections = _sections(context)
     banner = {"simulated": SIMULATED, "pilot": PILOT}.get(study.source, "")
-    subtitle = f"Source: {study.source}. {study.description}"
-    return Report(f"Study “{study.name}”: report", subtitle, banner, tuple(sections))
+    subtitle = f"Study {study.name}. Source: {study.source}. {study.description}"
+    return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections))
+
+
+def _title(study: Study) -> str:
+    """The study's title, as its sessions recorded it; its name where none did."""
+    abouts = (config_of(sidecar).get("study") for sidecar in study.sidecars.values())
+    titles = (about.get("title") for about in abouts if isinstance(about, Mapping))
+    return next((title for title in titles if isinstance(title, str)), f"Study {study.name}")
 
 
 def _sections(context: Context) -> list[Section]:
@@ -90,27 +97,19 @@ def make_published() -> Report:
     return published_report()
 
 
-def check_out(out: Path) -> None:
-    """The report's folder must be new, empty, or an earlier report: nothing else is touched."""
-    if not out.exists():
-        return
-    if not out.is_dir():
-        raise DataError(f"--out = {out}: expected a folder, this is a file")
-    page = out / "report.html"
-    if any(out.iterdir()) and not (page.is_file() and b"seethrough report" in page.read_bytes()):
-        raise DataError(f"--out = {out}: not empty and no earlier report: expected a new folder")
-
-
-def write(out: Path, make: Callable[[], Report], formats: Sequence[str]) -> Path:
-    """Make the report and write it into `out`; returns the page's path.
+def write(
+    out: Path, make: Callable[[], Report], formats: Sequence[str], replace: bool = False
+) -> Path:
+    """Make the report and write it into `out`; returns the page's path. Raises DataError.
 
     report.html, report.md, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if asked for.
     """
     from analysis.page.charts import library, write_files  # V8 starts only where charts are drawn
 
-    check_out(out)
+    old = folder.earlier(out, replace)
     browser = find_browser() if "pdf" in formats else ""
     report = make()
+    folder.clear(old)
     pictures = {f.key: write_files(f, out / "figures") for f in figures_of(report.sections)}
     (out / "tables").mkdir(parents=True, exist_ok=True)
     for table in _tables(report):

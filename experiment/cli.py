@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import importlib
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
+from experiment import streams
 from experiment.errors import InputError, one_line
+
+SAVING = {"run", "simulate", "demo"}  # commands that play sessions
+FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
 
 COMMANDS = {
     "run": "run a participant's session in a window",
@@ -52,22 +57,54 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command; returns the exit status: 0 done, 2 bad input, 130 interrupted."""
+    """Run a command; returns the exit status: 0 done, 2 bad input, 130 interrupted, 141 where
+    nobody reads the output any more."""
+    streams.fill()
     words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        status = _run(words)
+        sys.stdout.flush()
+        return status
+    except SystemExit:  # --help, or arguments that are wrong
+        _let_go()
+        raise
+    except KeyboardInterrupt:
+        kept = "; every completed trial is saved" if {*words} & SAVING else ""
+        return _failed([f"interrupted{kept}"], 130)
+    except OSError as error:
+        if streams.reader_is_gone():
+            streams.leave_quietly()
+            return streams.READER_GONE
+        if error.errno in FULL:
+            return _failed([f"output: {error.strerror}"], 2)
+        raise
+
+
+def _run(words: Sequence[str]) -> int:
     arguments = _parser(words).parse_args(words)
     try:
         return int(arguments.run(arguments) or 0)
     except InputError as error:
-        print(f"seethrough: {one_line(str(error))}", file=sys.stderr)
-        return 2
+        return _failed(error.lines, 2)
     except OSError as error:
         if error.filename is None:
             raise
-        print(f"seethrough: {one_line(f'{error.filename}: {error.strerror}')}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("seethrough: interrupted; every completed trial is saved", file=sys.stderr)
-        return 130
+        return _failed([f"{error.filename}: {error.strerror}"], 2)
+
+
+def _let_go() -> None:
+    """Write what still waits, or nothing where nobody reads it."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        streams.leave_quietly()
+
+
+def _failed(lines: Sequence[str], status: int) -> int:
+    """Say why, a line each."""
+    for line in lines:
+        print(f"seethrough: {one_line(line)}", file=sys.stderr)
+    return status
 
 
 if __name__ == "__main__":

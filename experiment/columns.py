@@ -54,7 +54,12 @@ TRIALS = (
     Column("targets", "integer", "number of targets in the scene"),
     Column("answer", "text", "the participant's answer, as given"),
     Column("truth", "text", "the right answer"),
-    Column("correct", "boolean", "whether the answer is right"),
+    Column(
+        "correct",
+        "boolean",
+        "whether the answer is right: T1, T4 the number exactly, T2 the letter, T3 the mark in the "
+        "same room as the thing, however far off it is there",
+    ),
     Column("count_error", "integer", "answer − truth, for the counting tasks", "objects"),
     Column("distance", "number", "from the mark to the target's place, for T3", "world units"),
     Column("time", "number", "first frame shown to the answer's confirmation", "s"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -38,6 +40,17 @@ def open_context() -> Any:
         return standalone()
     except RuntimeError as error:
         raise InputError(str(error)) from None
+
+
+def no_window(error: Exception) -> InputError:
+    """What to say, and to do, where no window can be opened."""
+    said = " ".join(str(error).split())
+    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+        said = "DISPLAY is not set"
+    return InputError(
+        f"display: no window can be opened ({said}); expected to be started from a terminal on a "
+        "desktop; without one, `seethrough simulate` plays a study, `seethrough render` draws"
+    )
 
 
 def window_context() -> Any:

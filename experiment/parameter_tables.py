@@ -1,68 +1,106 @@
 """Tables of a config that are parameters of a scene or a technique: frozen dataclasses that check
-themselves. Here their keys and types are checked first, so that every message names its key."""
+themselves. Here their keys and types are checked first, and all that is wrong is found at once."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from pydantic import BeforeValidator, TypeAdapter, ValidationError
+from pydantic_core import PydanticCustomError
+
+from renderer.declared import Key, allowed, declared, problems
+
+
+class Fault(NamedTuple):
+    """What is wrong with a key: its value, and what was expected; `known` keys for an unknown one,
+    MISSING for a value that there is not."""
+
+    key: str
+    value: Any
+    expected: str = ""
+    known: tuple[str, ...] = ()
+
+
+MISSING = object()
+
+
+class Faults(ValueError):
+    """All that is wrong with a table."""
+
+    def __init__(self, found: list[Fault]) -> None:
+        self.found = found
+        super().__init__(f"{len(found)} faults")
 
 
 def from_table(cls: type) -> BeforeValidator:
-    """A validator that makes a `cls` of a table. Its ValueErrors read "key = value: expected …"."""
+    """A validator that makes a `cls` of a table. Its errors have `found`, the table's Faults."""
 
     def build(table: Any) -> Any:
-        # pydantic says of anything else that it is not a table
-        return _built(cls, table) if isinstance(table, Mapping) else table
+        if not isinstance(table, Mapping):
+            return table  # pydantic says of anything else that it is not a table
+        try:
+            return _built(cls, table)
+        except Faults as faults:
+            raise faulty(faults.found) from None
 
     return BeforeValidator(build)
 
 
-def _built(cls: type, table: Mapping[str, Any]) -> Any:
-    types, fields = get_type_hints(cls), dataclasses.fields(cls)
-    names = [f.name for f in fields]
-    values = {}
+def faulty(found: list[Fault]) -> PydanticCustomError:
+    """The error by which pydantic passes on what is wrong with a table."""
+    return PydanticCustomError("faults", "several faults", {"found": found})
+
+
+def _built(cls: Any, table: Mapping[str, Any]) -> Any:
+    types, keys = get_type_hints(cls), declared(cls)
+    values = {f.name: f.default for f in dataclasses.fields(cls)}
+    found: list[Fault] = []
     for name, value in table.items():
-        if name not in names:
-            raise ValueError(
-                f"{name:.60} = {_short(value)}: unknown key; known: {', '.join(names)}"
-            )
-        values[name] = _checked(name, value, types[name])
-    for f in fields:
-        if f.name not in values and f.default is f.default_factory is dataclasses.MISSING:
-            raise ValueError(f"{f.name} = missing: expected a value")
+        if name not in keys:
+            found.append(Fault(name, value, known=tuple(keys)))
+            continue
+        try:
+            values[name] = _checked(name, value, types[name], keys[name])
+        except Faults as faults:
+            found += faults.found
+    wrong = {fault.key.partition("[")[0] for fault in found}
+    absent = [n for n in keys if n not in table and values[n] is dataclasses.MISSING]
+    found += [Fault(name, MISSING, allowed(types[name], keys[name])) for name in absent]
+    found += [Fault(*problem) for problem in problems(cls, values, {*wrong, *absent})]
+    if found:
+        raise Faults(found)
     try:
         return cls(**values)
-    except ValueError as error:
-        # Techniques put their own name first; the table's name stands there already.
-        raise ValueError(str(error).rpartition(": ")[2]) from None
+    except ValueError as error:  # of several keys together: "key = value, expected …"
+        key, _, rest = str(error).rpartition(": ")[2].partition(" = ")
+        raise Faults([Fault(key, values[key], rest.partition(", expected ")[2])]) from None
 
 
-def _checked(name: str, value: Any, hint: Any) -> Any:
+def _checked(name: str, value: Any, hint: Any, said: Key) -> Any:
     plain = tuple(value) if isinstance(value, list) else value
     inner = get_args(hint)[0] if get_origin(hint) is tuple else None
     if isinstance(plain, tuple) and dataclasses.is_dataclass(inner):
-        return tuple(_item(f"{name}[{i}]", item, inner) for i, item in enumerate(plain))
+        return _items(name, plain, inner)
     try:
         return TypeAdapter(hint, config={"strict": True}).validate_python(plain)
-    except ValidationError as error:
-        reason = error.errors(include_url=False)[0]["msg"].removeprefix("Input should be ")
-        reason = reason.replace("Tuple should have", "an array of").replace(" after validation", "")
-        raise ValueError(f"{name} = {_short(value)}: expected {reason}") from None
+    except ValidationError:
+        raise Faults([Fault(name, value, allowed(hint, said))]) from None
 
 
-def _item(name: str, value: Any, cls: Any) -> Any:
-    """An entry of an array of tables."""
-    if not isinstance(value, Mapping):
-        raise ValueError(f"{name} = {_short(value)}: expected a table")
-    try:
-        return _built(cls, value)
-    except ValueError as error:
-        raise ValueError(f"{name}.{error}") from None
-
-
-def _short(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "…"
+def _items(name: str, items: tuple[Any, ...], cls: Any) -> tuple[Any, ...]:
+    """The entries of an array of tables."""
+    made, found = [], []
+    for number, item in enumerate(items):
+        where = f"{name}[{number}]"
+        if not isinstance(item, Mapping):
+            found.append(Fault(where, item, "a table"))
+            continue
+        try:
+            made.append(_built(cls, item))
+        except Faults as faults:
+            found += [fault._replace(key=f"{where}.{fault.key}") for fault in faults.found]
+    if found:
+        raise Faults(found)
+    return tuple(made)

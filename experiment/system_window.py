@@ -18,9 +18,9 @@ import pyglet
 pyglet.options.shadow_window = False
 import pyglet.window
 
-from experiment.config import DisplayTable
-from experiment.errors import InputError
+from experiment.driver import no_window
 from experiment.event_time import EventTime, x11_stamp
+from experiment.study_tables import DisplayTable
 
 ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
 ASKED, PROMPT = 5, 0.02  # how often the server is asked the time until it says so within so many s
@@ -99,7 +99,7 @@ def open_window(table: DisplayTable, title: str) -> SystemWindow:
             resizable=not table.fullscreen, config=config,
         )  # fmt: skip
     except Exception as error:  # pyglet raises a different class on each platform
-        raise InputError(f"display: no window can be opened: {error}") from error
+        raise no_window(error) from error
 
 
 _kept_handlers: list[Any] = []  # Xlib does not keep them

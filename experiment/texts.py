@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 from importlib import resources
 from typing import Any
 
-from experiment.errors import InputError
+from experiment.errors import InputError, short, shown, unknown
+from experiment.study_tables import languages
 
 
 class Texts:
@@ -16,12 +17,13 @@ class Texts:
     def __init__(self, language: str, replaced: Mapping[str, str] | None = None) -> None:
         file = resources.files("experiment").joinpath("languages", f"{language}.toml")
         if not file.is_file():
-            raise InputError(f"study.language = {language:.60}: no such language file")
+            raise InputError(
+                f"study.language = {shown(language)}: expected one of {', '.join(languages())}"
+            )
         self._texts = _flat(tomllib.loads(file.read_text(encoding="utf-8")))
         for key, text in (replaced or {}).items():
             if key not in self._texts:
-                known = f"{', '.join(list(self._texts)[:40])}, …"
-                raise InputError(f"texts.{key:.60}: unknown text; known: {known}")
+                raise InputError(f"texts.{short(key)}: {self.unknown(key)}")
             self._texts[key] = text
 
     def __getitem__(self, key: str) -> str:
@@ -44,6 +46,15 @@ class Texts:
         """A measured number as people write it: from ten on without a fraction."""
         digits = 1 if round(abs(value), 1) < 10 else 0
         return f"{value:.{digits}f}".replace(".", self["decimal"])
+
+    def unknown(self, key: str) -> str:
+        """What to say of a text that there is not: those of its table, or the tables."""
+        table = key.partition(".")[0]
+        known = [k for k in self._texts if k.partition(".")[0] == table]
+        tables = dict.fromkeys(k.partition(".")[0] for k in self._texts)
+        return unknown(
+            key, known or (f"{t}.…" if t not in self._texts else t for t in tables), "text"
+        )
 
     def keys(self) -> frozenset[str]:
         """Every key there is."""

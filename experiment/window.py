@@ -17,7 +17,6 @@ pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
 from experiment.clock import Clock
-from experiment.config import DisplayTable
 from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for, window_context
 from experiment.event_time import EventTime
@@ -26,6 +25,7 @@ from experiment.key_names import KEY_NAMES
 from experiment.pages import Answers, Page
 from experiment.refresh import rate_of
 from experiment.stage import Stage
+from experiment.study_tables import DisplayTable
 from experiment.system_window import ON_X11, open_window, say_when_the_server_goes
 from experiment.texts import Texts
 from experiment.trial import LEAVE, MEANT

@@ -8,21 +8,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
+from renderer.declared import Of, check, key
+
 SHAPES = ("sphere", "cone", "box", "torus")
 PALETTES = ("published", "colour-blind-safe")
 METRES = 0.5  # in a world unit of the building; the abstract world has no size of its own
 
 
-def _between(name: str, value: float, low: float, high: float) -> None:
-    if not low <= value <= high:
-        raise ValueError(f"{name} = {value}, expected a number from {low:g} to {high:g}")
-
-
-def _range(name: str, value: tuple[float, float], low: float, high: float) -> None:
-    if len(value) != 2 or not low <= value[0] <= value[1] <= high:
-        raise ValueError(
-            f"{name} = {list(value)}, expected [lowest, highest] from {low:g} to {high:g}"
-        )
+_UNDER_THE_CEILING = Of("99 % of `wall_height`", lambda p: 0.99 * p["wall_height"])
 
 
 @dataclass(frozen=True)
@@ -33,31 +26,32 @@ class AbstractParameters:
     for the height of the view and the speed of the arrow keys.
     """
 
-    side: float = 100.0
-    objects: int = 200
-    target_share: tuple[float, float] = (0.10, 0.20)
-    radius: tuple[float, float] = (2.5, 5.0)
-    shapes: tuple[str, ...] = SHAPES
-    palette: str = "published"
-    fov_y: float = pi / 3
-    start_pitch: float = 0.35
-    drag_gain: float = pi
-    key_rate: float = 1.0
+    side: float = key(100.0, "edge of the cube that things are in", "world units", low=1, high=1e4)
+    objects: int = key(200, "things in the world, targets included", low=1, high=5000)
+    target_share: tuple[float, float] = key(
+        (0.10, 0.20), "share of the things that are targets (red), drawn from this range for each "
+        "scene", low=0, high=1,
+    )  # fmt: skip
+    radius: tuple[float, float] = key(
+        (2.5, 5.0), "how large things are: radius of the sphere about each", "world units",
+        low=1e-3, high=Of("a quarter of `side`", lambda p: p["side"] / 4),
+    )  # fmt: skip
+    shapes: tuple[str, ...] = key(SHAPES, "what the things are", choices=SHAPES)
+    palette: str = key(
+        "published", "colours of targets and distractors: as published, or such that people who do "
+        "not tell red from green can do the tasks", choices=PALETTES,
+    )  # fmt: skip
+    fov_y: float = key(pi / 3, "angle of view, from bottom to top", "radians", low=0.1, high=2.5)
+    start_pitch: float = key(
+        0.35, "how far from above the first view looks down", "radians", low=-pi / 2, high=pi / 2
+    )
+    drag_gain: float = key(
+        pi, "turn for a drag over the height of the view", "radians", low=0.1, high=20
+    )
+    key_rate: float = key(1.0, "turn while an arrow key is held", "radians/s", low=0.05, high=10)
 
     def __post_init__(self) -> None:
-        _between("side", self.side, 1, 1e4)
-        _between("objects", self.objects, 1, 5000)
-        _range("target_share", self.target_share, 0, 1)
-        _range("radius", self.radius, 1e-3, self.side / 4)
-        unknown = [s for s in self.shapes if s not in SHAPES]
-        if unknown or not self.shapes or len(set(self.shapes)) < len(self.shapes):
-            raise ValueError(f"shapes = {list(self.shapes)}, expected some of {list(SHAPES)}")
-        if self.palette not in PALETTES:
-            raise ValueError(f"palette = {self.palette!r}, expected one of {list(PALETTES)}")
-        _between("fov_y", self.fov_y, 0.1, 2.5)
-        _between("start_pitch", self.start_pitch, -pi / 2, pi / 2)
-        _between("drag_gain", self.drag_gain, 0.1, 20)
-        _between("key_rate", self.key_rate, 0.05, 10)
+        check(self)
         low, high = self.target_share
         if int(high * self.objects) < -int(-low * self.objects // 1):
             raise ValueError(
@@ -74,23 +68,25 @@ class OwnModel:
     `sha256` of the file and the `folder` it is in are found out when the study is read.
     """
 
-    name: str
-    file: str
-    size: float = 1.5
-    up: str = "y"
-    turn: float = 0.0
-    sha256: str = ""
+    name: str = key(..., "what participants read", said="1 to 32 printable characters")
+    file: str = key(..., "its file, beside the study's", said="the name of a file beside the study")
+    size: float = key(1.5, "its longest side", "world units", low=0.01, high=100)
+    up: str = key("y", "the file's upward axis; z in most STL files", choices=("y", "z"))
+    turn: float = key(
+        0.0, "turn to the left, until its front faces away", "degrees", low=-360, high=360
+    )
+    sha256: str = key(
+        "", "its file's SHA-256, found out when the study is read; where it is set, it has to be "
+        "that file's", said="64 hexadecimal digits, or empty",
+    )  # fmt: skip
     folder: str = ""
 
     def __post_init__(self) -> None:
+        check(self)
         if not (self.name.isprintable() and self.name.strip() and len(self.name) <= 32):
             raise ValueError(f"name = {self.name[:40]!r}, expected 1 to 32 printable characters")
         if not self.file.isprintable() or len(self.file) > 200 or not self.file:
             raise ValueError(f"file = {self.file[:40]!r}, expected a file beside the study")
-        if self.up not in ("y", "z"):
-            raise ValueError(f"up = {self.up!r}, expected 'y' or 'z'")
-        _between("size", self.size, 0.01, 100)
-        _between("turn", self.turn, -360, 360)
 
 
 @dataclass(frozen=True)
@@ -103,42 +99,58 @@ class BuildingParameters:
     use (none: all there are), `models` those that the study brings along.
     """
 
-    grid: int = 16
-    cell: float = 5.0
-    room: int = 3
-    wall_height: float = 5.0
-    wall_thickness: float = 0.3
-    door_width: float = 2.4
-    door_height: float = 4.2
-    objects: int = 50
-    object_scale: float = 2.0
-    object_radius: tuple[float, float] = (1.0, 2.2)
-    count: tuple[int, int] = (4, 12)
-    types: tuple[str, ...] = ()
-    models: tuple[OwnModel, ...] = ()
-    eye_height: float = 3.2
-    fov_y: float = pi / 3
-    speed: float = 6.0
-    turn_gain: float = pi
-    key_turn_rate: float = 1.5
+    grid: int = key(16, "cells along each outer wall", low=2, high=64)
+    cell: float = key(5.0, "edge of a cell of the floor", "world units", low=1, high=100)
+    room: int = key(
+        3, "rooms are at least so wide, in both directions", "cells",
+        low=1, high=Of("`grid`", lambda p: p["grid"]),
+    )  # fmt: skip
+    wall_height: float = key(5.0, "height of the walls", "world units", low=0.5, high=100)
+    wall_thickness: float = key(
+        0.3, "thickness of the walls", "world units",
+        low=0.01, high=Of("an eighth of `cell`", lambda p: p["cell"] / 8),
+    )  # fmt: skip
+    door_width: float = key(
+        2.4, "width of the doorways", "world units", low=0.1,
+        high=Of("`cell` − 4 × `wall_thickness`", lambda p: p["cell"] - 4 * p["wall_thickness"]),
+    )  # fmt: skip
+    door_height: float = key(
+        4.2, "height of the doorways", "world units", low=0.1, high=_UNDER_THE_CEILING
+    )
+    objects: int = key(50, "things in the building", low=1, high=1000)
+    object_scale: float = key(
+        2.0, "what models are scaled by, within `object_radius`", low=0.01, high=100
+    )
+    object_radius: tuple[float, float] = key(
+        (1.0, 2.2), "how small and how large a thing may become: radius of the sphere about it",
+        "world units", low=0.01, high=Of("`cell`", lambda p: p["cell"]),
+    )  # fmt: skip
+    count: tuple[int, int] = key(
+        (4, 12), "how many things of the asked kind there are in the counting task, drawn from "
+        "this range", low=1, high=Of("`objects`", lambda p: p["objects"]),
+    )  # fmt: skip
+    types: tuple[str, ...] = key(
+        (), "models that stand in the building; none: all there are",
+        said="an array of three or more names of models, each once",
+    )  # fmt: skip
+    models: tuple[OwnModel, ...] = key(
+        (), "models of the study's own, a table `[[walkthrough.models]]` each"
+    )
+    eye_height: float = key(
+        3.2, "height of the eyes above the floor", "world units", low=0.1, high=_UNDER_THE_CEILING
+    )
+    fov_y: float = key(pi / 3, "angle of view, from bottom to top", "radians", low=0.1, high=2.5)
+    speed: float = key(6.0, "walking speed", "world units/s", low=0.1, high=100)
+    turn_gain: float = key(
+        pi, "turn for a movement of the pointer over the height of the view", "radians",
+        low=0.1, high=20,
+    )  # fmt: skip
+    key_turn_rate: float = key(
+        1.5, "turn while the left or right arrow key is held", "radians/s", low=0.05, high=10
+    )
 
     def __post_init__(self) -> None:
-        _between("grid", self.grid, 2, 64)
-        _between("room", self.room, 1, self.grid)
-        _between("cell", self.cell, 1, 100)
-        _between("wall_thickness", self.wall_thickness, 0.01, self.cell / 8)
-        _between("door_width", self.door_width, 0.1, self.cell - 4 * self.wall_thickness)
-        _between("wall_height", self.wall_height, 0.5, 100)
-        _between("door_height", self.door_height, 0.1, 0.99 * self.wall_height)
-        _between("eye_height", self.eye_height, 0.1, 0.99 * self.wall_height)
-        _between("objects", self.objects, 1, 1000)
-        _between("object_scale", self.object_scale, 0.01, 100)
-        _range("object_radius", self.object_radius, 0.01, self.cell)
-        _range("count", self.count, 1, self.objects)
-        _between("fov_y", self.fov_y, 0.1, 2.5)
-        _between("speed", self.speed, 0.1, 100)
-        _between("turn_gain", self.turn_gain, 0.1, 20)
-        _between("key_turn_rate", self.key_turn_rate, 0.05, 10)
+        check(self)
 
     @property
     def side(self) -> float:

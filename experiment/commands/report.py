@@ -19,6 +19,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--out", type=Path, required=True, help="folder for the report")
     parser.add_argument(
+        "--replace", action="store_true", help="put it in the place of the report that is there"
+    )
+    parser.add_argument(
         "--format",
         action="append",
         choices=("html", "pdf"),
@@ -47,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
         if args.published == (args.data is not None):
             raise DataError("report: expected either DATA or --published")
         make = make_published if args.published else lambda: make_report(args.data, options)
-        page = write(args.out, make, args.format)
+        page = write(args.out, make, args.format, args.replace)
     except DataError as error:
         for line in error.shown():
             print(f"seethrough: {line}", file=sys.stderr)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from renderer import checks
+from renderer.declared import check, key
 
 MASKS = ("outline", "ring", "circle", "ellipse", "oriented-ellipse", "hull")
 MODES = ("passive", "active")
@@ -48,49 +48,58 @@ class DynamicTransparency:
     paper (§V-B). With `exact`, every pixel is sorted by itself: slower, no approximation.
     """
 
-    alpha_target: float = 0.3
-    alpha_edge: float = 0.1
-    width: float = 10.0
-    mask: str = "outline"
-    granularity: str = "pixel"
-    mode: str = "passive"
-    pointer: tuple[float, float] | None = None
-    radius: float = 0.2
-    softness: float = 0.05
-    layers: int | None = None
-    penetrable_within: float | None = None
-    combine: str = "product"
-    min_transmittance: float = 0.0
-    model: str = "multiplicative"
-    ring_size: int = 128
-    order: str = "planes"
-    doubt: float = 0.05
-    exact: bool = False
+    alpha_target: float = key(
+        0.3, "opacity that an occluder keeps in front of a target", low=0, high=1
+    )
+    alpha_edge: float = key(0.1, "opacity right outside the border of the mask", low=0, high=1)
+    width: float = key(
+        10.0, "over how far opacity rises from the border of the mask back to 1",
+        "pixels of the window", low=0, high=1000,
+    )  # fmt: skip
+    mask: str = key("outline", "shape of the part that has `alpha_target`", choices=MASKS)
+    granularity: str = key("pixel", "what turns transparent as a whole", choices=GRANULARITIES)
+    mode: str = key(
+        "passive", "passive: masks work everywhere; active: only about the pointer", choices=MODES
+    )
+    pointer: tuple[float, float] | None = key(
+        None, "where active masks work before the pointer has moved", "heights of the view",
+        low=-1e6, high=1e6, point=True,
+    )  # fmt: skip
+    radius: float = key(
+        0.2, "how far about the pointer active masks work", "heights of the view", low=0, high=100
+    )
+    softness: float = key(
+        0.05, "over how far beyond `radius` they fade", "heights of the view", low=0, high=100
+    )
+    layers: int | None = key(
+        None, "most layers of occluders that turn transparent at a pixel, from the front",
+        low=0, high=10_000,
+    )  # fmt: skip
+    penetrable_within: float | None = key(
+        None, "what is farther away than this stays opaque", "world units", low=0, high=1e12
+    )
+    combine: str = key(
+        "product", "where masks line up: opacities multiply, or the least counts", choices=COMBINES
+    )
+    min_transmittance: float = key(
+        0.0, "share of the light that many layers in front of a target let through at least",
+        low=0, high=0.99,
+    )  # fmt: skip
+    model: str = key(
+        "multiplicative", "how transparency adds up along a line of sight", choices=MODELS
+    )
+    ring_size: int = key(
+        128, 'cells along each side of the grid that mask "ring" grows on', low=2, high=4096
+    )
+    order: str = key("planes", "how translucent objects are ordered", choices=ORDERS)
+    doubt: float = key(
+        0.05, "share of the picture whose order is in doubt above which it is sorted by pixel, "
+        "else by centres", low=0, high=1,
+    )  # fmt: skip
+    exact: bool = key(False, "sort every pixel by itself: slower, no approximation")
 
     def __post_init__(self) -> None:
-        checks.number(_OWNER, "alpha_target", self.alpha_target, 0, 1)
-        checks.number(_OWNER, "alpha_edge", self.alpha_edge, 0, 1)
-        checks.number(_OWNER, "width", self.width, 0, 1000)
-        checks.choice(_OWNER, "mask", self.mask, MASKS)
-        checks.choice(_OWNER, "granularity", self.granularity, GRANULARITIES)
-        checks.choice(_OWNER, "mode", self.mode, MODES)
-        checks.number(_OWNER, "radius", self.radius, 0, 100)
-        checks.number(_OWNER, "softness", self.softness, 0, 100)
-        if self.pointer is not None:
-            if not isinstance(self.pointer, tuple) or len(self.pointer) != 2:
-                raise ValueError(f"{_OWNER}: pointer = {self.pointer!r}, expected two numbers")
-            for name, value in zip(("pointer x", "pointer y"), self.pointer, strict=True):
-                checks.number(_OWNER, name, value, -1e6, 1e6)
-        if self.layers is not None:
-            checks.whole(_OWNER, "layers", self.layers, 0, 10_000)
-        if self.penetrable_within is not None:
-            checks.number(_OWNER, "penetrable_within", self.penetrable_within, 0, 1e12)
-        checks.choice(_OWNER, "combine", self.combine, COMBINES)
-        checks.number(_OWNER, "min_transmittance", self.min_transmittance, 0, 0.99)
-        checks.choice(_OWNER, "model", self.model, MODELS)
-        checks.whole(_OWNER, "ring_size", self.ring_size, 2, 4096)
-        checks.choice(_OWNER, "order", self.order, ORDERS)
-        checks.number(_OWNER, "doubt", self.doubt, 0, 1)
+        check(self, _OWNER)
 
     @property
     def per_pixel_only(self) -> bool:

@@ -11,7 +11,7 @@ import pytest
 from analysis import exclude, plan
 from analysis.load import schema
 from analysis.load.chain import link, seal_of, start_of
-from experiment import chain, config
+from experiment import chain, study_tables
 from experiment.columns import TABLES
 
 
@@ -42,8 +42,8 @@ def test_the_chain_is_the_same_chain(tmp_path: Path) -> None:
 
 def test_a_study_may_plan_what_the_analysis_knows() -> None:
     """The names of [analysis] are checked when a study is read, long before there are data."""
-    assert set(get_args(config.AnalysisTest)) == set(plan.TESTS)
-    assert set(config.EXCLUSIONS) == set(exclude.RULES)
+    assert set(get_args(study_tables.AnalysisTest)) == set(plan.TESTS)
+    assert set(study_tables.EXCLUSIONS) == set(exclude.RULES)
 
 
 def test_the_published_numbers_are_the_same_beside_the_data_and_in_the_package(root: Path) -> None:

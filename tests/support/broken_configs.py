@@ -1,22 +1,24 @@
 """Makes malformed study files: case number → the same file on every machine.
 
-What a case breaks is known, so that the program has to refuse it; only the cases called "bytes"
-may by chance leave a valid study.
+What a case breaks is known, so that the program has to refuse it; only the cases called "bytes" may
+by chance leave a valid study, and some that are called "as saved" have to.
 """
 
 from __future__ import annotations
 
+import codecs
 import copy
 import datetime
 import json
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from experiment.config import find
+from experiment.keys import TABLES, keys_of
 
 Table = dict[str, Any]
 BASE = tomllib.loads(find("published").read_text("utf-8"))
@@ -38,12 +40,14 @@ OTHERS: dict[type, tuple[Any, ...]] = {
 
 @dataclass(frozen=True)
 class Case:
-    """A study file's bytes, what was done to them, and whether it must be refused."""
+    """A study file's bytes, what was done to them, and whether it must be refused; `faults` are the
+    keys that have to be named, each in a line."""
 
     kind: str
     what: str
     data: bytes
     must_fail: bool = True
+    faults: tuple[str, ...] = ()
 
 
 def case(number: int) -> Case:
@@ -189,9 +193,65 @@ def _bytes(kind: str, rng: np.random.Generator) -> Case:
     return Case(kind, "bytes", bytes(data), must_fail=not _is_table(bytes(data)))
 
 
+def _several(kind: str, rng: np.random.Generator) -> Case:
+    """Up to six faults in one file, each of another key: all of them have to be told."""
+    study = copy.deepcopy(BASE)
+    faults: dict[str, Any] = {}
+    for _ in range(int(rng.integers(2, 7))):
+        name = _pick(rng, [n for n in study if n != "texts"])
+        key = _pick(rng, list(BASE[name]))
+        if rng.random() < 0.3:
+            key = f"{key}x"
+            study[name][key] = 1
+        else:
+            study[name][key] = _pick(rng, OTHERS[type(BASE[name][key])])
+        faults[f"{name}.{key}"] = study[name][key]
+    if rng.random() < 0.3:
+        study["texts"]["welcome.txt"] = "Hello."
+        faults["texts.welcome.txt"] = "Hello."
+    case = _done(kind, f"{list(faults)}", study)
+    return replace(case, faults=tuple(n for n, v in faults.items() if not _by_item(v)))
+
+
+def _by_item(value: Any) -> bool:
+    """Whether what is wrong is an item of it: the line then names key[0]."""
+    return isinstance(value, list)
+
+
+def _every_key(kind: str, rng: np.random.Generator) -> Case:
+    """Any key that is declared, set or not: a value of a type that it never has."""
+    study = copy.deepcopy(BASE)
+    table = _pick(rng, [t for t in TABLES if "." not in t])
+    key = _pick(rng, list(keys_of(table)))
+    wrong = _pick(rng, [datetime.date(2026, 1, 2), {"x": 1}, [[1]], [{}], [None, 1, 2]])
+    study.setdefault(table, {})[key] = wrong
+    return _done(kind, f"{table}.{key} = {wrong!r}", study)
+
+
+def _as_saved(kind: str, rng: np.random.Generator) -> Case:
+    """As editors save a study: valid with a mark or other line ends, refused in UTF-16 and 32."""
+    how = _pick(rng, ["mark", "CRLF", "both", "utf-16", "utf-16-le", "utf-16-be", "utf-32"])
+    text = toml(BASE)
+    if how in ("mark", "CRLF", "both"):
+        data = text.replace("\n", "\r\n" if how != "mark" else "\n").encode()
+        return Case(kind, how, codecs.BOM_UTF8 * (how != "CRLF") + data, must_fail=False)
+    return Case(kind, how, text.encode(how))
+
+
+def _twice(kind: str, rng: np.random.Generator) -> Case:
+    """A key or a table that stands there twice."""
+    lines = toml(BASE).splitlines()
+    keys = [i for i, line in enumerate(lines) if " = " in line]
+    at = int(_pick(rng, keys))
+    if rng.random() < 0.3:
+        name = _pick(rng, list(BASE))
+        return Case(kind, name, "\n".join([*lines, f'["{name}"]']).encode())
+    return Case(kind, lines[at], "\n".join([*lines[: at + 1], *lines[at:]]).encode())
+
+
 def _is_table(data: bytes) -> bool:
     try:
-        tomllib.loads(data.decode("utf-8"))
+        tomllib.loads(data.decode("utf-8-sig"))
     except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError):
         return False
     return True
@@ -208,6 +268,10 @@ KINDS: dict[str, Callable[[str, np.random.Generator], Case]] = {
     "no TOML": _no_toml,
     "not UTF-8": _not_utf8,
     "bytes": _bytes,
+    "several": _several,
+    "every key": _every_key,
+    "as saved": _as_saved,
+    "twice": _twice,
 }
 
 

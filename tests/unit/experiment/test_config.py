@@ -7,6 +7,7 @@ import pytest
 
 from experiment.config import find, load, parse, shipped
 from experiment.errors import InputError
+from experiment.keys import TABLES, keys_of
 
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 
@@ -36,29 +37,64 @@ def test_the_published_study_is_the_published_study():
 
 # Each row: table, key, value, and the message after "study.toml: ".
 WRONG = [
-    ("abstract", "objcts", 200, r"abstract\.objcts = 200: unknown key; known: side, objects"),
-    ("abstract", "objects", "many", r"abstract\.objects = 'many': expected a valid integer"),
-    ("abstract", "objects", 0, r"abstract\.objects = 0: expected a number from 1 to 5000"),
-    ("abstract", "side", float("nan"), r"abstract\.side = nan: expected a number from 1 to"),
-    ("abstract", "shapes", ["cow"], r"abstract\.shapes = \['cow'\]: expected some of \['sphere'"),
-    ("abstract", "radius", ["a", 3], r"abstract\.radius = \['a', 3\]: expected a valid number"),
-    ("walkthrough", "grid", True, r"walkthrough\.grid = True: expected a valid integer"),
+    (
+        "abstract",
+        "objcts",
+        200,
+        r"abstract\.objcts = 200: unknown key, did you mean objects\? known: side, objects, target",
+    ),
+    (
+        "abstract",
+        "objects",
+        "many",
+        r"abstract\.objects = \"many\": expected a whole number from 1 to 5000$",
+    ),
+    ("abstract", "objects", 0, r"abstract\.objects = 0: expected a whole number from 1 to 5000$"),
+    ("abstract", "side", float("nan"), r"abstract\.side = nan: expected a number from 1 to 10000$"),
+    (
+        "abstract",
+        "shapes",
+        ["cow"],
+        r"abstract\.shapes = \[\"cow\"\]: expected an array of some of \"sphere\", ",
+    ),
+    (
+        "abstract",
+        "radius",
+        ["a", 3],
+        r"abstract\.radius = \[\"a\", 3\]: expected \[lowest, highest\], numbers from",
+    ),
+    (
+        "walkthrough",
+        "grid",
+        True,
+        r"walkthrough\.grid = true: expected a whole number from 2 to 64$",
+    ),
     ("dynamic", "alpha_target", 3, r"dynamic\.alpha_target = 3\.0: expected a number from 0 to 1"),
-    ("design", "trials", 0, r"design\.trials = 0: expected greater than or equal to 1"),
-    ("design", "tasks", [], r"design\.tasks = \[\]: expected at least 1 item"),
-    ("design", "tasks", ["juggle"], r"design\.tasks\[0\] = \"juggle\": expected 'count', 'patt"),
+    ("design", "trials", 0, r"design\.trials = 0: expected a whole number from 1 to 100$"),
+    (
+        "design",
+        "tasks",
+        [],
+        r"design\.tasks = \[\]: expected an array of some of .*, each once, at least 1$",
+    ),
+    ("design", "tasks", ["juggle"], r"design\.tasks\[0\] = \"juggle\": expected \"count\", \"patt"),
     ("design", "tasks", ["count", "count"], r"design\.tasks = .*: expected each name once"),
-    ("study", "name", "a b", r"study\.name = \"a b\": expected text that matches"),
-    ("study", "seed", -1, r"study\.seed = -1: expected greater than or equal to 0"),
-    ("display", "samples", 3, r"display\.samples = 3: expected 'auto', 0, 2, 4 or 8"),
-    ("session", "trial_limit", -3, r"session\.trial_limit = -3: expected greater than"),
-    ("analysis", "alpha", 1.5, r"analysis\.alpha = 1\.5: expected less than 1"),
-    ("analysis", "tests", ["time", "x"], r"analysis\.tests\[1\] = \"x\": expected 'time', 'acc"),
+    ("study", "name", "a b", r"study\.name = \"a b\": expected 1 to 32 letters and digits "),
+    ("study", "seed", -1, r"study\.seed = -1: expected a whole number from 0 to 2\^63"),
+    ("display", "samples", 3, r"display\.samples = 3: expected one of \"auto\", 0, 2, 4, 8$"),
+    ("session", "trial_limit", -3, r"session\.trial_limit = -3: expected a number from 0$"),
+    (
+        "analysis",
+        "alpha",
+        1.5,
+        r"analysis\.alpha = 1\.5: expected a number from 0 to 1, above 0 and below 1$",
+    ),
+    ("analysis", "tests", ["time", "x"], r"analysis\.tests\[1\] = \"x\": expected \"time\", \"acc"),
     ("analysis", "tests", ["time", "time"], r"analysis\.tests = .*: expected each name once"),
     ("analysis", "exclude", ["x"], r"analysis\.exclude\[0\] = \"x\": expected one of timed_out, "),
     ("analysis", "exclude", ["participant:.."], r"analysis\.exclude\[0\] = .* or participant:ID"),
     ("techniques", "x", 1, r"techniques = \{\"x\": 1\}: unknown key"),
-    ("texts", "welcome", 3, r"texts\.welcome = 3: expected a valid string"),
+    ("texts", "welcome.text", 3, r"texts\.welcome\.text = 3: expected text$"),
 ]
 
 
@@ -72,8 +108,99 @@ def test_wrong_values_are_named_with_file_key_and_expectation(table, key, value,
 def test_missing_table_is_named():
     study = copy.deepcopy(PUBLISHED)
     del study["study"]
-    with pytest.raises(InputError, match=r"study\.toml: study: missing, expected a value"):
+    with pytest.raises(
+        InputError, match=r"study\.toml: study: missing, expected a table, \[study\]$"
+    ):
         parse(study, "study.toml")
+
+
+def test_every_fault_of_a_file_has_its_line():
+    study = changed("abstract", "objcts", 200)
+    study["abstract"] |= {"side": -1.0, "shapes": ["cow"], "radius": [3.0, 2.0]}
+    study["study"] |= {"seed": "x", "language": "fr"}
+    study["texts"] = {"welcome.txt": "Hello."}
+    study["walkthrough"]["models"] = [{"name": "a", "up": "x", "colour": 1}, 3]
+    with pytest.raises(InputError) as caught:
+        parse(study, "s.toml")
+    assert [
+        line.partition(": expected")[0].partition(", did")[0] for line in caught.value.lines
+    ] == [
+        's.toml: study.seed = "x"',
+        's.toml: study.language = "fr"',
+        "s.toml: abstract.objcts = 200: unknown key",
+        "s.toml: abstract.side = -1.0",
+        's.toml: abstract.shapes = ["cow"]',
+        "s.toml: walkthrough.models[0].colour = 1: unknown key; known: name, file, "
+        "size, up, turn, sha256",
+        "s.toml: walkthrough.models[0].file: missing, expected the name of a file beside the study",
+        's.toml: walkthrough.models[0].up = "x"',
+        "s.toml: walkthrough.models[1] = 3",
+        "s.toml: texts.welcome.txt: unknown text",
+    ]
+    assert "one of de, en" in caught.value.lines[1]  # which languages there are
+    assert "did you mean welcome.text?" in caught.value.lines[-1]
+
+
+def test_an_unknown_key_of_every_table_lists_its_known_ones():
+    for table in (t for t in TABLES if "." not in t):
+        known = list(keys_of(table))
+        with pytest.raises(InputError) as caught:
+            parse(changed(table, "qqq", 1), "s.toml")
+        assert str(caught.value) == (
+            f"s.toml: {table}.qqq = 1: unknown key; known: {', '.join(known)}"
+        )
+        near = known[0][:-1] + "_"
+        with pytest.raises(InputError, match=f"did you mean {known[0]}[?]"):
+            parse(changed(table, near, 1), "s.toml")
+    with pytest.raises(InputError, match=r"desing = .*, did you mean design\? known: study"):
+        parse(changed("desing", "trials", 3), "s.toml")
+
+
+def test_of_very_many_faults_the_first_are_told_at_once():
+    study = copy.deepcopy(PUBLISHED)
+    study["design"] |= {f"key{number}": number for number in range(50_000)}
+    with pytest.raises(InputError) as caught:
+        parse(study, "s.toml")
+    assert len(caught.value.lines) == 41 and caught.value.lines[-1] == "… and 49960 more"
+
+
+def test_a_file_is_read_as_editors_save_it(tmp_path):
+    text = find("demo").read_text(encoding="utf-8")
+    path = tmp_path / "study.toml"
+    right = load("demo").digest()
+    for saved in (text.encode("utf-8-sig"), text.replace("\n", "\r\n").encode("utf-8-sig")):
+        path.write_bytes(saved)
+        assert load(str(path)).digest() == right
+    for encoding in ("utf-16", "utf-16-le", "utf-16-be"):
+        path.write_bytes(text.encode(encoding))
+        with pytest.raises(InputError) as caught:
+            load(str(path))
+        assert str(caught.value) == f"{path}: is UTF-16, not UTF-8; expected to be saved as UTF-8"
+    path.write_text(text.replace("seed = 7", "seed = 7\nseed = 8"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"a key that stands there already .*line 9.*: seed = 8$"):
+        load(str(path))
+
+
+@pytest.mark.parametrize(
+    ("ledger", "valid"),
+    [
+        ("", True),
+        ("postgresql://host/base", True),
+        ("postgresql://user@host/base", True),
+        ("postgresql://user:secret@host/base", False),
+        ("postgresql://", False),
+        ("postgresql://a@b@host", False),
+        ("mysql://host", False),
+        ("x postgresql://host", False),
+    ],
+)
+def test_the_ledgers_address_holds_no_password(ledger, valid):
+    """As the expression ^(postgresql://([^:@/]+@)?[^@]+)?$ has it, which no message shows."""
+    if valid:
+        assert parse(changed("session", "ledger", ledger), "s").session.ledger == ledger
+    else:
+        with pytest.raises(InputError, match=r"expected postgresql://USER@HOST/DATABASE without"):
+            parse(changed("session", "ledger", ledger), "s")
 
 
 def test_a_file_that_is_not_toml_or_not_there_is_one_line(tmp_path):

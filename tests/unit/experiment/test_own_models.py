@@ -1,5 +1,6 @@
 """Models that a study brings along: read, named, hashed, kept with the data, found there again."""
 
+import re
 import shutil
 
 import numpy as np
@@ -137,10 +138,14 @@ def test_a_file_that_is_no_model_is_named_with_its_key(tmp_path, model, reason, 
         ("wedge.obj", "wedge.txt", r"file = 'models/wedge\.txt': expected a model file, one of"),
         ("wedge.obj", "no.obj", r"file = 'models/no\.obj': expected a model file, there is none"),
         ('"wedge of wood"\nfile', '"cat"\nfile', r"name = \"cat\": expected a name that no other"),
-        ('"wedge of wood"\nfile', '""\nfile', r"name = '', expected 1 to 32|name = '': expected 1"),
-        ('file = "models/wedge.obj"', "", r"models\[0\]\.file = missing: expected a value"),
+        ('"wedge of wood"\nfile', '""\nfile', r"name = \"\": expected 1 to 32 printable"),
+        (
+            'file = "models/wedge.obj"',
+            "",
+            r"models\[0\]\.file: missing, expected the name of a file",
+        ),
         ("size = 2.0", "size = 0.0", r"models\[0\]\.size = 0\.0: expected a number from 0\.01"),
-        ("size = 2.0", 'up = "x"', r"models\[0\]\.up = 'x': expected 'y' or 'z'"),
+        ("size = 2.0", 'up = "x"', r"models\[0\]\.up = \"x\": expected one of \"y\", \"z\""),
         ("size = 2.0", 'sha256 = "00"', r"is another file now than the study began with"),
         ("size = 2.0", "colour = 3", r"models\[0\]\.colour = 3: unknown key; known: name, file"),
         ('["wedge of wood", "cat"', '["wedge", "cat"', r"types = \[\"wedge\"\]: expected three or"),
@@ -149,8 +154,9 @@ def test_a_file_that_is_no_model_is_named_with_its_key(tmp_path, model, reason, 
 def test_what_is_wrong_with_the_entry_is_named(tmp_path, old, new, message):
     assert old in STUDY
     path = written(tmp_path, study=STUDY.replace(old, new))
-    with pytest.raises(InputError, match=rf"^[^\n]*own\.toml: walkthrough\.[^\n]*{message}[^\n]*$"):
+    with pytest.raises(InputError) as caught:
         load(str(path))
+    assert re.search(rf"^\S*own\.toml: walkthrough\..*{message}", caught.value.lines[0])
 
 
 def test_check_lists_the_models(tmp_path, capsys):

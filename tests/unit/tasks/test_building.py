@@ -158,12 +158,15 @@ def test_a_wall_is_one_closed_surface_with_a_doorway():
 @pytest.mark.parametrize(
     "changes, message",
     [
-        ({"grid": 1}, r"grid = 1, expected a number from 2 to 64"),
-        ({"room": 17}, r"room = 17, expected a number from 1 to 16"),
+        ({"grid": 1}, r"grid = 1, expected a whole number from 2 to 64"),
+        ({"room": 17}, r"room = 17, expected a whole number from 1 to `grid` \(16\)"),
         ({"door_width": 4.0}, r"door_width = 4.0, expected"),
         ({"door_height": 5.0}, r"door_height = 5.0, expected"),
         ({"eye_height": 5.0}, r"eye_height = 5.0, expected"),
-        ({"count": (9, 3)}, r"count = \[9, 3\], expected \[lowest, highest\] from 1 to 50"),
+        (
+            {"count": (9, 3)},
+            r"count = \[9, 3\], expected \[lowest, highest\], whole .* to `objects` \(50\)",
+        ),
         ({"object_radius": (2.2, 1.0)}, r"object_radius = \[2.2, 1.0\], expected"),
         ({"speed": 0}, r"speed = 0, expected"),
     ],

@@ -1,0 +1,97 @@
+"""The reference of a study file's keys is what the code declares, all of it."""
+
+import dataclasses
+import re
+import tomllib
+
+import pytest
+
+from experiment.config import Study, find, parse
+from experiment.errors import InputError
+from experiment.keys import REFERENCE, REQUIRED, TABLES, keys_of, reference
+from renderer.declared import Of, declared
+from renderer.techniques.dynamic import DynamicTransparency
+from tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
+
+FOUND_OUT = {"folder"}  # of a model, when the study is read
+PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
+
+
+def test_the_page_is_what_the_code_declares():
+    """`python -m experiment.keys` makes it anew."""
+    assert REFERENCE.read_text(encoding="utf-8") == reference()
+
+
+def test_every_table_and_key_of_a_study_is_there():
+    assert {t for t in TABLES if "." not in t} == set(Study.model_fields) - {"texts"}
+    for cls in (AbstractParameters, BuildingParameters, OwnModel, DynamicTransparency):
+        fields = {f.name for f in dataclasses.fields(cls)}
+        assert fields - set(declared(cls)) == (FOUND_OUT if cls is OwnModel else set())
+    for table, (declares, _) in TABLES.items():
+        fields = getattr(declares, "model_fields", None) or declared(declares)
+        assert list(keys_of(table)) == list(fields)
+    page = reference()
+    for name in ("language", "fullscreen", "mask", "tolerance", "redraw", "stale_after", "layers"):
+        assert f"| `{name}` | " in page
+
+
+def test_every_key_says_what_it_means_and_may_be():
+    for table in TABLES:
+        for key in keys_of(table).values():
+            assert len(key.meaning) > 5 and key.allowed and "|" not in key.meaning, key
+            assert not re.search(r"[\^\\$]|NoneType|<class", key.allowed.replace("2^63", "")), key
+
+
+def test_the_defaults_are_allowed_and_those_of_a_study_that_sets_nothing():
+    required = {
+        n: PUBLISHED["study"][n] for n, k in keys_of("study").items() if k.default is REQUIRED
+    }
+    study = parse({"study": required}, "s")
+    for table in (t for t in TABLES if "." not in t):
+        for key in keys_of(table).values():
+            if key.default is not REQUIRED:
+                assert getattr(getattr(study, table), key.name) == key.default
+
+
+def _limits():
+    for cls, table in ((AbstractParameters, "abstract"), (BuildingParameters, "walkthrough"),
+                       (DynamicTransparency, "dynamic")):  # fmt: skip
+        for name, said in declared(cls).items():
+            if said.low is not None:
+                yield table, cls, name, said
+
+
+@pytest.mark.parametrize(("table", "cls", "name", "said"), list(_limits()))
+def test_what_the_page_says_is_what_is_checked(table, cls, name, said):
+    """A little below the least and above the most that is allowed: refused in the page's words."""
+    values = {f.name: f.default for f in dataclasses.fields(cls)}
+    high = said.high.value(values) if isinstance(said.high, Of) else said.high
+    hint = cls.__annotations__[name]
+    for value in (said.low - 1, high * 1.01 + 1):
+        number = int(value) if "int" in hint else float(value)
+        wrong = [number, number] if "tuple" in hint else number
+        with pytest.raises(InputError, match=rf"^s: {table}\.{name} = ") as caught:
+            parse({**PUBLISHED, table: {name: wrong}}, "s")
+        words = keys_of(table)[name].allowed
+        start = words if not isinstance(said.high, Of) else words.rpartition(" to ")[0]
+        assert f": expected {start}" in str(caught.value)
+
+
+def test_limits_that_follow_from_others_name_them():
+    for cls in (AbstractParameters, BuildingParameters):
+        for said in declared(cls).values():
+            if isinstance(said.high, Of):
+                assert said.high.names and said.high.names <= set(declared(cls))
+                used = set()
+
+                class Seen(dict):
+                    def __getitem__(self, key):
+                        used.add(key)  # noqa: B023
+                        return 1.0
+
+                said.high.value(Seen())
+                assert used == said.high.names
+
+
+def test_language_lists_the_languages():
+    assert keys_of("study")["language"].allowed == "one of de, en"
