@@ -15,13 +15,13 @@ class Form:
     """A page and its answers so far.
 
     `insisted`: somebody tried to go on although something is missing, and is told what.
-    `waiting`: it was answered, and what comes after it is being made.
+    `waiting`: it was answered, and what comes after it is being made; the text that says so.
     """
 
     page: Page
     answers: Answers = field(default_factory=dict)
     insisted: bool = False
-    waiting: bool = False
+    waiting: str = ""
     sought: str = ""  # name of the block to scroll to
     was_complete: bool = False  # when it was drawn last
     fitted: tuple[tuple[int, int], Setting, bool] | None = None  # window; whether it is too long

@@ -140,7 +140,7 @@ class PageDrawing:
         """
         chosen = focused = None
         most = imgui.get_scroll_max_y()
-        pale = not form.complete or form.waiting
+        pale = not form.complete or bool(form.waiting)
         if pale and not measured:
             imgui.push_style_var(imgui.StyleVar_.alpha, 0.6)
         gap, end = 0.03 * unit, imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x
@@ -177,7 +177,7 @@ class PageDrawing:
         missing = form.missing
         if form.waiting:
             dots = "." * (1 + int(imgui.get_time() / DOTS) % 3)
-            text, color = self.texts.get("wait.scene") + dots, COLORS["accent"]
+            text, color = self.texts.get(form.waiting) + dots, COLORS["accent"]
         elif (form.insisted and missing) or (measured and form.page.asks):
             open_ = (("open", str(len(missing))),)
             text, color = self.texts.fill("page.missing", open_), COLORS["wrong"]

@@ -140,6 +140,11 @@ class Page:
         """Whether something on it has to be worked out before it can be drawn."""
         return any(isinstance(b, Picture | PlatePicture) for b in self.blocks)
 
+    @property
+    def shows_scenes(self) -> bool:
+        """Whether a scene is among it."""
+        return any(isinstance(b, Picture) for b in self.blocks)
+
     def prepare(self) -> None:
         """Work it out: no graphics, so another thread may."""
         for block in self.blocks:

@@ -84,14 +84,14 @@ class Stage:
         """Whether a page was drawn last."""
         return isinstance(self.last, Form)
 
-    def draw_waiting(self, target: moderngl.Framebuffer, passed: float) -> None:
-        """What was drawn last, and that something is being made."""
+    def draw_waiting(self, said: str, target: moderngl.Framebuffer, passed: float) -> None:
+        """What was drawn last, and that something is being made, as the text `said` has it."""
         if isinstance(self.last, Form):
-            self.last.waiting = True
+            self.last.waiting = said
             self.draw_form(self.last, target, passed)
         elif self.last is not None:
             (view, technique), middle = self.last, (self.aspect / 2, 0.47)
-            word = Label("wait.scene", middle, align="center")
+            word = Label(said, middle, align="center")
             self.draw_view(View(view.scene, view.camera, (word,)), technique, target, passed)
             self.last = (view, technique)
 

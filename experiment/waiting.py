@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any
 
 from experiment.display import Leave
@@ -41,14 +42,15 @@ def meanwhile(work: Callable[[], Any], frame: Callable[[], None], patience: floa
 class Waits:
     """The part of a window that waits, or shows what somebody else does (experiment/window.py)."""
 
-    def waiting(self: Any, work: Callable[[], Any]) -> Any:
+    def waiting(self: Any, work: Callable[[], Any], said: str = "wait.scene") -> Any:
         """Do what takes time and no graphics, and say so. Raises Leave if the session is to end."""
-        return meanwhile(work, self._say_so, 0.0 if self.stage.on_page else PATIENCE)
+        say = partial(self._say, said)
+        return meanwhile(work, say, 0.0 if self.stage.on_page else PATIENCE)
 
-    def _say_so(self: Any) -> None:
+    def _say(self: Any, said: str) -> None:
         self._pump()
         with self._graphics():
-            self.stage.draw_waiting(self.context.screen, self._passed)
+            self.stage.draw_waiting(said, self.context.screen, self._passed)
         self.on_frame()
         self._flip()
         if self._closed:
@@ -58,10 +60,14 @@ class Waits:
             self.confirm_leaving()
             self.stage.last = shown
 
+    def prepare(self: Any, page: Page) -> None:
+        """Have ready what a page shows. Raises Leave if the session is to end."""
+        if page.takes_time:
+            self.waiting(page.prepare, "wait.scene" if page.shows_scenes else "wait.page")
+
     def present(self: Any, page: Page, answers: Answers, seconds: float) -> None:
         """Show a page that somebody else has filled in. Raises Leave on Esc or a closed window."""
-        if page.takes_time:
-            self.waiting(page.prepare)
+        self.prepare(page)
         form = Form(page, dict(answers))
         end = self.clock.now() + seconds
         while self.clock.now() < end:

@@ -158,8 +158,7 @@ class Window(Waits):
 
     def ask(self, page: Page) -> Answers:
         """Show a page until it is answered; Esc asks whether to leave. Raises Leave."""
-        if page.takes_time:
-            self.waiting(page.prepare)
+        self.prepare(page)
         self._window.set_exclusive_mouse(False)
         gc.enable()
         form = Form(page)

@@ -163,7 +163,8 @@ def test_every_page_lies_in_the_window_and_no_widget_on_another(
         for state in ("new", "insisted", "waiting"):
             form = Form(page)
             form.answers = {b.name: "x" for b in page.blocks if isinstance(b, TextField)}
-            form.insisted, form.waiting = state == "insisted", state == "waiting"
+            form.insisted = state == "insisted"
+            form.waiting = "wait.scene" if state == "waiting" else ""
             boxes = laid_out(monkeypatch, stage, target, form)
             assert len(boxes) > len(page.blocks)
             bad += [f"{page.name}, {state}: {f}" for f in faults(boxes, *size)]

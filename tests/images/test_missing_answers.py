@@ -128,7 +128,7 @@ def test_while_waiting_a_page_says_so_and_takes_no_second_answer(screen):
     assert screen.pressed
     quiet = screen.draw(form).copy()
     screen.pressed = False
-    screen.stage.draw_waiting(screen.target, 1 / 60)
+    screen.stage.draw_waiting("wait.scene", screen.target, 1 / 60)
     assert form.waiting and (screen.draw(form) != quiet).any()
     for name in ("enter", "space"):
         screen.key(form, name)

@@ -32,7 +32,7 @@ STUDY = "published"
 KILLED = (8, 16)  # after so many trials of the design, in the middle of the next one
 PAPER = (247, 247, 250)  # what pages are drawn on
 TURNED = 0.004  # part of the pixels that another page changes at least
-FIELD = 120  # pixels: a text field is at least so wide
+FIELD = 160  # pixels: a text field is at least so wide, a button that is not filled less
 BUTTON, LINE = (41, 102, 179), 590  # a button's blue; below this row lies the progress line
 HEIGHT, ASPECT = 600, 4 / 3
 
@@ -49,6 +49,16 @@ class Person:
         """(600, 800, 3) the window's pixels: without a window manager it lies in the corner."""
         screen = ImageGrab.grab(xdisplay=self.desktop.env["DISPLAY"])
         return np.asarray(screen.convert("RGB"))[:600, :800]
+
+    def still(self):
+        """What is on the screen once nothing moves: dots move while the next scene is made."""
+        last = self.look()
+        while True:
+            time.sleep(0.5)
+            now = self.look()
+            if (now == last).all() or not is_page(now):
+                return now
+            last = now
 
     def keep(self, name, picture=None):
         """The window as a picture, numbered in the order of the session."""
@@ -69,7 +79,7 @@ class Person:
 
     def page(self):
         """Keep a page once, write where there is room for it, answer it and go on."""
-        before = self.look()
+        before = self.still()
         if not is_page(before):
             return
         if differ(before, self.kept):
