@@ -17,6 +17,7 @@ from analysis.load import schema
 from analysis.load.chain import ChainState, verify_all
 from analysis.load.table import Source, read_table
 
+REPAIR = "_repair.json"
 CERTIFICATE = "certificate.csv"
 """The difficulty certificate, where the study has one, beside dataset_description.json."""
 
@@ -45,6 +46,7 @@ class Study:
     chains: tuple[ChainState, ...] = ()
     other_sources: tuple[str, ...] = ()
     certificate: pd.DataFrame | None = None
+    repairs: tuple[str, ...] = ()
 
 
 def load_study(folder: Path, source: str | None = None) -> Study:
@@ -90,7 +92,27 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         tuple(chains),
         others,
         certificate,
+        _repairs(base, folder),
     )
+
+
+def _repairs(base: Path, folder: Path) -> tuple[str, ...]:
+    """A line for each participant who was played twice at once: what counts, what was set aside."""
+    lines = []
+    for path in sorted(base.glob(f"*/*{REPAIR}")):
+        mark = _json(path, folder)
+        try:
+            counts = ", ".join(f"session {c['session']} ({c['trials']} trials)"
+                               for c in mark["counts"])  # fmt: skip
+            out = ", ".join(str(number) for number in mark["left_out"]) or "the rest of it"
+            lines.append(
+                f"{path.parent.name} was played twice at once: {counts} counts, session {out} does "
+                f"not; all of it is kept in {mark['as_it_was']} (repaired {mark['repaired']})"
+            )
+        except (KeyError, TypeError):
+            name = path.relative_to(folder).as_posix()
+            raise DataError(f"{name}: expected what `seethrough repair` writes") from None
+    return tuple(lines)
 
 
 def _same_people(*tables: pd.DataFrame) -> None:
