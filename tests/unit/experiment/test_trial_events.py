@@ -153,6 +153,27 @@ def test_a_page_while_the_focus_is_away_counts_once():
     assert record.away == 2.0 + FRAME / 2 + 2 * FRAME
 
 
+def test_focus_lost_under_a_page_counts_from_its_end():
+    """What happened under it comes in after it, and no tick before says that it could not."""
+
+    class Late(Acts):
+        def events(self, view):
+            events = super().events(view)
+            if self.trials == 1 and self.frames == 3:
+                return [FocusChange(self.clock.now() - 1.0, False), *events]
+            return events
+
+    clock, recorder = SimulatedClock(64.0), MemoryRecorder()
+    asks = lambda now: [KeyPress(now, "escape")]  # noqa: E731
+    person = Late(clock, ANSWERS, at=asks, when=2, page={"button": "0"})
+    world = World(FakeDisplay(clock), person, clock, recorder, TASKS)
+    run_session(study(design=NO_TRAINING), 1, world)
+    first = recorder.ended[0]
+    assert first.time == 4 * FRAME + 2.0 and first.away == 2.0 + 2 * FRAME
+    times = [e.time for e in recorder.events]
+    assert times == sorted(times)
+
+
 def test_a_page_over_a_trial_is_no_missed_frame():
     """60 Hz, frames every 0.25 s would all be missed; here the period is longer than a frame."""
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
