@@ -22,6 +22,7 @@ COMMANDS = {
     "power": "how many participants does a study need",
     "replay": "show a trial again from its log",
     "status": "slots of a study, its balance, and what to run next",
+    "repair": "make one of a participant's folder that was played twice at once",
     "withdraw": "remove a participant's data, leaving a dated mark",
     "export": "give the data another form: wide, parquet, bids, psychds",
     "report": "make the statistics report from a data folder",

@@ -23,6 +23,7 @@ from experiment import ledger_place as place
 from experiment import ledger_store as store
 from experiment.errors import InputError
 from experiment.folders import check_participant
+from experiment.ledger_lock import Locks
 from experiment.ledger_plan import Plan, difference
 from experiment.ledger_slots import (
     COMPLETE,
@@ -95,6 +96,10 @@ class Ledger:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+    def locks(self) -> Locks:
+        """Who plays whom now, on a connection of its own: a session outlives this ledger's."""
+        return Locks(store.connect(self._engine.url), self.plan.study)
 
     def entries(self) -> tuple[Entry, ...]:
         """Every entry, in the order in which they were reserved."""

@@ -17,6 +17,7 @@ from experiment.errors import InputError
 from experiment.private import make_folder, write_new
 
 FILE = "ledger.sqlite"
+LOCKS = "locks.sqlite"  # of sessions without a ledger: pilots
 POINTER = "ledger.url"
 MOVED = "ledger-moved.sqlite"
 

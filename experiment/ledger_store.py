@@ -1,4 +1,4 @@
-"""The ledger's tables, in SQLite or PostgreSQL. The only SQLAlchemy import.
+"""The ledger's tables, in SQLite or PostgreSQL. Only ledger*.py import SQLAlchemy.
 
 Every change is one transaction that no other can overlap: SQLite's BEGIN IMMEDIATE, PostgreSQL's
 advisory lock. A unique index besides makes two holders of a slot impossible.
@@ -47,6 +47,18 @@ ENTRIES = sql.Table(
     sql.Column("why", sql.Text, nullable=False),
     sql.UniqueConstraint("study", "participant"),
 )
+LOCKS = sql.Table(
+    "seethrough_locks",
+    METADATA,
+    sql.Column("study", sql.String(32), primary_key=True),
+    sql.Column("participant", sql.String(32), primary_key=True),
+    sql.Column("token", sql.String(16), nullable=False),
+    sql.Column("station", sql.Text, nullable=False),
+    sql.Column("place", sql.Text, nullable=False),
+    sql.Column("since", sql.String(32), nullable=False),
+    sql.Column("beats", sql.Integer, nullable=False),
+    sql.Column("heard", sql.Double, nullable=False),  # s, by the database's clock if it has one
+)
 _HELD = ENTRIES.c.status.in_((LIVE, COMPLETE))
 sql.Index(
     "seethrough_one_holder",
@@ -90,7 +102,7 @@ def connect(url: URL) -> Engine:
             engine = _sqlite(url)
         else:
             wait = {"connect_timeout": int(WAIT)}
-            engine = sql.create_engine(url, connect_args=wait, pool_size=1)
+            engine = sql.create_engine(url, connect_args=wait, pool_size=1, pool_pre_ping=True)
     with exclusive(engine) as connection:
         METADATA.create_all(connection)
     return engine

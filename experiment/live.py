@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,13 +34,15 @@ def play_in_window(
     clock: RealClock,
     watched: SimulatedParticipant | None = None,
     about: Mapping[str, Any] | None = None,
+    guard: Callable[[], None] = lambda: None,
 ) -> str:
     """Play a slot's session in a window; how it ended. Raises InputError.
 
     It is `complete`, `left`, `time limit` or `display lost` (experiment/session.py).
     An interrupted session of the participant is gone on with, in its own slot. With `watched`, a
     simulated participant, it plays and somebody looks on; without, the window's own events count.
-    `about` is what the sidecar says of it besides (`SimulatedParticipant.about`).
+    `about` is what the sidecar says of it besides (`SimulatedParticipant.about`); `guard` raises
+    where the session may not write any more (experiment/ledger_lock.py).
     """
     start = starting_point(study, data, source, participant, slot)
     if start.session > 1:
@@ -55,7 +57,7 @@ def play_in_window(
         who = Who(study.study.name, participant, source, start.slot, described, start.session)
         person: Input = window if watched is None else _simulated(watched, window)
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
-        recorder = FileRecorder(data, who, attempts=start.attempts)
+        recorder = FileRecorder(data, who, attempts=start.attempts, guard=guard)
         world = World(
             window,
             person,

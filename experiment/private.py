@@ -26,6 +26,7 @@ def make_folder(path: Path) -> None:
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(path))
     make_folder(path.parent)
     path.mkdir(mode=FOLDER, exist_ok=True)
+    sync_folder(path.parent)
 
 
 def write_new(path: Path, content: str | bytes) -> None:
@@ -43,7 +44,7 @@ def write_new(path: Path, content: str | bytes) -> None:
         finally:
             os.close(file)
         _name(half, path)
-        _sync_folder(path.parent)
+        sync_folder(path.parent)
     finally:
         half.unlink(missing_ok=True)
 
@@ -60,7 +61,7 @@ def _name(half: Path, path: Path) -> None:
         os.rename(half, path)
 
 
-def _sync_folder(path: Path) -> None:
+def sync_folder(path: Path) -> None:
     """New names are on disk too. Windows cannot open folders, and needs not."""
     if os.name == "posix":
         folder = os.open(path, os.O_RDONLY)

@@ -10,7 +10,7 @@ import csv
 import hashlib
 import io
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -20,7 +20,7 @@ import numpy as np
 
 from experiment.chain import link
 from experiment.columns import Column
-from experiment.private import FILE, refused, write, write_new
+from experiment.private import FILE, refused, sync_folder, write, write_new
 from tasks.base import View
 from tasks.events import Event, Tick
 
@@ -31,8 +31,15 @@ CHUNK = 1 << 16  # bytes of traces that are kept before they are written
 class Table:
     """A CSV file that grows by whole, fsynced rows; `chain` starts its last column, if given."""
 
-    def __init__(self, path: Path, columns: tuple[Column, ...], chain: str | None = None) -> None:
-        self.path = path
+    def __init__(
+        self,
+        path: Path,
+        columns: tuple[Column, ...],
+        chain: str | None = None,
+        guard: Callable[[], None] = lambda: None,
+    ) -> None:
+        """`guard` is called before each write, and raises where nothing may be written."""
+        self.path, self._guard = path, guard
         self.chain = chain
         self._names = [c.name for c in columns]
         write_new(path, header_of(columns) + "\n")
@@ -57,6 +64,7 @@ class Table:
 
     def _write(self, text: str) -> None:
         assert self._file is not None
+        self._guard()
         size = os.fstat(self._file).st_size
         try:
             write(self._file, text.encode("utf-8", "replace"))
@@ -76,8 +84,8 @@ class Table:
 class Trace:
     """A file that is written in pieces and hashed on the way."""
 
-    def __init__(self, path: Path, header: str) -> None:
-        self.path = path
+    def __init__(self, path: Path, header: str, guard: Callable[[], None] = lambda: None) -> None:
+        self.path, self._guard = path, guard
         self._hash = hashlib.sha256()
         self._kept: list[str] = [header]
         self._size = 0
@@ -113,6 +121,7 @@ class Trace:
 
     def _write(self) -> None:
         assert self._file is not None
+        self._guard()
         data = "".join(f"{line}\n" for line in self._kept).encode("utf-8", "replace")
         self._kept.clear()
         self._size = 0
@@ -126,10 +135,10 @@ class Trace:
 class Traces:
     """What happened between a trial's first frame and its end, in two files of its own."""
 
-    def __init__(self, folder: Path, name: str) -> None:
-        self.events = Trace(folder / f"{name}_events.csv", EVENTS)
+    def __init__(self, folder: Path, name: str, guard: Callable[[], None] = lambda: None) -> None:
+        self.events = Trace(folder / f"{name}_events.csv", EVENTS, guard)
         eye, forward = "eye_x,eye_y,eye_z", "forward_x,forward_y,forward_z"
-        self.camera = Trace(folder / f"{name}_camera.csv", f"time,{eye},{forward},digest")
+        self.camera = Trace(folder / f"{name}_camera.csv", f"time,{eye},{forward},digest", guard)
         self._last_camera: Any = None
 
     def event(self, event: Event) -> None:
@@ -158,6 +167,7 @@ class Traces:
             self.events.close()
         finally:
             self.camera.close()
+        sync_folder(self.events.path.parent)  # their names too
 
 
 def header_of(columns: tuple[Column, ...]) -> str:

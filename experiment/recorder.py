@@ -63,9 +63,12 @@ class FileRecorder:
         who: Who,
         now: Callable[[], str] = utc_now,
         attempts: Mapping[int, int] | None = None,
+        guard: Callable[[], None] = lambda: None,
     ) -> None:
-        """`attempts`: how often each trial number was completed before this session."""
+        """`attempts`: how often each trial number was completed before this session; `guard` is
+        called before each write, and raises where the session is somebody else's by now."""
         self.who = who
+        self._guard = guard
         self._attempts = dict(attempts or {})
         self._now = now
         self.folder = folder_of(data, who.source, who.participant)
@@ -103,13 +106,14 @@ class FileRecorder:
         content["chain"]["start"] = start
         write_new(sidecar, _json(content))
         try:
-            return Table(table, TRIALS, start)
+            return Table(table, TRIALS, start, self._guard)
         except OSError:
             sidecar.unlink()  # no session began
             raise
 
     def trial_begins(self, trial: Trial) -> None:
         """Open the traces of a trial; those of an unfinished one are kept as they are."""
+        self._guard()
         if self._traces:
             self._traces.close()
         kind = "training" if trial.training else "trial"
@@ -118,7 +122,7 @@ class FileRecorder:
         attempt = self._attempts.get(trial.number, 0) + 1
         if attempt > 1 and not trial.training:
             name += f"_attempt-{attempt}"
-        self._traces = Traces(self.folder / "traces", name)
+        self._traces = Traces(self.folder / "traces", name, self._guard)
         self._started = self._now()
 
     def event(self, event: Event) -> None:
@@ -180,7 +184,7 @@ class FileRecorder:
     def _another(self, name: str, columns: tuple[Column, ...]) -> Table:
         path = self._file(f"{name}_data.csv")
         try:
-            return Table(path, columns)
+            return Table(path, columns, guard=self._guard)
         except OSError as error:
             raise refused(error, path) from None
 
@@ -194,6 +198,7 @@ class FileRecorder:
 
     def _end(self, status: str) -> None:
         """The end file: how it ended, the chain's end, and hashes of what is not in the chain."""
+        self._guard()
         how = {"ended": self._now(), "status": status, "trials": self._rows}
         files = loose_files(self._trials.path)
         content = {**how, "chain": self._trials.chain, "files": files}

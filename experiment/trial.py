@@ -148,7 +148,7 @@ class Running:
         self._down: set[str] = set()  # pressed in this trial and not released
         self._early = 0
         self._digested = -inf
-        self._away = 0.0
+        self._away = self._counted = 0.0  # what was away, and up to when a page's time is in it
         self._lost_focus: float | None = None
         self._outcome: Outcome | None = None
         self._timed_out = self._repeat = False
@@ -221,7 +221,7 @@ class Running:
 
     def _focus(self, event: FocusChange) -> None:
         if not event.focused:
-            self._lost_focus = max(event.time, self.first)
+            self._lost_focus = max(event.time, self.first, self._counted)
         elif self._lost_focus is not None:
             self._away += max(event.time - self._lost_focus, 0.0)
             self._lost_focus = None
@@ -250,6 +250,7 @@ class Running:
         if self._lost_focus is not None:
             self._away += before - self._lost_focus
             self._lost_focus = now
+        self._counted = now
         self._watch.pause()
         up: list[Event] = [
             PointerRelease(before, 0.0, 0.0, now - before)
@@ -258,7 +259,8 @@ class Running:
             for key in sorted(self._down)
         ]
         self._down.clear()
-        for event in (*up, Tick(now)):
+        # No tick of now: what came in under the page may not be dispatched yet.
+        for event in (*up, Tick(before)):
             self._world.recorder.event(event)
             self.take(event)
 

@@ -72,7 +72,7 @@ class Window(Waits):
         self._window.compare_clocks()
         self._events: list[Event] = []
         self._down: set[str] = set()
-        self._focused = True
+        self._away: FocusChange | None = None  # how the focus was lost, while it is
         self._form: Form | None = None
         self._form_shown = inf  # when its first frame was
         self._closed = False
@@ -138,8 +138,8 @@ class Window(Waits):
         self._window.compare_clocks()
         self._pump()
         self._events = [e for e in self._events if isinstance(e, KeyPress) and e.key in MEANT]
-        if not self._focused:  # lost on a page before
-            self._events.append(FocusChange(self.clock.now(), False))
+        if self._away is not None:  # lost on a page before
+            self._events.append(self._away)
 
     def events(self, view: View) -> list[Event]:
         """What happened until now, in its order. Raises Leave when the window was closed.
@@ -347,7 +347,7 @@ class Window(Waits):
 
     def on_activate(self) -> None:
         """The window has the desktop's focus."""
-        self._focused = True
+        self._away = None
         self._note(FocusChange, True)
 
     def on_deactivate(self) -> None:
@@ -356,8 +356,9 @@ class Window(Waits):
             self._note(KeyRelease, name)
         self._down.clear()
         self.stage.interface.io.clear_input_keys()
-        self._focused = False
-        self._note(FocusChange, False)
+        time, within = self._when.moment()
+        self._away = FocusChange(time, False, within)
+        self._events.append(self._away)
 
     def on_close(self) -> bool:
         """The desktop closes the window: the session saves and leaves. Handled by us."""

@@ -14,12 +14,13 @@ import pandas as pd
 from analysis.errors import DataError
 from analysis.load import schema
 from analysis.load.chain import ChainState
-from analysis.load.files import Source, is_there, read_bytes
+from analysis.load.files import Source, is_there, read_bytes, read_json
 from analysis.load.ledger import NO_LEDGER, Ledger
 from analysis.load.person import table_name
 from analysis.load.table import read_table
 from analysis.load.whole import verified
 
+REPAIR = "_repair.json"
 CERTIFICATE = "certificate.csv"
 """The difficulty certificate, where the study has one, beside dataset_description.json."""
 
@@ -49,6 +50,7 @@ class Study:
     other_sources: tuple[str, ...] = ()
     certificate: pd.DataFrame | None = None
     ledger: Ledger = NO_LEDGER
+    repairs: tuple[str, ...] = ()
 
 
 def load_study(folder: Path, source: str | None = None) -> Study:
@@ -90,7 +92,27 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         whole.others,
         certificate,
         whole.ledger,
+        _repairs(folder / "data" / whole.source, folder),
     )
+
+
+def _repairs(base: Path, folder: Path) -> tuple[str, ...]:
+    """A line for each participant who was played twice at once: what counts, what was set aside."""
+    lines = []
+    for path in sorted(base.glob(f"*/*{REPAIR}")):
+        mark = read_json(path, folder)
+        try:
+            counts = ", ".join(f"session {c['session']} ({c['trials']} trials)"
+                               for c in mark["counts"])  # fmt: skip
+            out = ", ".join(str(number) for number in mark["left_out"]) or "the rest of it"
+            lines.append(
+                f"{path.parent.name} was played twice at once: {counts} counts, session {out} does "
+                f"not; all of it is kept in {mark['as_it_was']} (repaired {mark['repaired']})"
+            )
+        except (KeyError, TypeError):
+            name = path.relative_to(folder).as_posix()
+            raise DataError(f"{name}: expected what `seethrough repair` writes") from None
+    return tuple(lines)
 
 
 def _same_people(*tables: pd.DataFrame) -> None:

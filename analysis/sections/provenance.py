@@ -42,6 +42,7 @@ def provenance_section(context: Context) -> Section:
     ]
     blocks: list[Block] = [
         say(f"Hash chains: {_chains(study.chains)}."),
+        *(say(f"{line}.") for line in study.repairs),
         Table("ran", "What ran", PAIRS, tuple(ran)),
         Fold(f"The {len(study.files)} files read, with their SHA-256", (_files(context),)),
     ]

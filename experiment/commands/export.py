@@ -27,5 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     check_out(arguments.out)
     data = read(arguments.data, arguments.source)
     formats()[arguments.format](data, arguments.out)
+    for path in sorted(arguments.data.glob(f"data/{data.source}/*/*_repair.json")):
+        print(f"{path.parent.name}: played twice at once, repaired: see {path}")
     print(f"{len(data.participants)} participants, {arguments.format}, in {arguments.out}")
     return 0

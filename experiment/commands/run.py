@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
 from experiment.config import Study, load
 from experiment.errors import InputError
 from experiment.folders import check_participant, folder_of, next_free, taken
+from experiment.private import make_folder
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -45,15 +47,23 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
     """A pilot run takes no slot from anybody."""
+    from experiment import ledger_place as place
+    from experiment import ledger_store as store
+    from experiment.ledger_lock import Locks, playing
+
     participant = arguments.participant or next_free(data, "pilot")
     slot = arguments.slot or len(taken(data, "pilot")) + 1
-    return participant, _play(study, participant, slot, "pilot", data)
+    make_folder(data)
+    locks = Locks(store.connect(store.sqlite_url(data / place.LOCKS)), f"{study.study.name} pilot")
+    with playing(locks, participant) as guard:
+        return participant, _play(study, participant, slot, "pilot", data, guard)
 
 
 def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
     """A participant's session in the slot that the ledger gives."""
     from experiment.ledger import Ledger  # SQLAlchemy: only where a ledger is needed
     from experiment.ledger_files import reconcile
+    from experiment.ledger_lock import playing
     from experiment.ledger_plan import plan_of
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
@@ -62,9 +72,11 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
             print(line, file=sys.stderr)
         used = taken(data, "human")
         entry = ledger.reserve(arguments.participant, _now(), arguments.slot, used)
+        locks = ledger.locks()
     # The session takes an hour, in which a connection may be lost: the ledger is opened again.
     try:
-        status = _play(study, entry.participant, entry.slot, "human", data)
+        with playing(locks, entry.participant) as guard:
+            status = _play(study, entry.participant, entry.slot, "human", data, guard)
     except InputError:
         if entry.new and not folder_of(data, "human", entry.participant).exists():
             with Ledger.open(data, url, plan, _now()) as ledger:
@@ -86,13 +98,15 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
     return entry.participant, status
 
 
-def _play(study: Study, participant: str, slot: int, source: str, data: Path) -> str:
+def _play(
+    study: Study, participant: str, slot: int, source: str, data: Path, guard: Callable[[], None]
+) -> str:
     from experiment.clock import RealClock
     from experiment.live import play_in_window  # OpenGL and the window: not for --help
 
     what = "pilot run, " if source == "pilot" else ""
     print(f"{what}participant {participant}, slot {slot}, data in {data}", file=sys.stderr)
-    return play_in_window(study, participant, slot, source, data, RealClock())
+    return play_in_window(study, participant, slot, source, data, RealClock(), guard=guard)
 
 
 def _now() -> datetime:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from experiment.errors import InputError
 from experiment.folders import check_participant, folder_of
+from experiment.repair import set_aside
 
 WITHDRAWN = "withdrawn"
 
@@ -38,15 +39,19 @@ def run(arguments: argparse.Namespace) -> int:
         reconcile(ledger, data, now)
         if participant not in {e.participant for e in ledger.entries()}:
             raise InputError(f"{ledger.where}: participant = {participant}: not in the ledger")
-        files = [p for p in folder.rglob("*") if not p.is_dir()]
+        # Also what `repair` set aside.
+        aside = set_aside(data, "human", participant)
+        files = [p for place in (folder, *aside) for p in place.rglob("*") if not p.is_dir()]
         if not arguments.yes and not _sure(participant, len(files), arguments.keep_files):
             print("nothing was changed")
             return 1
         # The mark first: were this to stop halfway, it says what is to be done again.
         why = WITHDRAWN + (f": {arguments.why}" if arguments.why else "")
         slot = ledger.void(participant, why, now).slot
-    if not arguments.keep_files and folder.exists():
-        _remove(folder)
+    if not arguments.keep_files and files:
+        for place in (folder, *aside):
+            if place.exists():
+                _remove(place)
         print(
             f"{len(files)} files removed; reports and exports made before still hold {participant}"
         )

@@ -55,7 +55,7 @@ from experiment.commands import run
 from experiment.config import load
 from experiment.recorder import FileRecorder, Who
 
-def play(study, participant, slot, source, data):
+def play(study, participant, slot, source, data, guard):
     provenance = {"study_sha256": study.digest()}
     who = Who(study.study.name, participant, source, slot, provenance)
     FileRecorder(data, who).close("complete")

@@ -126,7 +126,7 @@ def test_the_sidecar_says_how_far_times_can_be_trusted(played, folder):
     (sidecar,) = folder.rglob("*_trials_data.json")
     display = json.loads(sidecar.read_text(encoding="utf-8"))["provenance"]["display"]
     assert display["input_time"] == "X11 event time, 1 ms"
-    assert display["focus_time"] == "dispatch, one frame"
+    assert display["focus_time"] == "within the frame before its dispatch, each with its bound"
     assert display["refresh_declared"] == "60"
     assert display["refresh_measured"] == "does not wait"  # a virtual screen has no retrace
 

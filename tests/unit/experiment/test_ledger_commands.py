@@ -22,7 +22,7 @@ def sessions(monkeypatch, tmp_path):
     """Runs `seethrough run` with sessions that end as they are told to, and record who came."""
     came = []
 
-    def session(study, participant, slot, source, data, clock):
+    def session(study, participant, slot, source, data, clock, guard):
         how = ends.pop(0) if ends else "complete"
         if how == "no display":
             raise InputError("display: no window can be opened")
