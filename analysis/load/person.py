@@ -31,6 +31,7 @@ from analysis.load.files import (
 
 TRIALS_TABLE, SIDECAR, END = "_trials_data.csv", "_trials_data.json", "_end.json"
 ANSWERS_TABLE, NOTES_TABLE = "_questionnaire_data.csv", "_notes_data.csv"
+REPAIR = "_repair.json"  # put there by `seethrough repair`, beside the session that was kept whole
 KINDS = (TRIALS_TABLE, SIDECAR, END, ANSWERS_TABLE, NOTES_TABLE)
 TRACES = "traces"
 COMPLETE = "complete"
@@ -290,6 +291,7 @@ class Folder:
                     if name not in self._held:
                         yield f"{self._path(name)}: added after the session"
         ours = {name for session in self.found.sessions for name in session.files.values()}
+        ours |= {f"{session.stem}{REPAIR}" for session in self.found.sessions}
         for name in names:
             if name.endswith((".csv", ".json")) and name not in ours | self._held:
                 yield f"{self._path(name)}: added after the session"

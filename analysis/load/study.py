@@ -16,11 +16,10 @@ from analysis.load import schema
 from analysis.load.chain import ChainState
 from analysis.load.files import Source, is_there, read_bytes, read_json
 from analysis.load.ledger import NO_LEDGER, Ledger
-from analysis.load.person import table_name
+from analysis.load.person import REPAIR, table_name
 from analysis.load.table import read_table
 from analysis.load.whole import verified
 
-REPAIR = "_repair.json"
 CERTIFICATE = "certificate.csv"
 """The difficulty certificate, where the study has one, beside dataset_description.json."""
 
