@@ -112,6 +112,7 @@ def _answer(answer: Answer) -> dict[str, str]:
         "transparency": answer.transparency,
         "scenario": answer.scenario,
         "value": str(answer.value),
+        "text": answer.text,
     }
 
 
