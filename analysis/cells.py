@@ -1,4 +1,8 @@
-"""Participants × cells: one value each, complete, or the participant is left out by name."""
+"""Participants × cells: one value each. Each analysis leaves out, by name, who lacks what it needs.
+
+A test of one task needs that task's cells (pairwise deletion); the mean over tasks and the
+factorial analyses need them all.
+"""
 
 from __future__ import annotations
 
@@ -22,21 +26,48 @@ class Missing:
 
 @dataclass(frozen=True, slots=True)
 class Cells:
-    """`values`: (n, k₁, …, k_m) of the complete `participants`; `counts` trials in each cell."""
+    """`values`: (n, k₁, …, k_m), NaN where a participant lacks the cell; `counts`: its trials."""
 
     values: Array
     counts: NDArray[np.intp]
     participants: tuple[str, ...]
     factors: Mapping[str, tuple[str, ...]]
-    missing: tuple[Missing, ...]
 
     def at(self, **levels: str) -> Array:
-        """The values at the given levels, factors not named averaged over: (n,)."""
-        index: list[slice | int] = [slice(None)]
-        for factor, known in self.factors.items():
-            index.append(known.index(levels[factor]) if factor in levels else slice(None))
-        picked = self.values[tuple(index)]
+        """The values at the given levels, factors not named averaged over: (n,), NaN if lacking."""
+        picked = self.values[self._index(levels)]
         return picked.reshape(len(picked), -1).mean(axis=1)
+
+    def pick(self, **levels: str) -> Cells:
+        """The cells at the given levels; the factors named are gone."""
+        index = self._index(levels)
+        left = {name: known for name, known in self.factors.items() if name not in levels}
+        return Cells(self.values[index], self.counts[index], self.participants, left)
+
+    def whole(self) -> Cells:
+        """Only the participants who have every cell."""
+        kept = np.isfinite(self.values.reshape(len(self.values), -1)).all(axis=1)
+        names = tuple(p for p, k in zip(self.participants, kept, strict=True) if k)
+        return Cells(self.values[kept], self.counts[kept], names, self.factors)
+
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        """Who lacks a cell, and which."""
+        bad = ~np.isfinite(self.values)
+        found = []
+        for i in np.flatnonzero(bad.reshape(len(bad), -1).any(axis=1)):
+            where = [
+                " × ".join(known[j] for known, j in zip(self.factors.values(), cell, strict=True))
+                for cell in np.argwhere(bad[i])
+            ]
+            found.append(Missing(self.participants[i], tuple(where)))
+        return tuple(found)
+
+    def _index(self, levels: Mapping[str, str]) -> tuple[slice | int, ...]:
+        picked: list[slice | int] = [slice(None)]
+        for factor, known in self.factors.items():
+            picked.append(known.index(levels[factor]) if factor in levels else slice(None))
+        return tuple(picked)
 
 
 def level_codes(column: pd.Series, levels: Sequence[str]) -> NDArray[np.intp]:
@@ -86,29 +117,19 @@ def sums(
     return totals, counts, tuple(names)
 
 
-def complete(
+def table_of(
     values: Array,
     counts: NDArray[np.intp],
     participants: Sequence[str],
     factors: Mapping[str, Sequence[str]],
 ) -> Cells:
-    """Keep the participants whose every cell has a finite value; name the others."""
-    levels = {name: tuple(known) for name, known in factors.items()}
-    bad = ~np.isfinite(values) | (counts == 0)
-    whole = ~bad.reshape(len(values), -1).any(axis=1)
-    missing = []
-    for i in np.flatnonzero(~whole):
-        where = [
-            " × ".join(known[j] for known, j in zip(levels.values(), cell, strict=True))
-            for cell in np.argwhere(bad[i])
-        ]
-        missing.append(Missing(participants[i], tuple(where)))
-    kept = tuple(participants[i] for i in np.flatnonzero(whole))
-    return Cells(values[whole], counts[whole], kept, levels, tuple(missing))
+    """The cells of everybody; a value that is not finite, or of no trial, is lacking."""
+    known = np.where(np.isfinite(values) & (counts > 0), values, np.nan)
+    return Cells(known, counts, tuple(participants), {k: tuple(v) for k, v in factors.items()})
 
 
 def means(table: pd.DataFrame, column: str, factors: Mapping[str, Sequence[str]]) -> Cells:
     """Mean of `column` per participant and cell, over the trials that have a value."""
     (total,), counts, names = sums(table, [column], factors)
     with np.errstate(invalid="ignore"):
-        return complete(total / counts, counts, names, factors)
+        return table_of(total / counts, counts, names, factors)

@@ -8,21 +8,25 @@ from typing import Any
 
 import numpy as np
 
+from analysis import equivalence
 from analysis.cells import Array, Cells
-from analysis.page.blocks import Cited, Column, Table, say
+from analysis.page.blocks import Cited, Column, Table
 from analysis.stats.anova import repeated_measures
 from analysis.stats.distributions import holm
-from analysis.stats.paired import paired, ratio_of_means, tost, within_halfwidths
-from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
+from analysis.stats.paired import paired, ratio_of_means, within_halfwidths
+from analysis.stats.ties import is_constant
+from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined, no_interval
 
-NO_PAIR = "there is only one transparency level"
+NO_RATIO = "differences of z scores have no ratio"
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
     """Values of n participants under both levels. `family`: Holm corrects within it.
 
-    `logs`: the same measure's per-participant means of logarithms, for times.
+    `kind`: what a margin may be declared of (`equivalence.MARGINS`). `logs`: for times, the same
+    people's means of their trials' logarithms. `ratio_scale`: whether 0 means none of it.
+    `participants`: the n names, where they are known.
     """
 
     key: str
@@ -32,17 +36,34 @@ class Measure:
     standard: Array
     dynamic: Array
     family: str = ""
+    kind: str = ""
     logs: tuple[Array, Array] | None = None
+    ratio_scale: bool = True
+    participants: tuple[str, ...] = ()
 
 
 def measure(
-    key: str, label: str, unit: str, digits: int, cells: Cells, family: str = "", **at: str
+    key: str,
+    label: str,
+    unit: str,
+    digits: int,
+    cells: Cells,
+    family: str = "",
+    kind: str = "",
+    **at: str,
 ) -> Measure | None:
-    """The measure from cells with a transparency factor; None unless both levels are there."""
-    if cells.factors["transparency"] != ("standard", "dynamic") or not len(cells.values):
+    """The measure of those who have both levels; None unless somebody has."""
+    if cells.factors["transparency"] != ("standard", "dynamic"):
         return None
-    pair = [cells.at(transparency=level, **at) for level in cells.factors["transparency"]]
-    return Measure(key, label, unit, digits, pair[0], pair[1], family)
+    pair = np.stack(
+        [cells.at(transparency=level, **at) for level in cells.factors["transparency"]], axis=1
+    )
+    both = np.isfinite(pair).all(axis=1)
+    if not both.any():
+        return None
+    names = tuple(p for p, b in zip(cells.participants, both, strict=True) if b)
+    first, second = pair[both].T
+    return Measure(key, label, unit, digits, first, second, family, kind, participants=names)
 
 
 def sd_of(x: Array) -> Number:
@@ -53,7 +74,7 @@ def sd_of(x: Array) -> Number:
 def _correlation(x: Array, y: Array) -> Number:
     if len(x) < 2:
         return Undefined(ONE_PARTICIPANT)
-    if np.ptp(x) == 0 or np.ptp(y) == 0:
+    if is_constant(x) or is_constant(y):
         return Undefined("one condition does not vary")
     return float(np.clip(np.corrcoef(x, y)[0, 1], -1.0, 1.0))
 
@@ -90,11 +111,15 @@ def _paired_columns(first: Array, second: Array) -> dict[str, Any]:
     }
 
 
-def compare(measures: Sequence[Measure], margin: float) -> Table:
-    """One row per measure on its own scale; TOST against ±`margin` of the standard mean."""
+def compare(measures: Sequence[Measure], margins: Mapping[str, float]) -> Table:
+    """One row per measure on its own scale, with the tests against its declared margin."""
     rows = []
     for m in measures:
-        ratio, ends = ratio_of_means(m.standard, m.dynamic)
+        ratio, ends = (
+            ratio_of_means(m.standard, m.dynamic)
+            if m.ratio_scale
+            else (Undefined(NO_RATIO), no_interval(NO_RATIO))
+        )
         row: dict[str, Any] = {
             "measure": m.key,
             "label": m.label,
@@ -113,27 +138,15 @@ def compare(measures: Sequence[Measure], margin: float) -> Table:
             "ratio": ratio,
             "ratio_low": ends[0],
             "ratio_high": ends[1],
-            **tost_columns(m, margin),
+            **equivalence.equivalence(m.standard, m.dynamic, m.kind, margins),
         }
         rows.append(row)
     add_holm(rows, measures)
     return Table("tests", "Standard against dynamic transparency", COLUMNS, tuple(rows), SHOWN)
 
 
-def tost_columns(m: Measure, margin: float) -> dict[str, Any]:
-    """TOST against ±`margin` of the standard mean, with the 90 % interval that it inverts."""
-    bound = margin * abs(float(m.standard.mean()))
-    if bound == 0:
-        gone = Undefined("the standard mean, and so the margin, is zero")
-        return {"tost_margin": gone, "tost_p": gone, "low90": gone, "high90": gone}
-    scale = float(max(np.max(np.abs(m.standard)), np.max(np.abs(m.dynamic))))
-    test = tost(m.standard - m.dynamic, bound, scale)
-    low, high = test.interval90
-    return {"tost_margin": bound, "tost_p": test.p, "low90": low, "high90": high}
-
-
-def compare_logs(measures: Sequence[Measure], margin: float) -> Table:
-    """Times on the log scale: geometric means and their ratio; TOST within 1 + `margin` : 1."""
+def compare_logs(measures: Sequence[Measure], margins: Mapping[str, float]) -> Table:
+    """Times on the log scale: geometric means and their ratio, and the tests of the ratio."""
     rows = []
     for m in measures:
         if m.logs is None:
@@ -153,7 +166,7 @@ def compare_logs(measures: Sequence[Measure], margin: float) -> Table:
                 "ratio_high": _exp(pair["difference_low"]),
                 **_f_columns(first, second),
                 **pair,
-                **_log_tost(first, second, margin),
+                **equivalence.log_equivalence(first, second, m.kind, margins),
             }
         )
     add_holm(rows, [m for m in measures if m.logs is not None])
@@ -163,14 +176,9 @@ def compare_logs(measures: Sequence[Measure], margin: float) -> Table:
         LOG_COLUMNS,
         tuple(rows),
         LOG_SHOWN,
-        "Ratio: dynamic / standard, of geometric means over participants.",
+        "Ratio: dynamic / standard, of geometric means: each participant's mean of the logarithms "
+        "of their trials, averaged over participants.",
     )
-
-
-def _log_tost(first: Array, second: Array, margin: float) -> dict[str, Any]:
-    """Equivalence of geometric means: their ratio between 1 / (1 + margin) and 1 + margin."""
-    scale = float(max(np.max(np.abs(first)), np.max(np.abs(second))))
-    return {"tost_margin": 1 + margin, "tost_p": tost(first - second, np.log1p(margin), scale).p}
 
 
 def _exp(value: Number) -> Number:
@@ -240,10 +248,7 @@ COLUMNS = (
     *_TEST,
     *_DIFFERENCE,
     *_RATIO,
-    Column("tost_margin", "margin", "sig3", "of equivalence"),
-    Column("tost_p", "p (TOST)", "p"),
-    Column("low90", "90 % from", "sig3"),
-    Column("high90", "90 % to", "sig3"),
+    *equivalence.COLUMNS,
 )
 SHOWN = tuple(
     "label n mean_standard sd_standard mean_dynamic sd_dynamic F p p_holm pes dz bf10".split()
@@ -257,16 +262,14 @@ LOG_COLUMNS = (
     *_RATIO,
     *_TEST,
     *_DIFFERENCE,
-    Column("tost_margin", "margin", "fixed2", "ratio that counts as equal"),
-    Column("tost_p", "p (TOST)", "p"),
+    *equivalence.COLUMNS,
 )
 LOG_SHOWN = tuple("label n geometric_standard geometric_dynamic ratio F p p_holm dz bf10".split())
 
 
-MORE = (
-    "label n r difference sd_difference t ratio shapiro_w shapiro_p tost_margin tost_p low90 high90"
-)
-LOG_MORE = "label n difference sd_difference t ges pes shapiro_w shapiro_p tost_margin tost_p"
+_EQUAL = "tost_margin tost_p noninferior_p low90 high90"
+MORE = f"label n r difference sd_difference t ratio shapiro_w shapiro_p {_EQUAL}"
+LOG_MORE = f"label n difference sd_difference t ges pes shapiro_w shapiro_p {_EQUAL}"
 MORE_TITLE = "Differences, ratios, normality of the differences, equivalence"
 
 
@@ -289,34 +292,13 @@ def corrected(table: Table, key: str) -> list[str | Cited]:
     return [", Holm-corrected p " if p.text.startswith("<") else ", Holm-corrected p = ", p]
 
 
-def no_difference(table: Table, key: str, margin: float, alpha: float) -> tuple[str | Cited, ...]:
-    """What follows where a test shows no difference: does the equivalence test show equality?
-
-    `margin` is the share of the standard mean that the table's `tost_margin` was made from.
-    """
-    p = table.cite(key, "tost_p")
-    if not is_defined(p.value):
-        return say(" No difference was shown; whether the two are equivalent is {}.", p).runs
-    verdict = (
-        "so the two are equivalent within that margin"
-        if p.value < alpha
-        else "so this is no evidence of equality either"
-    )
-    return say(
-        f" No difference was shown; equivalence within ± {{}} ({100 * margin:g} % of the standard "
-        f"mean): p {'' if p.text.startswith('<') else '= '}{{}} (TOST), {verdict}.",
-        table.cite(key, "tost_margin"),
-        p,
-    ).runs
-
-
 def apa_f(table: Table, key: str) -> list[str | Cited]:
     """`F(1, 15) = 49.54, p < .001, η²p = .77, 90 % CI [.55, .86]`, every number cited."""
     row = table.row(key)
     if not is_defined(row["F"]):
         return ["no test: ", table.cite(key, "F")]
     p = table.cite(key, "p")
-    return [
+    runs: list[str | Cited] = [
         "F(",
         table.cite(key, "df1"),
         ",\u00a0",
@@ -327,9 +309,8 @@ def apa_f(table: Table, key: str) -> list[str | Cited]:
         p,
         ", η²p = ",
         table.cite(key, "pes", "bound2"),
-        ", 90 % CI [",
-        table.cite(key, "pes_low", "bound2"),
-        ", ",
-        table.cite(key, "pes_high", "bound2"),
-        "]",
     ]
+    if is_defined(row["pes_low"]):
+        low, high = (table.cite(key, f"pes_{end}", "bound2") for end in ("low", "high"))
+        runs += [", 90 % CI [", low, ", ", high, "]"]
+    return runs

@@ -12,6 +12,7 @@ from analysis.cells import Array, means
 from analysis.comparison import Measure, measure
 from analysis.load.schema import CERTIFICATE
 from analysis.measures import design
+from analysis.stats.ties import is_constant
 from analysis.stats.undefined import Number, Undefined
 
 QUANTITIES: Mapping[str, str] = {
@@ -23,11 +24,15 @@ QUANTITIES: Mapping[str, str] = {
     "path": "path (units)",
 }
 NO_SPREAD = "the scenes do not differ"
+ONLY_BETWEEN = "the scenes differ between the levels and not within them"
 
 
 @dataclass(frozen=True, slots=True)
 class Balance:
-    """A quantity of a task's scenes under both levels; `smd`: in s.d. of scenes (pooled)."""
+    """A quantity of a task's scenes under both levels; `smd`: in s.d. of scenes (pooled).
+
+    Both are of the trials of the same people, those who have the task under both levels.
+    """
 
     task: str
     quantity: str
@@ -65,7 +70,8 @@ def balance(trials: pd.DataFrame) -> list[Balance]:
                 continue
             # nobody walks in the abstract world
             if quantity != "path" or m.standard.any() or m.dynamic.any():
-                own = known[known["task"] == task]
+                same = known["participant"].astype("str").isin(m.participants)
+                own = known[same & (known["task"] == task)]
                 found.append(Balance(task, quantity, m, _smd(own, quantity)))
     return found
 
@@ -78,7 +84,7 @@ def _smd(trials: pd.DataFrame, quantity: str) -> Number:
     ]
     if min(map(len, parts)) < 2:
         return Undefined("fewer than two trials")
+    if all(is_constant(x) for x in parts):
+        return Undefined(NO_SPREAD if is_constant(np.concatenate(parts)) else ONLY_BETWEEN)
     spread = float(np.sqrt(np.mean([np.var(x, ddof=1) for x in parts])))
-    if spread == 0:
-        return Undefined(NO_SPREAD)
     return float((parts[1].mean() - parts[0].mean()) / spread)

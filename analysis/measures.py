@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, Cells, complete, means, sums
+from analysis.cells import Array, Cells, means, sums, table_of
 from analysis.load.schema import SCENARIO, TASKS, TRANSPARENCY
 
 COUNTING = ("count", "count_in_building")
@@ -35,13 +35,19 @@ def time_by_task(trials: pd.DataFrame, column: str = "time") -> Cells:
     return means(trials, column, {k: levels[k] for k in ("task", "transparency")})
 
 
-def over_tasks(cells: Cells, log: bool = False) -> Cells:
-    """Transparency alone: the plain mean over the tasks (of the logarithms: geometric)."""
-    values = np.log(cells.values) if log else cells.values
+def log_time_by_task(trials: pd.DataFrame) -> Cells:
+    """Mean of the trials' logarithms of seconds: task × transparency.
+
+    Its exponential is a geometric mean of trials: one trial of 10⁶ s among three then moves a
+    ratio by the cube root of what it moves a mean.
+    """
+    return time_by_task(trials.assign(log_time=np.log(trials["time"])), "log_time")
+
+
+def over_tasks(cells: Cells) -> Cells:
+    """Transparency alone: the plain mean over the tasks, of who has them all."""
     levels = {"transparency": cells.factors["transparency"]}
-    return Cells(
-        values.mean(axis=1), cells.counts.sum(axis=1), cells.participants, levels, cells.missing
-    )
+    return Cells(cells.values.mean(axis=1), cells.counts.sum(axis=1), cells.participants, levels)
 
 
 def by_scenario(cells: Cells, scenario_of: Mapping[str, str]) -> Cells:
@@ -52,7 +58,7 @@ def by_scenario(cells: Cells, scenario_of: Mapping[str, str]) -> Cells:
     values = np.stack([cells.values[:, p].mean(axis=1) for p in picks], axis=1)
     counts = np.stack([cells.counts[:, p].sum(axis=1) for p in picks], axis=1)
     levels = {"scenario": scenarios, "transparency": cells.factors["transparency"]}
-    return Cells(values, counts, cells.participants, levels, cells.missing)
+    return Cells(values, counts, cells.participants, levels)
 
 
 def scenario_of(trials: pd.DataFrame) -> dict[str, str]:
@@ -74,13 +80,19 @@ def relative_error(trials: pd.DataFrame, signed: bool = True) -> Cells:
     factors = {k: levels[k] for k in ("task", "transparency")}
     (off, truth), counts, names = sums(counting, ["off", "truth_number"], factors)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return complete(np.abs(off) / truth, counts, names, factors)
+        return table_of(np.abs(off) / truth, counts, names, factors)
 
 
 def share_correct(trials: pd.DataFrame) -> Cells:
     """Share of right answers: task × transparency."""
     levels = design(trials)
     return means(trials, "correct", {k: levels[k] for k in ("task", "transparency")})
+
+
+def share_wrong(trials: pd.DataFrame) -> Cells:
+    """Share of wrong answers: task × transparency."""
+    right = share_correct(trials)
+    return Cells(1 - right.values, right.counts, right.participants, right.factors)
 
 
 def distance(trials: pd.DataFrame) -> Cells:

@@ -8,25 +8,31 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from analysis.equivalence import MARGINS, RATIOS
 from analysis.errors import DataError
+from analysis.exclude import TOO_FAST
 from analysis.load.study import Study
 
 TESTS = ("time", "accuracy", "ratings", "tradeoff", "validity", "mixed")
-MARGIN = 0.20
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """The analysis as it runs. `frozen` is the study's [analysis] table, None if it has none."""
+    """The analysis as it runs. `frozen` is the study's [analysis] table, None if it has none.
+
+    `margins`: what the study declared to be no difference that matters, by kind of measure; what
+    is not in it has no margin. `too_fast`: the limit of that exclusion rule, seconds.
+    """
 
     alpha: float
     exclude: tuple[str, ...]
     tests: tuple[str, ...]
-    margin: float
+    margins: Mapping[str, float]
     frozen: Mapping[str, Any] | None
     deviations: tuple[str, ...]
     participants: int | None
     trials: int | None
+    too_fast: float = TOO_FAST
 
 
 def config_of(sidecar: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -72,12 +78,33 @@ def make_plan(
         used_alpha,
         used_out,
         tests or TESTS,
-        float(table.get("margin", MARGIN)),
+        _margins(table.get("margins") or {}),
         frozen,
         tuple(deviations),
         about.get("participants"),
         design.get("trials"),
+        _number("too_fast", table.get("too_fast", TOO_FAST), 0),
     )
+
+
+def _margins(table: Any) -> dict[str, float]:
+    """The declared margins, checked: a ratio above 1 for times, else above 0 in the own unit."""
+    if not isinstance(table, Mapping):
+        raise DataError(f"analysis.margins = {table!r}: expected a table")
+    unknown = [name for name in table if name not in MARGINS]
+    if unknown:
+        raise DataError(f"analysis.margins.{unknown[0]}: expected among {', '.join(MARGINS)}")
+    return {
+        name: _number(f"margins.{name}", value, 1 if name in RATIOS else 0)
+        for name, value in table.items()
+        if value is not None
+    }
+
+
+def _number(name: str, value: Any, above: float) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not above < value < 1e300:
+        raise DataError(f"analysis.{name} = {value!r}: expected a number above {above:g}")
+    return float(value)
 
 
 def _choices(

@@ -45,7 +45,7 @@ def make_report(data: Path, options: Options) -> Report:
     """Load, analyse, and put into words; nothing is written. Raises DataError."""
     study = load_study(data, options.source)
     plan = make_plan(study, options.alpha, options.exclude)
-    trials, excluded = apply_rules(study.trials, plan.exclude)
+    trials, excluded = apply_rules(study.trials, plan.exclude, plan.too_fast)
     context = Context(study, plan, trials, excluded, options.seed)
     sections = _sections(context)
     banner = {"simulated": SIMULATED, "pilot": PILOT}.get(study.source, "")
@@ -55,7 +55,7 @@ def make_report(data: Path, options: Options) -> Report:
 
 def _sections(context: Context) -> list[Section]:
     """All sections in reading order; `participants` comes late to know who is missing where."""
-    time, logs = time_section(context)
+    time, timed = time_section(context)
     accuracy, tests = accuracy_section(context)
     ratings = ratings_section(context)
     tables = [b for b in walk(ratings.blocks) if isinstance(b, Table)] if ratings else []
@@ -68,10 +68,10 @@ def _sections(context: Context) -> list[Section]:
         "validity": validity_section(context),
     }
     if "mixed" in context.plan.tests:
-        optional["mixed"] = sensitivity_section(context, logs)
+        optional["mixed"] = sensitivity_section(context, timed[0] if timed else None)
     chosen = [optional[name] for name in TESTS if name in context.plan.tests]
     return [
-        summary_section(context, logs, tests, single),
+        summary_section(context, timed, tests, single),
         participants_section(context),
         *(section for section in chosen if section is not None),
         provenance_section(context),

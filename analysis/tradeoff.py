@@ -9,19 +9,31 @@ import pandas as pd
 
 from analysis.cells import Array, Cells, level_codes, sums
 from analysis.load.schema import TRANSPARENCY
-from analysis.measures import design, distance, relative_error, share_correct, time_by_task
+from analysis.measures import (
+    design,
+    distance,
+    log_time_by_task,
+    relative_error,
+    share_wrong,
+    time_by_task,
+)
 from analysis.stats.distributions import t_two_sided
+from analysis.stats.ties import is_constant
 from analysis.stats.undefined import Interval, Number, Undefined, no_interval
 
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A task's time and error under both levels, participant by participant: (n, 2) each."""
+    """A task's time and error under both levels, participant by participant: (n, 2) each.
+
+    `log_time`: the means of the trials' logarithms.
+    """
 
     task: str
     error_label: str
     participants: tuple[str, ...]
     time: Array
+    log_time: Array
     error: Array
 
 
@@ -35,45 +47,30 @@ ERROR_LABELS = {
 
 def changes(trials: pd.DataFrame) -> list[Change]:
     """One per task that has both levels, with the participants who have both measures."""
-    times = time_by_task(trials)
+    times, logs = time_by_task(trials), log_time_by_task(trials)
     if times.factors["transparency"] != ("standard", "dynamic"):
         return []
     found = []
-    for i, task in enumerate(times.factors["task"]):
+    for task in times.factors["task"]:
         error = _errors(trials[trials["task"] == task], task)
-        both, mine, theirs = np.intersect1d(
-            times.participants, error.participants, assume_unique=True, return_indices=True
-        )
-        if not len(both):
+        if error.factors["transparency"] != ("standard", "dynamic"):
             continue
-        found.append(
-            Change(
-                task,
-                ERROR_LABELS[task],
-                tuple(str(p) for p in both),
-                times.values[mine][:, i],
-                error.values.reshape(len(error.values), 2)[theirs],
-            )
-        )
+        parts = [times.pick(task=task).values, logs.pick(task=task).values, error.values]
+        has = np.isfinite(np.concatenate(parts, axis=1)).all(axis=1)
+        if has.any():
+            time, log, off = (part[has] for part in parts)
+            names = tuple(p for p, h in zip(times.participants, has, strict=True) if h)
+            found.append(Change(task, ERROR_LABELS[task], names, time, log, off))
     return found
 
 
 def _errors(trials: pd.DataFrame, task: str) -> Cells:
-    """The task's own error measure: (n, …, transparency)."""
+    """The task's own error measure: (n, transparency)."""
     if task == "unique":
         return distance(trials)
     if task == "pattern":
-        right = share_correct(trials)
-        return Cells(
-            1 - right.values, right.counts, right.participants, right.factors, right.missing
-        )
-    return relative_error(trials, signed=False)
-
-
-def error_share(trials: pd.DataFrame) -> Cells:
-    """Share of wrong answers: task × transparency."""
-    right = share_correct(trials)
-    return Cells(1 - right.values, right.counts, right.participants, right.factors, right.missing)
+        return share_wrong(trials).pick(task=task)
+    return relative_error(trials, signed=False).pick(task=task)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +87,7 @@ def correlation(x: Array, y: Array) -> Correlation:
     """Between two lists of values of the same participants."""
     n = len(x)
     why = "fewer than four participants" if n < 4 else ""
-    if not why and (np.ptp(x) == 0 or np.ptp(y) == 0):
+    if not why and (is_constant(x) or is_constant(y)):
         why = "one of the two does not change"
     if why:
         gone = Undefined(why)
@@ -141,7 +138,7 @@ def scores(trials: pd.DataFrame) -> Scores | None:
 
 def _bis(share: Array, time: Array) -> Array | Undefined:
     for values, what in ((share, "accuracy"), (time, "time")):
-        if np.ptp(values) == 0:
+        if is_constant(values.ravel()):
             return Undefined(f"{what} does not vary")
     return (share - share.mean()) / share.std() - (time - time.mean()) / time.std()
 
@@ -149,13 +146,13 @@ def _bis(share: Array, time: Array) -> Array | Undefined:
 def accuracy_by_speed(trials: pd.DataFrame, parts: int = 3) -> pd.DataFrame:
     """Conditional accuracy: share correct by speed within participant × task × transparency.
 
-    Trials of a cell are ranked by time and split into `parts`; columns transparency, part, share,
-    trials.
+    Trials of a cell are ranked by time and split into `parts`, equal times into the same one;
+    columns transparency, part, share, trials.
     """
     known = trials.dropna(subset=["correct"])
     keys = ["participant", "task", "transparency"]
     grouped = known.groupby(keys, observed=True)["time"]
-    rank = grouped.rank(method="first") - 1
+    rank = grouped.rank(method="average") - 1
     size = grouped.transform("size")
     part = np.minimum((rank * parts / size).astype(int), parts - 1)
     by = known.assign(part=part)[size >= parts].groupby(["transparency", "part"], observed=True)

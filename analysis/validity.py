@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, Cells, level_codes, means, sums
+from analysis.cells import Array, level_codes, means, sums, table_of
 from analysis.comparison import Measure, measure
+from analysis.exclude import focus_lost
 from analysis.load.schema import TRANSPARENCY
 from analysis.measures import design
 from analysis.stats.within import TermTest, dummies, one_way, term_tests
@@ -82,15 +83,16 @@ def share_missed(trials: pd.DataFrame) -> Measure | None:
     """Frames missed of frames shown, per participant and level."""
     levels = {"transparency": design(trials)["transparency"]}
     (missed, frames), counts, names = sums(trials, ["frames_missed", "frames"], levels)
-    if levels["transparency"] != TRANSPARENCY or not np.all(frames > 0):
+    if levels["transparency"] != TRANSPARENCY:
         return None
-    cells = Cells(missed / frames, counts, names, levels, ())
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cells = table_of(missed / frames, counts, names, levels)
     return measure("frames_missed", "share of frames missed", "", 4, cells)
 
 
 def focus_losses(trials: pd.DataFrame) -> Measure | None:
     """Share of trials in which the window lost its focus."""
-    table = trials.assign(lost=(trials["time_clean"] < trials["time"]).astype(float))
+    table = trials.assign(lost=focus_lost(trials).astype(float))
     cells = means(table, "lost", {"transparency": design(trials)["transparency"]})
     return measure("focus_lost", "share of trials with focus lost", "", 4, cells)
 

@@ -83,7 +83,8 @@ QUESTIONNAIRE = (
     Column(
         "item",
         "text",
-        "efficiency, ease, enjoy (0–4, per condition), preference (1 dynamic, 0 not), "
+        "efficiency, ease, enjoy (0–4, per condition), preference (1 dynamic, 0 not; "
+        "text: dynamic, neutral or standard), "
         "depth_self_report (0–4), depth_pair_1 … 3 (1: right), depth_test (right of 3), consent, "
         "age (years), gender, "
         "color_plate_1 … 4 (1: read), tlx_… (0–20), sus_1 … sus_10 (0–4), sus (0–100), remarks",

@@ -40,7 +40,7 @@ QuestionnaireBlock = Literal["ratings", "comparison", "tlx", "sus", "depth_test"
 
 # What `analysis` knows by these names; a contract test holds both to each other.
 AnalysisTest = Literal["time", "accuracy", "ratings", "tradeoff", "validity", "mixed"]
-EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed")
+EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
 
 def _exclusion(value: str) -> str:
@@ -150,12 +150,27 @@ class SessionTable(_Table):
     _unique = field_validator("questionnaire")(_once)
 
 
+class MarginsTable(_Table):
+    """[analysis.margins]: differences that would not matter; a measure without one has none.
+
+    Of time as a ratio, of the others in their own units. They are declared before there are data:
+    equivalence, and that accuracy does not suffer, are tested against them.
+    """
+
+    time: Annotated[float, Field(gt=1)] | None = None
+    count_error: Annotated[float, Field(gt=0)] | None = None
+    correct: Annotated[float, Field(gt=0, lt=1)] | None = None
+    distance: Annotated[float, Field(gt=0)] | None = None
+
+
 class AnalysisTable(_Table):
     """[analysis]: what is decided before anybody is invited; the report lists deviations."""
 
     alpha: Annotated[float, Field(gt=0, lt=1)] = 0.05
     tests: tuple[AnalysisTest, ...] = ()
     exclude: tuple[Annotated[str, AfterValidator(_exclusion)], ...] = ()
+    too_fast: Annotated[float, Field(gt=0)] = 0.2
+    margins: MarginsTable = MarginsTable()
 
     _arrays = field_validator("tests", "exclude", mode="before")(_as_tuple)
     _unique = field_validator("tests", "exclude")(_once)

@@ -42,7 +42,7 @@ def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect | Ran
         correct = measures.share_correct(trials)
         effects.append(RankEffect(_effect("right answers pattern", correct, "pattern")))
     asked = measures.rating(study.questionnaire)
-    if asked.values.size:
+    if len(asked.factors["transparency"]) == 2:
         effects.append(RankEffect(_effect("rating, overall", asked)))
     if any(len(e.people.values if isinstance(e, RankEffect) else e.values) < 2 for e in effects):
         raise InputError(f"--effect = {folder}: expected at least 2 complete participants")
@@ -50,7 +50,7 @@ def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect | Ran
 
 
 def _effect(name: str, cells: Cells, task: str | None = None) -> SampledEffect:
+    """Whoever has both levels of it, as in the report."""
     where = {} if task is None else {"task": task}
-    return SampledEffect(
-        name, np.stack([cells.at(**where, transparency=level) for level in LEVELS], axis=1)
-    )
+    pairs = np.stack([cells.at(**where, transparency=level) for level in LEVELS], axis=1)
+    return SampledEffect(name, pairs[np.isfinite(pairs).all(axis=1)])

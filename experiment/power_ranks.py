@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from analysis.stats.ranks import sign_test
+from analysis.stats.ties import difference_signs
 from experiment.power import NormalEffect, SampledEffect
 
 Array = NDArray[np.float64]
@@ -39,9 +40,9 @@ class RankEffect:
     def found(self, values: Array, alpha: float) -> NDArray[np.bool_]:
         """(replications,) whether the exact test of (replications, n, 2) values is significant."""
         table = significant(values.shape[1], alpha)
-        wins = (values[..., 0] > values[..., 1]).sum(axis=1)
-        losses = (values[..., 0] < values[..., 1]).sum(axis=1)
-        return table[wins, losses]
+        first, second = values.reshape(-1, 2).T
+        sign = difference_signs(first, second).reshape(values.shape[:2])
+        return table[(sign > 0).sum(axis=1), (sign < 0).sum(axis=1)]
 
     def exact(self, n: int, alpha: float) -> float:
         """Power by the trinomial of wins, losses and ties."""
@@ -52,8 +53,8 @@ class RankEffect:
         if isinstance(self.people, NormalEffect):
             larger = float(special.ndtr(self.people.dz()))
             return larger, 1.0 - larger
-        a, b = self.people.values.T
-        return float(np.mean(a > b)), float(np.mean(a < b))
+        sign = difference_signs(*self.people.values.T)
+        return float(np.mean(sign > 0)), float(np.mean(sign < 0))
 
 
 @cache

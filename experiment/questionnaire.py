@@ -129,9 +129,13 @@ def _plate(item: str, plate: Plate) -> Step:
 
 
 def _comparison(person: Input, given: Given) -> list[Row]:
-    answers = person.ask(blocks.comparison())
+    page = blocks.comparison()
+    answers = person.ask(page)
+    options = next(b.options for b in page.blocks if isinstance(b, Choice))
+    chosen = options[int(answers["preference"])].removeprefix("name.")
     return [
-        _row("preference", str(int(answers["preference"] == "0"))),
+        # the paper's 1 and 0; who prefers neither is told from who prefers the standard by the text
+        _row("preference", str(int(chosen == "dynamic")), text=chosen),
         _row("depth_self_report", answers["depth_self_report"]),
     ]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
@@ -89,7 +90,7 @@ class Single:
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """Everything that is read from published.toml."""
+    """Everything that is read from published.toml; `margins` are ours, of the study file."""
 
     participants: int
     trials: int
@@ -103,6 +104,7 @@ class Published:
     rating_items: int
     rating_highest: int
     single: tuple[Single, ...]
+    margins: Mapping[str, float]
 
     def measure(self, name: str) -> PublishedMeasure:
         return next(m for m in self.measures if m.name == name)
@@ -126,7 +128,14 @@ def load_published() -> Published:
         rating["items"],
         rating["highest"],
         tuple(Single(s["name"], s["label"], s["highest"], _moments(s)) for s in raw["single"]),
+        margins(),
     )
+
+
+def margins() -> dict[str, float]:
+    """What the shipped study file of this design declares; the paper itself declares none."""
+    study = tomllib.loads((files("configs") / "published.toml").read_text(encoding="utf-8"))
+    return dict(study["analysis"]["margins"])
 
 
 def _moments(raw: dict[str, Any]) -> Moments:

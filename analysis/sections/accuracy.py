@@ -15,15 +15,14 @@ from analysis.comparison import (
     corrected,
     decisive,
     measure,
-    no_difference,
 )
+from analysis.equivalence import no_difference
 from analysis.figures.comparison import bars_and_differences
 from analysis.measures import distance, over_tasks, relative_error, share_correct
 from analysis.page.blocks import Block, Prose, Section, Table, more, say
-from analysis.plan import Plan
 from analysis.sections.context import Context
 from analysis.sections.ordinal import friedman_row, friedman_sentence, friedman_table
-from analysis.sections.tables import cell_table, keep, missing_note, name_of
+from analysis.sections.tables import cell_table, keep, name_of, of_people
 from analysis.stats.undefined import is_defined
 
 CELLS_SHOWN = ("task", "transparency", "n", "trials", "mean", "sd", "median")
@@ -32,13 +31,17 @@ CELLS_SHOWN = ("task", "transparency", "n", "trials", "mean", "sd", "median")
 def error_measures(context: Context, signed: bool = True) -> list[Measure]:
     """Relative count error, combined (mean of the counting tasks) and by task."""
     cells = relative_error(context.trials, signed)
-    context.missing["relative error" if signed else "absolute relative error"] = cells.missing
+    context.lacking("relative error" if signed else "absolute relative error", cells)
     tasks = cells.factors["task"]
     prefix = "error" if signed else "absolute_error"
     found = []
     if len(tasks) > 1:
-        found.append(measure(f"{prefix}_combined", "T1 + T4", "", 3, over_tasks(cells)))
-    found += [measure(f"{prefix}_{t}", name_of(t), "", 3, cells, "counting", task=t) for t in tasks]
+        both = over_tasks(cells)
+        found.append(measure(f"{prefix}_combined", "T1 + T4", "", 3, both, kind="count_error"))
+    found += [
+        measure(f"{prefix}_{t}", name_of(t), "", 3, cells, "counting", "count_error", task=t)
+        for t in tasks
+    ]
     return keep(found)
 
 
@@ -57,8 +60,9 @@ def accuracy_section(context: Context) -> tuple[Section, list[Table]]:
     """The section, and the tables that the second prediction is answered from."""
     measures = error_measures(context)
     place = distance(context.trials)
-    context.missing["distance"] = place.missing
-    every = keep([*measures, measure("distance_unique", "T3 distance", "units", 2, place)])
+    context.lacking("distance", place)
+    marks = measure("distance_unique", "T3 distance", "units", 2, place, kind="distance")
+    every = keep([*measures, marks])
     blocks: list[Block] = []
     tables: list[Table] = []
     if every:
@@ -68,7 +72,7 @@ def accuracy_section(context: Context) -> tuple[Section, list[Table]]:
         )
         tests = _tests("tests_accuracy", "Accuracy, standard against dynamic", note, every, context)
         tables.append(tests)
-        blocks += [_sentence(tests, m, context.plan) for m in every]
+        blocks += [_sentence(tests, m, context) for m in every]
         blocks += [tests, more(tests, MORE_TITLE, MORE)]
         if measures:
             title = "Relative count error"
@@ -79,24 +83,25 @@ def accuracy_section(context: Context) -> tuple[Section, list[Table]]:
         note = "Σ abs(answer − true) / Σ true over a participant's trials of a condition."
         tests = _tests("tests_absolute_error", title, note, absolute, context)
         tables.append(tests)
-        blocks += [*(_sentence(tests, m, context.plan) for m in absolute), tests]
+        blocks += [*(_sentence(tests, m, context) for m in absolute), tests]
     correct, right = _correct(context)
-    blocks += [*correct, *missing_note(place.missing)]
+    blocks += correct
     if not blocks:
         blocks.append(say("Nobody has an accuracy measure under both transparency levels."))
     return Section("accuracy", "Accuracy", tuple(blocks)), [*tables, *([right] if right else [])]
 
 
 def _tests(key: str, title: str, note: str, measures: Sequence[Measure], context: Context) -> Table:
-    return replace(compare(measures, context.plan.margin), key=key, title=title, note=note)
+    return replace(compare(measures, context.plan.margins), key=key, title=title, note=note)
 
 
-def _sentence(tests: Table, m: Measure, plan: Plan) -> Prose:
+def _sentence(tests: Table, m: Measure, context: Context) -> Prose:
     row = tests.row(m.key)
     what = measured(m.key, m.label)
     start = say(
-        f"{what[0].upper()}{what[1:]}: M = {{}} (SD = {{}}) standard, {{}} (SD = {{}}) dynamic, "
-        "{}.",
+        f"{what[0].upper()}{what[1:]}{{}}: M = {{}} (SD = {{}}) standard, {{}} (SD = {{}}) "
+        "dynamic, {}.",
+        of_people(tests, m.key, context),
         tests.cite(m.key, "mean_standard"),
         tests.cite(m.key, "sd_standard"),
         tests.cite(m.key, "mean_dynamic"),
@@ -104,20 +109,20 @@ def _sentence(tests: Table, m: Measure, plan: Plan) -> Prose:
         [*apa_f(tests, m.key), *corrected(tests, m.key)],
     )
     p = decisive(row)[1]
-    if not is_defined(p) or p < plan.alpha:
+    if not is_defined(p) or p < context.plan.alpha:
         return start
-    return Prose((*start.runs, *no_difference(tests, m.key, plan.margin, plan.alpha)))
+    return Prose((*start.runs, *no_difference(tests, m.key, context.plan.alpha)))
 
 
 def _correct(context: Context) -> tuple[list[Block], Table | None]:
     """Shares of right answers; the blocks, and the table of Friedman's tests."""
     cells = share_correct(context.trials)
-    context.missing["share correct"] = cells.missing
+    context.lacking("share correct", cells)
     table = cell_table("correct_cells", "Share of right answers", cells, CELLS_SHOWN, kind="bound")
     tasks = cells.factors["task"]
     rows, found = [], []
     for i, task in enumerate(tasks):
-        m = measure(f"correct_{task}", name_of(task), "", 3, cells, "tasks", task=task)
+        m = measure(f"correct_{task}", name_of(task), "", 3, cells, "tasks", "correct", task=task)
         if m is not None:
             found.append(m)
             rows.append(friedman_row(m, context, 10 + i))
@@ -125,7 +130,7 @@ def _correct(context: Context) -> tuple[list[Block], Table | None]:
         return [table], None
     add_holm(rows, found, "p_exact")
     tests = friedman_table("friedman_correct", "Right answers: Friedman tests", rows, True)
-    said = [friedman_sentence(tests, str(r["measure"]), _said(r), context.plan) for r in rows]
+    said = [friedman_sentence(tests, str(r["measure"]), _said(r), context) for r in rows]
     return [*said, table, tests], tests
 
 

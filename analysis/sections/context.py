@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.random import Generator
 
-from analysis.cells import Missing
+from analysis.cells import Cells, Missing
 from analysis.exclude import Excluded
 from analysis.load.study import Study
 from analysis.plan import Plan
@@ -27,6 +27,15 @@ class Context:
     excluded: tuple[Excluded, ...]
     seed: int
     missing: dict[str, tuple[Missing, ...]] = field(default_factory=dict)
+
+    @property
+    def people(self) -> int:
+        """How many participants have data."""
+        return int(self.study.trials["participant"].nunique())
+
+    def lacking(self, analysis: str, cells: Cells) -> None:
+        """Note who lacks a cell of an analysis: left out of what needs that cell."""
+        self.missing[analysis] = cells.missing
 
     def rng(self, purpose: int) -> Generator:
         """A stream of its own for each purpose: analysis streams are (3, …)."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from analysis.comparison import Measure, compare
-from analysis.difficulty import QUANTITIES, Balance, balance, with_certificate
+from analysis.difficulty import ONLY_BETWEEN, QUANTITIES, Balance, balance, with_certificate
 from analysis.page.blocks import Block, Cited, Column, Prose, Table, say
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
-from analysis.stats.undefined import is_defined
+from analysis.stats.undefined import Undefined, is_defined
 
 LARGE = 0.25
 """Standardised difference from which covariates count as unbalanced (Stuart 2010)."""
@@ -26,10 +26,8 @@ COLUMNS = (
     Column("high", "to", "sig3", "95 % interval"),
     Column("smd", "in SD of scenes", "fixed2", "dynamic − standard"),
     Column("p", "p", "p"),
-    Column("tost_margin", "margin", "sig3", "of equivalence"),
-    Column("tost_p", "p (TOST)", "p"),
 )
-SHOWN = tuple("task quantity mean_standard mean_dynamic difference smd p tost_p".split())
+SHOWN = tuple("task quantity n mean_standard mean_dynamic difference smd p".split())
 
 
 def difficulty_blocks(context: Context) -> list[Block]:
@@ -53,7 +51,7 @@ def difficulty_blocks(context: Context) -> list[Block]:
 
 def _table(context: Context, found: Sequence[Balance], note: str) -> Table:
     measures: list[Measure] = [b.measure for b in found]
-    tests = compare(measures, context.plan.margin)
+    tests = compare(measures, context.plan.margins)
     rows = []
     for b in found:
         own = tests.row(b.measure.key)
@@ -71,9 +69,16 @@ def _table(context: Context, found: Sequence[Balance], note: str) -> Table:
     return Table("difficulty", title, COLUMNS, tuple(rows), SHOWN, note)
 
 
+def _named(found: Sequence[Balance]) -> str:
+    return "; ".join(f"{name_of(b.task)}, {QUANTITIES[b.quantity]}" for b in found)
+
+
 def _sentence(table: Table, found: Sequence[Balance]) -> Prose:
     """The largest standardised difference by name, and which pass the usual limit."""
     known = [(abs(b.smd), b) for b in found if is_defined(b.smd)]
+    apart = [b for b in found if b.smd == Undefined(ONLY_BETWEEN)]
+    if apart and not known:
+        return say("Difficulty: the scenes of the two levels differ in {}.", _named(apart))
     if not known:
         return say("Difficulty: within each task all scenes are alike in what is known of them.")
     _, worst = max(known, key=lambda pair: pair[0])
@@ -82,9 +87,9 @@ def _sentence(table: Table, found: Sequence[Balance]) -> Prose:
         table.cite(worst.measure.key, "smd"),
         f" SD of scenes ({name_of(worst.task)}, {QUANTITIES[worst.quantity]})",
     ]
-    over = [b for smd, b in known if smd >= LARGE]
+    over = [*(b for smd, b in known if smd >= LARGE), *apart]
     if over:
-        named = "; ".join(f"{name_of(b.task)}, {QUANTITIES[b.quantity]}" for b in over)
+        named = _named(over)
         runs.append(f". Apart by {LARGE} SD or more, so that times may differ for it: {named}.")
     else:
         runs.append(f"; none reaches {LARGE} SD, the usual limit of balance.")

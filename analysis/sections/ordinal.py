@@ -9,17 +9,12 @@ from typing import Any
 import numpy as np
 
 from analysis.cells import Cells
-from analysis.comparison import (
-    Measure,
-    corrected,
-    decisive,
-    no_difference,
-    sd_of,
-    tost_columns,
-)
+from analysis.comparison import Measure, corrected, decisive, sd_of
+from analysis.equivalence import COLUMNS as EQUIVALENCE
+from analysis.equivalence import equivalence, no_difference
 from analysis.page.blocks import Column, Prose, Table, say
-from analysis.plan import Plan
 from analysis.sections.context import Context
+from analysis.sections.tables import of_people
 from analysis.stats.ranks import friedman, post_hoc
 from analysis.stats.undefined import is_defined
 
@@ -35,24 +30,19 @@ FRIEDMAN = (
     Column("chi2", "χ²", "fixed2"),
     Column("df", "df", "int"),
     Column("p", "p (χ²)", "p"),
-    Column("p_exact", "p (exact)", "p"),
-    Column("p_holm", "p (Holm)", "p", "of the exact p"),
+    Column("p_exact", "p (permutation)", "p", "enumerated, or drawn where that is too long"),
+    Column("p_holm", "p (Holm)", "p", "of the permutation p"),
     Column("method", "by"),
-    Column("w", "Kendall's W", "bound2", "95 % bootstrap interval", "w_low", "w_high"),
-    Column("w_low", "W from", "bound3", "95 % bootstrap interval"),
-    Column("w_high", "W to", "bound3", "95 % bootstrap interval"),
+    Column("w", "Kendall's W", "bound2"),
     Column("difference", "standard − dynamic", "fixed3", "mean"),
-    Column("tost_margin", "margin", "sig3", "of equivalence"),
-    Column("tost_p", "p (TOST)", "p", "of the means"),
-    Column("low90", "90 % from", "sig3"),
-    Column("high90", "90 % to", "sig3"),
+    *EQUIVALENCE,
 )
-_OF_TWO = ("p_holm", "mean_", "sd_", "difference", "tost_", "low90", "high90")
+_OF_TWO = ("p_holm", "mean_", "sd_", "difference", "tost_", "noninferior_p", "low90", "high90")
 """Columns that only a comparison of two conditions has."""
 
 
 def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, Any]:
-    """Friedman's test of the two levels; for k = 2 its exact p is the sign test's."""
+    """Friedman's test of the two levels; for k = 2 its permutation p is the exact sign test's."""
     result = friedman(np.stack([m.standard, m.dynamic], axis=1), context.rng(purpose))
     return {
         "measure": m.key,
@@ -69,10 +59,8 @@ def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, Any]:
         "p_exact": result.exact,
         "method": result.method,
         "w": result.w,
-        "w_low": result.w_interval[0],
-        "w_high": result.w_interval[1],
         "difference": float((m.standard - m.dynamic).mean()),
-        **tost_columns(m, context.plan.margin),
+        **equivalence(m.standard, m.dynamic, m.kind, context.plan.margins),
     }
 
 
@@ -86,16 +74,23 @@ def friedman_table(
     columns = tuple(
         replace(c, style="bound3") if shares and c.style == "fixed3" else c for c in FRIEDMAN
     )
-    methods = sorted({str(r["method"]) for r in rows} - {"", "exact"})
-    note = f"Exact p: by {' or '.join(methods)}." if methods else ""
-    return Table(key, title, columns, tuple(rows), SHOWN, note)
+    note = "Of two conditions, p (permutation) is the exact sign test's. "
+    if any(is_defined(r["tost_margin"]) for r in rows):
+        note += (
+            "TOST and “no worse” are t tests of the means of shares, whose level holds roughly: "
+            "with few trials a cell and shares near 1 they reject in up to .10 for .05."
+        )
+    shown = SHOWN if note.endswith(".") else tuple(c for c in SHOWN if c != "tost_p")
+    return Table(key, title, columns, tuple(rows), shown, note.strip())
 
 
-def friedman_sentence(table: Table, key: str, what: str, plan: Plan) -> Prose:
+def friedman_sentence(table: Table, key: str, what: str, context: Context) -> Prose:
     """Both means, χ² and both p; where no difference is shown, whether equality is."""
+    people = of_people(table, key, context)
     if not is_defined(table.row(key)["chi2"]):
         return say(
-            f"{what}: M = {{}} standard, {{}} dynamic; {{}}.",
+            f"{what}{{}}: M = {{}} standard, {{}} dynamic; {{}}.",
+            people,
             table.cite(key, "mean_standard"),
             table.cite(key, "mean_dynamic"),
             table.cite(key, "chi2"),
@@ -103,8 +98,9 @@ def friedman_sentence(table: Table, key: str, what: str, plan: Plan) -> Prose:
     p, exact = table.cite(key, "p"), table.cite(key, "p_exact")
     signs = ["" if c.text.startswith("<") else "= " for c in (p, exact)]
     said = say(
-        f"{what}: M = {{}} standard, {{}} dynamic; Friedman χ²({{}}) = {{}}, p {signs[0]}{{}}, "
-        f"exact p {signs[1]}{{}}, Kendall's W = {{}}.",
+        f"{what}{{}}: M = {{}} standard, {{}} dynamic; Friedman χ²({{}}) = {{}}, p {signs[0]}{{}}, "
+        f"exact p (sign test) {signs[1]}{{}}, Kendall's W = {{}}.",
+        people,
         table.cite(key, "mean_standard"),
         table.cite(key, "mean_dynamic"),
         table.cite(key, "df"),
@@ -115,9 +111,10 @@ def friedman_sentence(table: Table, key: str, what: str, plan: Plan) -> Prose:
     )
     said = Prose((*said.runs[:-1], *corrected(table, key), "."))
     _, deciding = decisive(table.row(key))
-    if is_defined(deciding) and deciding < plan.alpha:
+    alpha = context.plan.alpha
+    if is_defined(deciding) and deciding < alpha:
         return said
-    return Prose((*said.runs, *no_difference(table, key, plan.margin, plan.alpha)))
+    return Prose((*said.runs, *no_difference(table, key, alpha)))
 
 
 PAIRS = (
@@ -132,6 +129,7 @@ PAIRS = (
 
 def four_conditions(context: Context, cells: Cells, purpose: int) -> list[Table]:
     """Friedman over transparency × scenario, with both post-hoc tests; none for fewer than 3."""
+    cells = cells.whole()
     levels = [(c, s) for c in cells.factors["transparency"] for s in cells.factors["scenario"]]
     if len(levels) < 3 or len(cells.values) < 2:
         return []
@@ -149,8 +147,6 @@ def four_conditions(context: Context, cells: Cells, purpose: int) -> list[Table]
         "p_exact": result.exact,
         "method": result.method,
         "w": result.w,
-        "w_low": result.w_interval[0],
-        "w_high": result.w_interval[1],
     }
     shown = tuple("label n k chi2 df p p_exact method w".split())
     title = "Overall rating in the four conditions: Friedman test"

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import pandas as pd
 
-from analysis.exclude import REPEATED, RULES
+from analysis.exclude import why
+from analysis.load.schema import TRANSPARENCY
 from analysis.measures import design
 from analysis.page.blocks import Block, Column, Fold, Prose, Section, Table, say
+from analysis.plan import config_of
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
+from analysis.stats.distributions import detectable
 
 COUNTS = (
     Column("participant", "participant"),
@@ -38,14 +43,23 @@ def participants_section(context: Context) -> Section:
     )
     blocks.append(
         say(
-            "{} participants completed {} trials; {} count and {} are excluded.",
+            f"{{}} {'participant has' if people == 1 else 'participants have'} data of {{}} "
+            "trials; {} count and {} are excluded.",
             total.cite("participants", "count"),
             total.cite("trials recorded", "count"),
             total.cite("trials counted", "count"),
             total.cite("trials excluded", "count"),
         )
     )
-    counted = [total, _cells(context.trials), *([counts] if people <= 200 else [])]
+    found = reach(context)
+    if found is not None:
+        blocks.append(reach_sentence(found))
+    counted = [
+        total,
+        *([found] if found else []),
+        _cells(context.trials),
+        *([counts] if people <= 200 else []),
+    ]
     blocks += [
         *_deviations(context),
         *_excluded(context),
@@ -53,7 +67,7 @@ def participants_section(context: Context) -> Section:
         Fold("Trials by cell and by participant", tuple(counted)),
     ]
     if plan.exclude:
-        said = "; ".join(f"{r}: {RULES[r][0] if r in RULES else 'by name'}" for r in plan.exclude)
+        said = "; ".join(f"{r}: {why(r, plan.too_fast)}" for r in plan.exclude)
         blocks.append(say(f"Exclusion rules: {said}.", kind="note"))
     return Section("participants", "Participants and data", tuple(blocks))
 
@@ -117,13 +131,12 @@ def _deviations(context: Context) -> list[Prose]:
 def _excluded(context: Context) -> list[Block]:
     if not context.excluded:
         return []
-    said = {REPEATED: "a later attempt replaced it", **{k: v[0] for k, v in RULES.items()}}
     rows = tuple(
         {
             "row_id": e.row_id,
             "participant": e.participant,
             "rule": e.rule,
-            "why": said.get(e.rule, "left out by name"),
+            "why": why(e.rule, context.plan.too_fast),
             "file": e.file,
             "row": e.row,
         }
@@ -152,8 +165,9 @@ def _missing(context: Context) -> list[Block]:
         for where, missing in context.missing.items()
         for m in missing
     )
+    unmet = _unmet(context)
     if not rows:
-        return [say("No participant lacks a cell of an analysis.", kind="note")]
+        return unmet or [say("No participant lacks a cell of an analysis.", kind="note")]
     columns = (
         Column("key", "key"),
         Column("where", "left out of"),
@@ -161,4 +175,61 @@ def _missing(context: Context) -> list[Block]:
         Column("cells", "missing cells"),
     )
     shown = ("where", "participant", "cells")
-    return [Table("missing", "Participants left out for missing cells", columns, rows, shown)]
+    title = "Participants left out for missing cells"
+    note = "Left out of what needs the cell, and of nothing else."
+    return [*unmet, Table("missing", title, columns, rows, shown, note)]
+
+
+def _unmet(context: Context) -> list[Block]:
+    """What nobody has a counted trial of, though the study plans it (or the other level is met)."""
+    there = design(context.trials)
+    plans = [config_of(sidecar).get("design") for sidecar in context.study.sidecars.values()]
+    plan = next((p for p in plans if isinstance(p, Mapping)), {})
+    tasks = plan.get("tasks") or there["task"]
+    levels = plan.get("transparency") or TRANSPARENCY
+    sizes = context.trials.groupby(["task", "transparency"], observed=True).size()
+    gone = [f"{name_of(t)}, {c}" for t in tasks for c in levels if (t, c) not in sizes]
+    if not gone:
+        return []
+    return [say(f"Nobody has a trial that counts of: {'; '.join(gone)}.", kind="warning")]
+
+
+FEW = 10
+"""Participants below which the report warns that they are few."""
+POWER = 0.80
+REACH = (
+    Column("what", "what"),
+    Column("n", "n", "int"),
+    Column("alpha", "α", "bound3"),
+    Column("power", "power", "bound2"),
+    Column("dz", "d_z", "fixed2", "the smallest that is found so often"),
+)
+
+
+def reach(context: Context) -> Table | None:
+    """The smallest standardised difference that as many participants find in 80 % of studies."""
+    n, alpha = context.people, context.plan.alpha
+    if n < 2:
+        return None
+    row = {"what": "paired test", "n": n, "alpha": alpha, "power": POWER}
+    row["dz"] = detectable(n, alpha, POWER)
+    return Table("smallest_effect", "What so many participants can find", REACH, (row,))
+
+
+def reach_sentence(found: Table) -> Prose:
+    """What that means; a warning where the participants are few."""
+    key = "paired test"
+    cited = [found.cite(key, "n"), found.cite(key, "dz"), found.cite(key, "power")]
+    if found.row(key)["n"] >= FEW:
+        return say(
+            "With {} participants a paired test finds a difference of d_z = {} in a share of {} of "
+            "studies, and smaller ones less often: no difference shown is not none.",
+            *cited,
+        )
+    return say(
+        "Only {} participants: a difference must be as large as d_z = {} for a paired test to find "
+        "it in a share of {} of studies. Intervals and p rest on normal differences, which so few "
+        "values cannot show: read every number here as rough.",
+        *cited,
+        kind="warning",
+    )

@@ -51,9 +51,10 @@ def provenance_section(context: Context) -> Section:
 def _plan(plan: Plan) -> str:
     frozen = "frozen" if plan.frozen is not None else "defaults"
     rules = ", ".join(plan.exclude) or "none"
+    margins = ", ".join(f"{name} {value:g}" for name, value in plan.margins.items())
     return (
         f"{frozen}; alpha {plan.alpha:g}; exclusions: {rules}; tests: {', '.join(plan.tests)}; "
-        f"equivalence margin {plan.margin:g} of the standard mean; "
+        f"declared margins: {margins or 'none'}; "
         f"{len(plan.deviations)} deviations"
     )
 

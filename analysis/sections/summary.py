@@ -2,58 +2,107 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from analysis.comparison import apa_f, decisive
+from analysis.equivalence import no_ratio
 from analysis.page.blocks import Cited, Prose, Section, Table, say
 from analysis.plan import Plan
 from analysis.sections.accuracy import measured
 from analysis.sections.context import Context
+from analysis.sections.participants import reach, reach_sentence
+from analysis.sections.tables import INTERACTION
 from analysis.stats.undefined import is_defined
 
 PLANNING = " (simulated participants)"
 
 
 def summary_section(
-    context: Context, logs: Table | None, accuracy: Sequence[Table], single: Table | None
+    context: Context, times: Sequence[Table], accuracy: Sequence[Table], single: Table | None
 ) -> Section:
-    """P1 faster, P2 not less accurate, P3 depth perception, by name; then where numbers are."""
+    """P1 faster, P2 not less accurate, P3 depth perception, by name; then where numbers are.
+
+    `times`: the log tests and, where there is one, the ANOVA of transparency × task.
+    """
     note = PLANNING if context.study.source == "simulated" else ""
     blocks = [
-        _faster(context, logs, note),
+        *_few(context),
+        _faster(context, times, note),
         _accurate(context.plan, accuracy, note),
         _depth(single, note),
     ]
     return Section("summary", "In short", (*blocks, *places(blocks)))
 
 
-def _faster(context: Context, logs: Table | None, note: str) -> Prose:
+def _few(context: Context) -> list[Prose]:
+    """A warning where there are few participants."""
+    if context.people == 1:
+        return [say("Only 1 participant: nothing can be tested.", kind="warning")]
+    found = reach(context)
+    said = reach_sentence(found) if found else None
+    return [said] if said is not None and said.kind == "warning" else []
+
+
+def _faster(context: Context, times: Sequence[Table], note: str) -> Prose:
     start = f"P1, dynamic transparency is faster{note}: "
-    if logs is None or not logs.rows:
-        return say(f"{start}not answered, nobody has complete times.", kind="answer")
+    if not times or not times[0].rows:
+        return say(f"{start}not answered, nobody has times under both levels.", kind="answer")
+    logs, plan = times[0], context.plan
     key = str(logs.rows[0]["measure"])
     row = logs.row(key)
     if not is_defined(row["p"]):
         return say(f"{start}{{}}.", logs.cite(key, "p"), kind="answer")
-    plan = context.plan
-    supported = row["p"] < plan.alpha
     tasks = [r for r in logs.rows if r["p_holm"] is not None and is_defined(r["p_holm"])]
-    slower = [r for r in tasks if r["p_holm"] < plan.alpha and r["ratio"] > 1]
-    verdict = "supported" if not slower else "supported over all tasks together, not in each"
-    if not supported or row["ratio"] > 1:
-        verdict = "contradicted: it is slower" if supported else "not shown"
+    differ = _interaction(times[1:], plan.alpha)
     said = say(
-        f"{start}{verdict}. The geometric mean of times with it is {{}} of that without, 95 % CI "
-        "[{}, {}], {}.",
+        f"{start}{_verdict_of_time(row, tasks, bool(differ), plan.alpha)}. The geometric mean of "
+        "times with it is {} of that without, 95 % CI [{}, {}], {}.",
         logs.cite(key, "ratio"),
         logs.cite(key, "ratio_low"),
         logs.cite(key, "ratio_high"),
         apa_f(logs, key),
         kind="answer",
     )
-    runs = said.runs if supported else (*said.runs, *no_ratio(logs, key, plan.alpha))
-    return Prose((*runs, *_by_task(logs, tasks, plan.alpha)), "answer")
+    shown = row["p"] < plan.alpha
+    runs = said.runs if shown else (*said.runs, *no_ratio(logs, key, plan.alpha))
+    return Prose((*runs, *differ, *_by_task(logs, tasks, plan.alpha)), "answer")
+
+
+def _verdict_of_time(row: Any, tasks: Sequence[Any], differ: bool, alpha: float) -> str:
+    """The overall test's verdict, and whether the tasks bear it out."""
+    if row["p"] >= alpha:
+        return "not shown"
+    if row["ratio"] > 1:
+        return "contradicted: it is slower"
+    slower = [r for r in tasks if r["p_holm"] < alpha and r["ratio"] > 1]
+    unshown = [r for r in tasks if r["p_holm"] >= alpha]
+    if slower or (differ and unshown):
+        return "supported over all tasks together, not in each"
+    return "supported"
+
+
+def _interaction(anova: Sequence[Table], alpha: float) -> list[str | Cited]:
+    """Where the technique's effect differs between tasks, an overall ratio is no task's effect."""
+    if not anova:
+        return []
+    table, effect = anova[0], INTERACTION
+    row = table.row(effect)
+    if not is_defined(row["p_gg"]) or row["p_gg"] >= alpha:
+        return []
+    p = table.cite(effect, "p_gg")
+    return [
+        " The ratio differs between tasks (F(",
+        table.cite(effect, "df1"),
+        ",\u00a0",
+        table.cite(effect, "df2"),
+        ") = ",
+        table.cite(effect, "F"),
+        ", p " if p.text.startswith("<") else ", p = ",
+        p,
+        "), so the one over all tasks is a mean of unlike effects, and the tasks' own are what "
+        "to read.",
+    ]
 
 
 def _by_task(logs: Table, tasks: Sequence[Any], alpha: float) -> list[str | Cited]:
@@ -69,34 +118,26 @@ def _by_task(logs: Table, tasks: Sequence[Any], alpha: float) -> list[str | Cite
         runs += ["; " if i else "", f"{row['label']} {words}, ratio "]
         runs += [logs.cite(str(row["measure"]), "ratio"), ", p "]
         runs += ["" if p.text.startswith("<") else "= ", p]
-        if words == "no difference shown":
+        if words == "no difference shown" and is_defined(row["tost_p"]):
             runs += _p(logs, row, "tost_p")
     return [*runs, "."]
 
 
-def no_ratio(logs: Table, key: str, alpha: float) -> tuple[str | Cited, ...]:
-    """Where no difference of log times is shown: is equivalence?"""
-    p = logs.cite(key, "tost_p")
-    if not is_defined(p.value):
-        return say(" Whether the times are equivalent is {}.", p).runs
-    verdict = "equivalence is shown" if p.value < alpha else "equivalence is not shown either"
-    return say(
-        f" For a ratio between 1 / {{}} and {{}}, p {'' if p.text.startswith('<') else '= '}{{}} "
-        f"(TOST): {verdict}.",
-        logs.cite(key, "tost_margin"),
-        logs.cite(key, "tost_margin"),
-        p,
-    ).runs
+ACCURACY = (
+    "less accurate",
+    "less accurate, though by less than the margin",
+    "more accurate",
+    "no worse within the margin",
+    "not shown to be no worse",
+    "without a margin and so untested, no difference being shown",
+)
+"""What can be said of a measure of accuracy, worst first."""
 
 
 def _accurate(plan: Plan, tables: Sequence[Table], note: str) -> Prose:
+    """Non-inferiority in every measure, so that the largest p decides and none is corrected."""
     start = f"P2, dynamic transparency does not cost accuracy{note}: "
-    parts: dict[str, list[str | Cited]] = {
-        "less accurate": [],
-        "more accurate": [],
-        "equivalent within the margin": [],
-        "neither different nor shown to be equivalent": [],
-    }
+    parts: dict[str, list[str | Cited]] = {words: [] for words in ACCURACY}
     for table in tables:
         for row in table.rows:
             words, column = _verdict(row, plan.alpha)
@@ -107,42 +148,59 @@ def _accurate(plan: Plan, tables: Sequence[Table], note: str) -> Prose:
     told = {words: runs for words, runs in parts.items() if runs}
     if not told:
         return say(f"{start}not answered, no accuracy measure can be tested.", kind="answer")
-    verdict = (
-        "contradicted"
-        if "less accurate" in told
-        else "not contradicted, and not shown everywhere"
-        if "neither different nor shown to be equivalent" in told
-        else "supported"
-    )
-    runs = [f"{start}{verdict}. It is "]
+    runs = [f"{start}{_verdict_of_accuracy(told)}. It is "]
     for i, (words, own) in enumerate(told.items()):
         runs += [". It is " if i else "", f"{words} in ", *own]
-    return say(f"{{}}. Margin: {100 * plan.margin:g} % of the standard mean.", runs, kind="answer")
+    return say(f"{{}}. {_declared(plan)}", runs, kind="answer")
+
+
+def _verdict_of_accuracy(told: Collection[str]) -> str:
+    if "less accurate" in told:
+        return "contradicted"
+    if ACCURACY[5] in told:
+        return "not answered, for want of a margin declared before the data"
+    return "not shown everywhere" if ACCURACY[4] in told else "supported"
+
+
+def _declared(plan: Plan) -> str:
+    """The margins that accuracy is judged by."""
+    names = {"count_error": "relative error", "correct": "share right", "distance": "distance"}
+    own = [f"{names[k]} {v:g}" for k, v in plan.margins.items() if k in names]
+    if not own:
+        return "The study declared no margin of accuracy."
+    return (
+        f"Margins, declared before the data: {', '.join(own)}. It must be no worse in every "
+        "measure, so the largest p decides."
+    )
 
 
 def _verdict(row: Any, alpha: float) -> tuple[str, str]:
     """What a row says of accuracy, and the column of the p behind it; "" where nothing can be.
 
-    Errors and distances are better when smaller, shares of right answers (with an exact p) when
-    larger; a measure that everybody has alike says nothing here.
+    Errors and distances are better when smaller, shares of right answers (with a permutation p)
+    when larger; a measure that everybody has alike says nothing here.
     """
     share = "p_exact" in row
     column, p = decisive(row)
     # T1's, T3's and T4's answers are judged by how far off they are, T2's by right or wrong
     if (share and row["measure"] != "correct_pattern") or not is_defined(p):
         return "", ""
+    no_worse = row["noninferior_p"]
+    within = is_defined(no_worse) and no_worse < alpha
+    if p < alpha and (row["difference"] < 0) == share:
+        return "more accurate", column
     if p < alpha:
-        better = (row["difference"] < 0) == share
-        return ("more accurate" if better else "less accurate"), column
-    if is_defined(row["tost_p"]) and row["tost_p"] < alpha:
-        return "equivalent within the margin", "tost_p"
-    return "neither different nor shown to be equivalent", "tost_p"
+        return (ACCURACY[1], "noninferior_p") if within else ("less accurate", column)
+    if not is_defined(no_worse):
+        return ACCURACY[5], column
+    return (ACCURACY[3] if within else ACCURACY[4]), "noninferior_p"
 
 
 def _p(table: Table, row: Any, column: str) -> list[str | Cited]:
     """` (p = .03)`, ` (Holm-corrected p = .03)` or ` (TOST p = .2)`."""
     p = table.cite(str(row["measure"]), column)
-    name = {"tost_p": "TOST p", "p_holm": "Holm-corrected p"}.get(column, "p")
+    names = {"tost_p": "TOST p", "p_holm": "Holm-corrected p", "noninferior_p": "one-sided p"}
+    name = names.get(column, "p")
     equals = "" if p.text.startswith(("<", "undefined")) else "= "
     return [f" ({name} {equals}", p, ")"]
 
@@ -153,8 +211,8 @@ def _depth(single: Table | None, note: str) -> Prose:
     if single is None or "depth_test" not in rows:
         return say(f"{start}not asked.", kind="answer")
     return say(
-        f"{start}not testable. {{}} of 3 right on average with the technique, from {{}} "
-        "participants; nobody takes the test without it, so this describes and does not compare.",
+        f"{start}not testable. {{}} of 3 right on average with the technique (n = {{}}); nobody "
+        "takes the test without it, so this describes and does not compare.",
         single.cite("depth_test", "mean"),
         single.cite("depth_test", "n"),
         kind="answer",

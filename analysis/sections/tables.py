@@ -12,6 +12,7 @@ from analysis.comparison import Measure
 from analysis.load.schema import TASK_CODES
 from analysis.page.blocks import Cited, Column, Prose, Table, say
 from analysis.page.numbers import bounded
+from analysis.sections.context import Context
 from analysis.stats.anova import Effect, repeated_measures
 from analysis.stats.distributions import bayes_factor_f, negligible_p
 from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
@@ -36,13 +37,17 @@ EFFECTS = (
     Column("ss_effect", "SS", "sig4"),
     Column("ss_error", "SS error", "sig4"),
 )
+INTERACTION = "task × transparency"
+"""The row of the ANOVA of times that asks whether the technique's effect differs between tasks."""
 NEGLIGIBLE = 0.06
 """Partial η² below which an effect of several conditions is called negligible (Cohen: medium)."""
 
 BAYES_NOTE = (
-    "BF₁₀: JZS on the standardised contrasts (Rouder et al. 2012), the paired t's for one degree "
-    "of freedom; for more it assumes sphericity, as the uncorrected F does: where ε is far below "
-    "1, read the corrected p."
+    "BF₁₀: a multivariate Cauchy prior (scale √½) on the effect's standardised orthonormal "
+    "contrasts, participants' levels projected out; for one degree of freedom that is the JZS "
+    "factor of the paired t. For more it is not that of BayesFactor's anovaBF, which gives the "
+    "participants' levels a prior of their own: the two can differ by a tenth and "
+    "more. It assumes sphericity: where ε is far below 1, read the corrected p."
 )
 EFFECTS_SHOWN = tuple("effect df1 df2 F p eps p_gg ges pes bf10".split())
 
@@ -84,10 +89,9 @@ def effect_row(effect: Effect) -> dict[str, Any]:
     }
 
 
-def anova_table(key: str, title: str, cells: Cells, log: bool = False, note: str = "") -> Table:
-    """The repeated-measures ANOVA of all the cells' factors."""
-    values = np.log(cells.values) if log else cells.values
-    effects = repeated_measures(values, tuple(cells.factors))
+def anova_table(key: str, title: str, cells: Cells, note: str = "") -> Table:
+    """The repeated-measures ANOVA of all the cells' factors, over who has every cell."""
+    effects = repeated_measures(cells.whole().values, tuple(cells.factors))
     return Table(
         key,
         title,
@@ -100,7 +104,7 @@ def anova_table(key: str, title: str, cells: Cells, log: bool = False, note: str
 
 def testable(cells: Cells) -> bool:
     """Whether an ANOVA has anything to compare: someone complete, two levels of each factor."""
-    return len(cells.values) > 0 and min(cells.values.shape[1:]) > 1
+    return min(cells.values.shape[1:]) > 1 and len(cells.whole().values) > 0
 
 
 def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: float) -> Prose:
@@ -164,13 +168,24 @@ CELL_COLUMNS = (
 
 
 def cell_table(
-    key: str, title: str, cells: Cells, shown: Sequence[str], note: str = "", kind: str = "fixed"
+    key: str,
+    title: str,
+    cells: Cells,
+    shown: Sequence[str],
+    note: str = "",
+    kind: str = "fixed",
+    logs: Cells | None = None,
 ) -> Table:
-    """Mean and s.d. over participants of each task × transparency cell; `kind` as in `Column`."""
+    """Mean and s.d. of each task × transparency cell, over those who have it.
+
+    `kind` as in `Column`; `logs`: the same cells' mean logarithms, for the geometric mean.
+    """
     rows = []
     for i, task in enumerate(cells.factors["task"]):
         for j, level in enumerate(cells.factors["transparency"]):
-            values = cells.values[:, i, j]
+            has = np.isfinite(cells.values[:, i, j])
+            values = cells.values[has, i, j]
+            log = logs.values[has, i, j] if logs else None
             rows.append(
                 {
                     "cell": f"{task}/{level}",
@@ -179,8 +194,9 @@ def cell_table(
                     "digits": 2,
                     "kind": kind,
                     "n": len(values),
-                    "trials": int(cells.counts[:, i, j].sum()),
+                    "trials": int(cells.counts[has, i, j].sum()),
                     **_spread(values),
+                    "geometric": _geometric(log),
                 }
             )
     return Table(key, title, CELL_COLUMNS, tuple(rows), tuple(shown), note)
@@ -189,29 +205,49 @@ def cell_table(
 def _spread(values: Any) -> Mapping[str, Any]:
     n = len(values)
     if n == 0:
-        gone = Undefined("no complete participant")
-        return dict.fromkeys(("mean", "sd", "geometric", "median", "minimum", "maximum"), gone)
-    positive = bool(np.all(values > 0))
+        gone = Undefined("nobody has this cell")
+        return dict.fromkeys(("mean", "sd", "median", "minimum", "maximum"), gone)
     return {
         "mean": float(values.mean()),
         "sd": float(np.std(values, ddof=1)) if n > 1 else Undefined(ONE_PARTICIPANT),
-        "geometric": float(np.exp(np.log(values).mean()))
-        if positive
-        else Undefined("not all values are positive"),
         "median": float(np.median(values)),
         "minimum": float(values.min()),
         "maximum": float(values.max()),
     }
 
 
+def _geometric(log: Any) -> Number:
+    """exp of the mean over participants of their trials' mean logarithm."""
+    if log is None:
+        return Undefined("only times have a geometric mean here")
+    return float(np.exp(log.mean())) if len(log) else Undefined("nobody has this cell")
+
+
+def of_people(table: Table, key: str, context: Context) -> list[str | Cited]:
+    """` (n = 15 of 16)` where a row leaves somebody out; nothing where it has everybody."""
+    everybody = context.people
+    if table.row(key)["n"] == everybody:
+        return []
+    return [" (n = ", table.cite(key, "n"), f" of {everybody})"]
+
+
 def missing_note(missing: Sequence[Missing]) -> list[Prose]:
-    """Who is not in this analysis, by name, and which cells they lack."""
+    """Who lacks a cell of an analysis, by name, and what that leaves them out of."""
     if not missing:
         return []
     named = "; ".join(f"{m.participant} ({', '.join(m.cells)})" for m in missing[:20])
     more = f"; and {len(missing) - 20} more, see missing.csv" if len(missing) > 20 else ""
-    what = "participant lacks" if len(missing) == 1 else "participants lack"
-    return [say(f"{len(missing)} {what} a cell and is left out here: {named}{more}.", kind="note")]
+    one = len(missing) == 1
+    start = "1 participant lacks" if one else f"{len(missing)} participants lack"
+    left = "is" if one else "are"
+    return [
+        say(
+            f"{start} a cell: {named}{more}. Whoever lacks one {left} left out of what needs it, "
+            "and of nothing else: the tests of that task, the mean over tasks, the factorial "
+            "analyses.",
+            kind="note",
+        )
+    ]
 
 
 def keep(measures: Sequence[Measure | None]) -> list[Measure]:

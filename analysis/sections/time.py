@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from analysis.cells import Cells
 from analysis.comparison import (
@@ -19,86 +18,94 @@ from analysis.comparison import (
     decisive,
     measure,
 )
+from analysis.equivalence import no_ratio
 from analysis.figures.comparison import bars_and_differences
-from analysis.measures import by_scenario, over_tasks, scenario_of, time_by_task
+from analysis.measures import (
+    by_scenario,
+    log_time_by_task,
+    over_tasks,
+    scenario_of,
+    time_by_task,
+)
 from analysis.page.blocks import Block, Fold, Prose, Section, Table, more, say
 from analysis.sections.context import Context
-from analysis.sections.summary import no_ratio
 from analysis.sections.tables import (
+    INTERACTION,
     anova_table,
     cell_table,
     effect_sentence,
     keep,
     missing_note,
     name_of,
+    of_people,
     testable,
 )
 from analysis.stats.undefined import is_defined
 
 
-def time_measures(cells: Cells) -> list[Measure]:
-    """Overall (plain mean of the tasks) and each task, with logarithms."""
-    if not len(cells.values):
-        return []
-    logs = replace(cells, values=np.log(cells.values))
-    overall = measure("time_overall", "overall", "s", 2, over_tasks(cells))
-    found: list[tuple[Measure | None, Cells, dict[str, str]]] = []
+def time_measures(cells: Cells, logs: Cells) -> list[Measure]:
+    """Overall (plain mean of the tasks) and each task, with the mean logarithms beside.
+
+    A task's row has everybody who has that task; the overall one those who have them all.
+    """
+    found = []
     if len(cells.factors["task"]) > 1:
-        found.append((overall, over_tasks(logs), {}))
+        found.append(_timed("time_overall", "overall", "", over_tasks(cells), over_tasks(logs)))
     for task in cells.factors["task"]:
-        own = measure(f"time_{task}", name_of(task), "s", 2, cells, "tasks", task=task)
-        found.append((own, logs, {"task": task}))
-    return keep(
-        [
-            m
-            and replace(
-                m,
-                logs=(
-                    source.at(transparency="standard", **at),
-                    source.at(transparency="dynamic", **at),
-                ),
-            )
-            for m, source, at in found
-        ]
-    )
+        found.append(_timed(f"time_{task}", name_of(task), "tasks", cells, logs, task=task))
+    return keep(found)
 
 
-def time_section(context: Context) -> tuple[Section, Table | None]:
-    """The section, and the table of log tests that the first prediction is answered from."""
-    cells = time_by_task(context.trials)
-    context.missing["completion time"] = cells.missing
+def _timed(
+    key: str, label: str, family: str, cells: Cells, logs: Cells, **at: str
+) -> Measure | None:
+    raw = measure(key, label, "s", 2, cells, family, "time", **at)
+    log = measure(key, label, "s", 2, logs, family, "time", **at)
+    return replace(raw, logs=(log.standard, log.dynamic)) if raw and log else None
+
+
+def time_section(context: Context) -> tuple[Section, Sequence[Table]]:
+    """The section, and the tables that the first prediction is answered from.
+
+    They are the log tests and, where there is one, the ANOVA of transparency × task.
+    """
+    cells, log_cells = time_by_task(context.trials), log_time_by_task(context.trials)
+    context.lacking("completion time", cells)
     blocks: list[Block] = [*missing_note(cells.missing)]
     table = cell_table(
         "time_cells",
         "Completion time by task and transparency",
         cells,
         ("task", "transparency", "n", "trials", "mean", "sd", "geometric", "median"),
-        "Seconds; mean and SD over participants' means of their trials.",
+        "Seconds; mean and SD over participants' means of their trials; geometric mean over "
+        "participants' means of the logarithms of their trials.",
+        logs=log_cells,
     )
-    measures = time_measures(cells)
+    measures = time_measures(cells, log_cells)
     if not measures:
-        blocks.append(say("No participant has every task under both transparency levels."))
-        return Section("time", "Completion time", (*blocks, table)), None
-    tests = replace(compare(measures, context.plan.margin), key="tests_time")
-    logs = compare_logs(measures, context.plan.margin)
-    blocks += [_sentence(tests, logs, m, context.plan.alpha) for m in measures]
+        blocks.append(say("Nobody has a task under both transparency levels."))
+        return Section("time", "Completion time", (*blocks, table)), ()
+    tests = replace(compare(measures, context.plan.margins), key="tests_time")
+    logs = compare_logs(measures, context.plan.margins)
+    blocks += [_sentence(tests, logs, m, context) for m in measures]
     blocks.append(
         bars_and_differences("time", "Completion time by task", "time (s)", measures, tests)
     )
+    anova, factorial = _factorial(context, cells, log_cells)
     blocks += [
         logs,
         more(logs, f"Log times: {MORE_TITLE[0].lower()}{MORE_TITLE[1:]}", LOG_MORE),
         tests,
         more(tests, f"Raw times: {MORE_TITLE[0].lower()}{MORE_TITLE[1:]}", MORE),
         table,
-        *_factorial(context, cells),
+        *factorial,
     ]
-    return Section("time", "Completion time", tuple(blocks)), logs
+    return Section("time", "Completion time", tuple(blocks)), (logs, *anova)
 
 
-def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
+def _sentence(tests: Table, logs: Table, m: Measure, context: Context) -> Prose:
     """Geometric means and their ratio first; the raw test as the paper printed it."""
-    row = logs.row(m.key)
+    row, alpha = logs.row(m.key), context.plan.alpha
     name = "Over all tasks" if m.key == "time_overall" else f"In {m.label}"
     if not is_defined(row["p"]):
         return say(f"{name}: {{}}.", logs.cite(m.key, "p"))
@@ -108,9 +115,10 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
     verdict = f"participants were {faster} with dynamic transparency"
     verdict = verdict if shown else "no difference between the conditions was shown"
     sentence = say(
-        f"{name}, {verdict}: geometric means of {{}} s (standard) and {{}} s "
+        f"{name}{{}}, {verdict}: geometric means of {{}} s (standard) and {{}} s "
         "(dynamic), ratio {}, 95 % CI [{}, {}], {}. Raw times: M = {} s (SD = {}) and {} s (SD = "
         "{}), {}.",
+        of_people(logs, m.key, context),
         logs.cite(m.key, "geometric_standard"),
         logs.cite(m.key, "geometric_dynamic"),
         logs.cite(m.key, "ratio"),
@@ -126,29 +134,35 @@ def _sentence(tests: Table, logs: Table, m: Measure, alpha: float) -> Prose:
     return sentence if shown else Prose((*sentence.runs, *no_ratio(logs, m.key, alpha)))
 
 
-def _factorial(context: Context, cells: Cells) -> list[Block]:
-    """Transparency × task with Greenhouse–Geisser, and transparency × scenario on means."""
+def _factorial(context: Context, cells: Cells, logs: Cells) -> tuple[list[Table], list[Block]]:
+    """Transparency × task with Greenhouse–Geisser, and transparency × scenario on means.
+
+    The first table by itself, and all blocks.
+    """
     blocks: list[Block] = []
+    anova: list[Table] = []
     if testable(cells):
-        note = "Tasks are nested in scenarios, so task is one factor. Logarithms of seconds."
-        log = anova_table("anova_time_task_log", "Transparency × task, log time", cells, True, note)
+        note = (
+            "Tasks are nested in scenarios, so task is one factor. Logarithms of trials' seconds."
+        )
+        log = anova_table("anova_time_task_log", "Transparency × task, log time", logs, note)
         raw = anova_table("anova_time_task", "Transparency × task, seconds", cells)
-        effect = "task × transparency"
         what = (
             "The technique's effect (a ratio of times) differs between tasks",
             "The technique's effect (a ratio of times) does not demonstrably differ between tasks",
         )
-        sentence = effect_sentence(log, effect, what, context.plan.alpha)
+        anova = [log]
+        sentence = effect_sentence(log, INTERACTION, what, context.plan.alpha)
         blocks += [sentence, log, Fold("On the raw scale", (raw,))]
-    scenarios = by_scenario(cells, scenario_of(context.trials))
+    nested = scenario_of(context.trials)
+    scenarios, log_scenarios = by_scenario(cells, nested), by_scenario(logs, nested)
     if testable(scenarios):
         log = anova_table(
             "anova_time_scenario_log",
             "Transparency × scenario, log time",
-            scenarios,
-            True,
+            log_scenarios,
             "Means of the two tasks nested in each scenario.",
         )
         raw = anova_table("anova_time_scenario", "Transparency × scenario, seconds", scenarios)
         blocks += [log, Fold("On the raw scale", (raw,))]
-    return blocks
+    return anova, blocks

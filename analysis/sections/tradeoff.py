@@ -14,6 +14,7 @@ from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, sa
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
 from analysis.stats.ranks import sign_test
+from analysis.stats.ties import difference_signs
 from analysis.stats.undefined import Undefined, is_defined
 from analysis.tradeoff import Change, accuracy_by_speed, changes, correlation, scores
 
@@ -53,8 +54,10 @@ def tradeoff_section(context: Context) -> Section | None:
         CHANGES,
         tuple(_row(c) for c in found),
         tuple(c.name for c in CHANGES[1:] if c.name not in ("r_low", "r_high")),
-        "r: correlation of the changes in log time and in error. A positive r: those who gained "
-        "more time also gained more accuracy. A negative one: time was bought with errors.",
+        "r: correlation of the changes in mean log time and in error; no p is corrected for being "
+        "one of several. A positive r: those who gained "
+        "more time also gained more accuracy. A negative one: those who gained more time lost more "
+        "accuracy, as where people buy speed with errors.",
     )
     blocks: list[Block] = [
         _sentence(table, found, context.plan.alpha),
@@ -74,20 +77,20 @@ def _absent(found: Sequence[Change], everybody: Sequence[str]) -> tuple[Missing,
 
 
 def _row(c: Change) -> dict[str, object]:
-    time = np.log(c.time[:, 1] / c.time[:, 0])
-    error = c.error[:, 1] - c.error[:, 0]
-    faster = time < 0
-    r = correlation(time, error)
+    faster = difference_signs(c.log_time[:, 1], c.log_time[:, 0]) < 0
+    worse = difference_signs(c.error[:, 1], c.error[:, 0])
+    r = correlation(c.log_time[:, 1] - c.log_time[:, 0], np.diff(c.error).ravel())
+    counts = [int(np.sum(faster & (worse == sign))) for sign in (1, -1, 0)]
     return {
         "task": c.task,
         "label": name_of(c.task),
         "error": c.error_label,
-        "n": len(time),
-        "faster_worse": int(np.sum(faster & (error > 0))),
-        "faster_better": int(np.sum(faster & (error < 0))),
-        "faster_same": int(np.sum(faster & (error == 0))),
+        "n": len(faster),
+        "faster_worse": counts[0],
+        "faster_better": counts[1],
+        "faster_same": counts[2],
         "slower": int(np.sum(~faster)),
-        "p_errors": sign_test(int(np.sum(faster & (error > 0))), int(np.sum(faster & (error < 0)))),
+        "p_errors": sign_test(counts[0], counts[1]),
         "r": r.r,
         "r_low": r.interval[0],
         "r_high": r.interval[1],
@@ -120,12 +123,16 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
     verdicts = []
     if group:
         verdicts.append(
-            f"in {' and '.join(group)} most of those who became faster made more errors"
+            f"in {' and '.join(group)} most of those who became faster made more errors (the "
+            "technique's effect on both: it does not tell whether one was bought with the other)"
         )
     if gained:
-        verdicts.append(f"in {' and '.join(gained)} those who gained more time lost more accuracy")
+        verdicts.append(
+            f"in {' and '.join(gained)} those who gained more time lost more accuracy: a sign that "
+            "there speed was bought with errors"
+        )
     verdict = (
-        f"{', and '.join(verdicts)}: there speed was bought with errors"
+        ", and ".join(verdicts)
         if verdicts
         else "in no task did most of the faster make more errors, nor those who gained more time "
         "lose more accuracy, so there is no sign that speed was bought with errors"
@@ -133,7 +140,7 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
     said = say(
         f"Faster and with more errors under dynamic transparency were {{}}; {verdict}.", runs
     )
-    return said if verdicts else Prose((*said.runs, *_allowed(table, found)))
+    return said if gained else Prose((*said.runs, *_allowed(table, found)))
 
 
 def _allowed(table: Table, found: Sequence[Change]) -> list[str | Cited]:
@@ -195,11 +202,12 @@ def _scores(context: Context) -> list[Block]:
         if isinstance(values, Undefined):
             blocks.append(say(f"{label[0].upper()}{label[1:]}: {values}.", kind="note"))
         else:
-            measures.append(Measure(key, label, "", digits, values[:, 0], values[:, 1]))
+            pair = (values[:, 0], values[:, 1])
+            measures.append(Measure(key, label, "", digits, *pair, ratio_scale=key != "bis"))
     if measures:
         note = " ".join(WARNINGS[m.key] for m in measures)
         table = replace(
-            compare(measures, context.plan.margin),
+            compare(measures, context.plan.margins),
             key="tests_combined",
             title="Combined scores over all tasks (secondary)",
             shown=SCORES_SHOWN,

@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from analysis.comparison import Measure, apa_f, compare, no_difference
+from analysis.comparison import Measure, apa_f, compare
+from analysis.equivalence import no_difference
 from analysis.figures.validity import learning_figure
 from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from analysis.plan import Plan
@@ -15,6 +16,7 @@ from analysis.sections.context import Context
 from analysis.sections.difficulty import difficulty_blocks
 from analysis.sections.tables import keep, negligible, not_found
 from analysis.stats.paired import one_sample
+from analysis.stats.ties import difference_signs
 from analysis.stats.undefined import is_defined
 from analysis.validity import (
     focus_losses,
@@ -37,7 +39,7 @@ NO_DISPLAY = (
     "Missed frames are not compared: a simulated participant waits for no display, and its clock "
     "says nothing of one."
 )
-FAULTS_SHOWN = tuple("label n mean_standard mean_dynamic difference F p tost_p".split())
+FAULTS_SHOWN = tuple("label n mean_standard mean_dynamic difference F p".split())
 
 
 def validity_section(context: Context) -> Section:
@@ -188,7 +190,7 @@ def _faults(context: Context) -> list[Block]:
     if not faults:
         return [*notes]
     table = replace(
-        compare(faults, plan.margin),
+        compare(faults, plan.margins),
         key="faults",
         title=f"{'Lost' if simulated else 'Missed frames, lost'} focus and time-outs by condition",
         shown=FAULTS_SHOWN,
@@ -199,7 +201,7 @@ def _faults(context: Context) -> list[Block]:
 def _fault(table: Table, m: Measure, plan: Plan) -> Prose:
     """One kind of fault: different, equivalent, or neither is shown."""
     name = f"{m.label[0].upper()}{m.label[1:]}"
-    if np.array_equal(m.standard, m.dynamic):
+    if not difference_signs(m.standard, m.dynamic).any():
         return say(
             f"{name}: the same for everybody under both conditions (M = {{}}).",
             table.cite(m.key, "mean_standard"),
@@ -215,4 +217,4 @@ def _fault(table: Table, m: Measure, plan: Plan) -> Prose:
         return start
     if p < plan.alpha:
         return Prose((*start.runs, " This could explain part of a difference in time."))
-    return Prose((*start.runs, *no_difference(table, m.key, plan.margin, plan.alpha)))
+    return Prose((*start.runs, *no_difference(table, m.key, plan.alpha)))

@@ -35,7 +35,8 @@ class Effect:
     """One row of an ANOVA table; `p_gg` uses Greenhouse–Geisser's ε (1 for one-df effects).
 
     `ges` is generalised η² (Olejnik & Algina 2003, all factors within), `pes` partial η² with its
-    90 % interval λ/(λ + df₂) from the noncentral F.
+    90 % interval λ/(λ + df₂) from the noncentral F; that interval is undefined where F is so small
+    that it does not hold its own estimate.
     """
 
     name: str
@@ -142,8 +143,7 @@ def _effect(
     f = (ss_effect / df1) / (ss_error / df2)
     eps = _greenhouse_geisser(centred)
     w, w_p = _mauchly(centred)
-    ends = noncentral_f_interval(f, df1, df2)
-    interval = tuple(e / (e + df2) if is_defined(e) else e for e in ends)
+    pes = ss_effect / (ss_effect + ss_error)
     return Effect(
         name,
         n,
@@ -158,9 +158,16 @@ def _effect(
         w,
         w_p,
         ges,
-        ss_effect / (ss_effect + ss_error),
-        (interval[0], interval[1]),
+        pes,
+        _pes_interval(pes, f, df1, df2),
     )
+
+
+def _pes_interval(pes: float, f: float, df1: int, df2: int) -> Interval:
+    low, high = (e / (e + df2) if is_defined(e) else e for e in noncentral_f_interval(f, df1, df2))
+    if is_defined(high) and high < pes:
+        return no_interval("F is so small that the interval does not hold its estimate")
+    return low, high
 
 
 def _greenhouse_geisser(centred: Array) -> float:
@@ -173,7 +180,11 @@ def _greenhouse_geisser(centred: Array) -> float:
 
 
 def _mauchly(centred: Array) -> tuple[Number, Number]:
-    """Mauchly's W and its p, with Box's second-order term as in R's mauchly.test."""
+    """Mauchly's W and its p, with Box's second-order term.
+
+    The term takes q, the number of contrasts (Anderson 2003, section 10.7). R's mauchly.test takes
+    the number of cells there, and so gives a slightly different p.
+    """
     n, q = len(centred), centred.shape[1]
     if q == 1:
         return Undefined("one contrast is always spherical"), Undefined(

@@ -199,6 +199,13 @@ def negligible_p(f: float, df1: int, df2: int, pes: float) -> float:
     return noncentral_f_cdf(f, df1, df2, df2 * pes / (1 - pes))
 
 
+def detectable(n: int, alpha: float, power: float) -> float:
+    """The |d_z| that a two-sided paired t test of n ≥ 2 finds with this power."""
+    critical = t_quantile(1 - alpha / 2, n - 1) ** 2
+    missed = _solve(lambda nc: noncentral_f_cdf(critical, 1, n - 1, nc**2), 1 - power, 3.0, 1.0)
+    return missed / float(np.sqrt(n))
+
+
 def holm(p: list[float]) -> list[float]:
     """Holm's step-down adjusted p values, in the order given."""
     order = np.argsort(p, kind="stable")

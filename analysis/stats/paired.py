@@ -50,8 +50,7 @@ class Paired:
 
 def paired(first: Array, second: Array, level: float = 0.95) -> Paired:
     """Test `first − second` (n values each, finite) against 0 with Student's t."""
-    scale = float(max(np.max(np.abs(first), initial=0.0), np.max(np.abs(second), initial=0.0)))
-    return one_sample(first - second, scale, level)
+    return one_sample(first - second, _scale(first, second), level)
 
 
 def one_sample(scores: Array, scale: float | None = None, level: float = 0.95) -> Paired:
@@ -129,7 +128,11 @@ def ratio_of_means(first: Array, second: Array, level: float = 0.95) -> tuple[Nu
 
 @dataclass(frozen=True, slots=True)
 class Equivalence:
-    """Two one-sided tests: `p` is the larger one; the margin is symmetric about 0."""
+    """Two one-sided tests; `p` is the larger one.
+
+    `p_low`: that the difference first − second lies above the lower end, that is, that the second
+    is not larger by the margin; `p_high`: that it lies below the upper one.
+    """
 
     margin: float
     p_low: Number
@@ -149,6 +152,26 @@ def tost(scores: Array, margin: float, scale: float | None = None) -> Equivalenc
     low = t_upper((result.difference + margin) / error, result.n - 1)
     high = t_upper((margin - result.difference) / error, result.n - 1)
     return Equivalence(margin, low, high, max(low, high), result.interval)
+
+
+def ratio_within(first: Array, second: Array, theta: float, level: float = 0.90) -> Equivalence:
+    """Is mean(second) / mean(first) inside (1/θ, θ), θ > 1, for n pairs of positive values?
+
+    One-sided t tests of second − θ·first < 0 and second − first/θ > 0: exact where a test against a
+    share of the observed mean is not, for here nothing that was estimated is taken as known.
+    """
+    upper = one_sample(second - theta * first, _scale(second, theta * first))
+    lower = one_sample(second - first / theta, _scale(second, first))
+    gone = next((r.t for r in (upper, lower) if isinstance(r.t, Undefined)), None)
+    if gone is not None:
+        return Equivalence(theta, gone, gone, gone, no_interval(gone.reason))
+    p_low, p_high = t_upper(-upper.t, upper.n - 1), t_upper(lower.t, lower.n - 1)
+    ends = ratio_of_means(first, second, level)[1]
+    return Equivalence(theta, p_low, p_high, max(p_low, p_high), ends)
+
+
+def _scale(*parts: Array) -> float:
+    return float(max(np.max(np.abs(p), initial=0.0) for p in parts))
 
 
 def within_halfwidths(y: Array, level: float = 0.95) -> list[Number]:

@@ -1,13 +1,15 @@
 """Ordinal and yes/no answers: Friedman's test for k ≥ 2, signed ranks, sign test.
 
 Each has its exact (enumerated) or permutation p beside the asymptotic one; scipy's Friedman
-refuses k = 2, and its χ² is off by half at 16 participants.
+refuses k = 2, and its χ² is off by half at 16 participants. Values that are equal up to rounding
+are tied (`ties`).
 """
 
 from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.random import Generator
@@ -20,18 +22,24 @@ from analysis.stats.distributions import (
     normal_two_sided,
     studentized_range_tail,
 )
-from analysis.stats.undefined import ONE_PARTICIPANT, Interval, Number, Undefined, no_interval
+from analysis.stats.ties import STEPS, levels, signs, slack
+from analysis.stats.undefined import EPS, ONE_PARTICIPANT, Interval, Number, Undefined, no_interval
 
 Array = NDArray[np.float64]
 
 ALL_TIED = "every participant gives all conditions the same value"
 DRAWS = 20_000
+MOST_COUNTED = 2000
+"""Answers up to which a sign test counts in whole numbers."""
 _EXACT_BUDGET = 2e8
 
 
 @dataclass(frozen=True, slots=True)
 class Friedman:
-    """`exact` is the permutation p; `method` says whether it was enumerated or drawn."""
+    """`exact` is the permutation p; `method` says whether it was enumerated or drawn.
+
+    Kendall's `w` has no interval: a bootstrap's covers no true W of 0, and .79 to .86 elsewhere.
+    """
 
     n: int
     k: int
@@ -42,37 +50,35 @@ class Friedman:
     exact: Number
     method: str
     w: Number
-    w_interval: Interval
 
 
 def ranks(y: Array) -> Array:
     """Average ranks 1..k within each row of y, (n, k)."""
-    below = (y[:, None, :] < y[:, :, None]).sum(axis=-1)
-    same = (y[:, None, :] == y[:, :, None]).sum(axis=-1)
+    level = levels(y, slack(y)[:, None])
+    below = (level[:, None, :] < level[:, :, None]).sum(axis=-1)
+    same = (level[:, None, :] == level[:, :, None]).sum(axis=-1)
     return below + (same + 1) / 2
 
 
 def friedman(y: Array, rng: Generator) -> Friedman:
-    """Friedman's rank test with ties for y, (n, k ≥ 2), finite; Kendall's W by bootstrap.
+    """Friedman's rank test with ties for y, (n, k ≥ 2), finite.
 
     χ² as in Hollander & Wolfe (tie-corrected); for k = 2 it is the sign test's χ² and the exact p
-    is the sign test's. `rng` draws permutations where enumeration is too long, and the bootstrap.
+    is the sign test's. `rng` draws permutations where enumeration is too long.
     """
     n, k = y.shape
     r = ranks(y)
     means = tuple(float(m) for m in r.mean(axis=0))
-    reason = ONE_PARTICIPANT if n < 2 else ALL_TIED if np.all(y == y[:, :1]) else ""
+    reason = ONE_PARTICIPANT if n < 2 else ALL_TIED if np.all(r == r[:, :1]) else ""
     if reason:
         gone = Undefined(reason)
-        return Friedman(n, k, means, gone, k - 1, gone, gone, "", gone, no_interval(reason))
+        return Friedman(n, k, means, gone, k - 1, gone, gone, "", gone)
     spread = float(np.sum(r**2) - n * k * (k + 1) ** 2 / 4)
     statistic = float(np.sum((r.sum(axis=0) - n * (k + 1) / 2) ** 2))
     chi2 = (k - 1) * statistic / spread
     exact, method = _permutation_p(r, statistic, rng)
     w = chi2 / (n * (k - 1))
-    return Friedman(
-        n, k, means, chi2, k - 1, chi2_tail(chi2, k - 1), exact, method, w, _w_interval(r, rng)
-    )
+    return Friedman(n, k, means, chi2, k - 1, chi2_tail(chi2, k - 1), exact, method, w)
 
 
 def _permutation_p(r: Array, statistic: float, rng: Generator) -> tuple[float, str]:
@@ -118,32 +124,31 @@ def _enumerate(r: Array, statistic: float) -> float:
     centre = n * (k + 1) / 2
     value = np.sum((sums - centre) ** 2, axis=0) + (last - centre) ** 2
     # sums are multiples of 1/2, so their squares are exact: 1e-9 only absorbs n·(k+1)/2
-    return float(min(1.0, states[value >= statistic - 1e-9].sum()))
+    return _share(states, value >= statistic - 1e-9)
 
 
-def _w_interval(r: Array, rng: Generator, level: float = 0.95, draws: int = 2000) -> Interval:
-    """Bootstrap interval (percentile) of Kendall's W over participants.
-
-    Participants with the same ranks are alike, so what is drawn is how often each pattern comes.
-    """
-    n, k = r.shape
-    patterns, counts = np.unique(r, axis=0, return_counts=True)
-    own = np.sum(patterns**2, axis=1) - k * (k + 1) ** 2 / 4
-    values = []
-    for start in range(0, draws, 100):
-        weights = rng.multinomial(n, counts / n, size=min(100, draws - start))
-        sums = weights @ patterns - n * (k + 1) / 2
-        spread = weights @ own
-        good = spread > 0
-        values.append(np.sum(sums[good] ** 2, axis=1) / (n * spread[good]))
-    low, high = np.quantile(np.concatenate(values), [(1 - level) / 2, (1 + level) / 2])
-    return float(low), float(high)
+def _share(chances: Array, far: NDArray[np.bool_]) -> float:
+    """The part of all `chances` that is `far`; exactly 1 where all of it is."""
+    return float(1 / (1 + chances[~far].sum() / chances[far].sum()))
 
 
 def sign_test(wins: int, losses: int) -> float:
     """Two-sided exact binomial p of `wins` against `losses`, ties left out."""
-    total = wins + losses
-    return float(min(1.0, 2 * special.bdtr(min(wins, losses), total, 0.5))) if total else 1.0
+    return _binomial(min(wins, losses), wins + losses)
+
+
+@lru_cache(maxsize=4096)
+def _binomial(fewer: int, total: int) -> float:
+    """2 · P(X ≤ fewer) for a fair coin, at most 1: by counting, so that .0625 is .0625."""
+    if 2 * fewer >= total - 1:
+        return 1.0
+    if total > MOST_COUNTED:
+        return float(min(1.0, 2 * special.bdtr(fewer, total, 0.5)))
+    ways = term = 1
+    for i in range(fewer):
+        term = term * (total - i) // (i + 1)
+        ways += term
+    return ways / 2 ** (total - 1)
 
 
 def share_interval(hits: int, n: int, level: float = 0.95) -> Interval:
@@ -166,16 +171,23 @@ class SignedRank:
     method: str
 
 
-def signed_rank(scores: Array) -> SignedRank:
-    """Wilcoxon's signed-rank test of one score per participant; exact, with ties, up to 200."""
-    left = scores[scores != 0]
-    if len(left) == 0:
+def signed_rank(scores: Array, room: Array | None = None) -> SignedRank:
+    """Wilcoxon's signed-rank test of one score per participant; exact, with ties, up to 200.
+
+    `room` (n,): the rounding of each score (`ties.slack` of what it is the difference of); by
+    default that of the largest score.
+    """
+    if room is None:
+        room = np.full(len(scores), STEPS * EPS * np.max(np.abs(scores), initial=0.0))
+    sign = signs(scores, room)
+    left = sign != 0
+    if not np.any(left):
         gone = Undefined("all differences are zero")
         return SignedRank(0, gone, gone, "")
-    size = np.abs(left)
-    _, group, count = np.unique(size, return_inverse=True, return_counts=True)
+    group = levels(np.abs(scores[left]), room[left])
+    count = np.bincount(group)
     rank = (np.cumsum(count) - (count - 1) / 2)[group]
-    v, m = float(rank[left > 0].sum()), len(left)
+    v, m = float(rank[sign[left] > 0].sum()), len(rank)
     mean = m * (m + 1) / 4
     if m > 200:
         variance = np.sum(rank**2) / 4
@@ -188,8 +200,8 @@ def signed_rank(scores: Array) -> SignedRank:
         moved[step:] = chances[: len(chances) - step]
         chances = (chances + moved) / 2
     sums = np.arange(len(chances)) / 2
-    p = float(chances[np.abs(sums - mean) >= abs(v - mean) - 1e-9].sum())
-    return SignedRank(m, v, min(1.0, p), "exact")
+    # sums and mean are multiples of 1/4, exact as they stand
+    return SignedRank(m, v, _share(chances, np.abs(sums - mean) >= abs(v - mean)), "exact")
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,7 +222,7 @@ def post_hoc(y: Array) -> list[Pair]:
     means = ranks(y).mean(axis=0)
     error = np.sqrt(k * (k + 1) / (12 * n))
     pairs = list(itertools.combinations(range(k), 2))
-    tests = [signed_rank(y[:, a] - y[:, b]) for a, b in pairs]
+    tests = [signed_rank(y[:, a] - y[:, b], slack(y[:, a], y[:, b])) for a, b in pairs]
     known = [t.p for t in tests if not isinstance(t.p, Undefined)]
     adjusted = iter(holm(known))
     return [

@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         metavar="RULE",
         help="instead of the study's own rules (a deviation): timed_out, focus_lost, "
-        "frames_missed, participant:ID; may be repeated",
+        "frames_missed, too_fast, participant:ID; may be repeated",
     )
 
 

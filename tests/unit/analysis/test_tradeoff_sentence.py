@@ -15,7 +15,7 @@ def change(time_ratio, error_change):
     time = np.stack([np.full(n, 50.0), 50.0 * np.asarray(time_ratio)], axis=1)
     error = np.stack([np.full(n, 0.1), 0.1 + np.asarray(error_change)], axis=1)
     names = tuple(f"P{i:02d}" for i in range(n))
-    return Change("count", "absolute relative error", names, time, error)
+    return Change("count", "absolute relative error", names, time, np.log(time), error)
 
 
 def said(c):

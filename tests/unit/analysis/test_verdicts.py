@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analysis.comparison import Measure, add_holm, compare, compare_logs, decisive, no_difference
+from analysis.comparison import Measure, add_holm, compare, compare_logs, decisive
+from analysis.equivalence import no_difference
 from analysis.page.blocks import Prose
 from analysis.plan import Plan
 from analysis.sections.ordinal import friedman_table
 from analysis.sections.summary import _accurate, _by_task
 
-PLAN = Plan(0.05, (), (), 0.2, None, (), None, None)
+MARGINS = {"time": 1.2, "count_error": 2.0, "correct": 0.1}
+PLAN = Plan(0.05, (), (), MARGINS, None, (), None, None)
 RNG = np.random.default_rng(6)
 BASE = RNG.normal(10.0, 1.0, 16)
 NOISE = RNG.normal(0.0, 0.1, 16)
@@ -26,7 +28,7 @@ def text(block: Prose | tuple | list) -> str:
 
 
 def errors(dynamic: np.ndarray, key: str = "error_count", label: str = "T1 count"):
-    return compare([Measure(key, label, "", 3, BASE, dynamic)], 0.2)
+    return compare([Measure(key, label, "", 3, BASE, dynamic, kind="count_error")], MARGINS)
 
 
 @pytest.mark.parametrize(
@@ -34,8 +36,8 @@ def errors(dynamic: np.ndarray, key: str = "error_count", label: str = "T1 count
     [
         (BASE + 3 + NOISE, "contradicted", "less accurate in relative error, T1 count"),
         (BASE - 3 + NOISE, "supported", "more accurate in relative error, T1 count"),
-        (BASE + NOISE - NOISE.mean(), "supported", "equivalent within the margin in"),
-        (BASE + WIDE - WIDE.mean(), "not contradicted, and not shown", "nor shown to be equiv"),
+        (BASE + NOISE - NOISE.mean(), "supported", "no worse within the margin in"),
+        (BASE + WIDE - WIDE.mean(), "not shown everywhere", "not shown to be no worse in"),
     ],
 )
 def test_accuracy_is_judged_by_difference_and_equivalence(dynamic, verdict, words):
@@ -49,14 +51,15 @@ def test_one_measure_that_suffers_contradicts_the_others():
     absolute = errors(BASE + 3 + NOISE, "absolute_error_count")
     said = text(_accurate(PLAN, [signed, absolute], ""))
     assert "accuracy: contradicted. It is less accurate in absolute relative error" in said
-    assert "equivalent within the margin in relative error, T1 count" in said
+    assert "no worse within the margin in relative error, T1 count" in said
 
 
 @pytest.mark.parametrize(("shift", "word"), [(-0.5, "less"), (0.4, "more")])
 def test_shares_of_right_answers_are_better_when_larger(shift, word):
     """T2 goes by its exact p; every other task by how far off its answers are."""
     row = {"measure": "correct_pattern", "label": "T2", "difference": -shift, "p": 0.5,
-           "p_exact": 0.001, "p_holm": 0.004, "tost_p": 0.9, "method": "exact"}  # fmt: skip
+           "p_exact": 0.001, "p_holm": 0.004, "tost_p": 0.9,
+           "tost_margin": 0.1, "noninferior_p": 0.9, "method": "exact"}  # fmt: skip
     other = {**row, "measure": "correct_count", "difference": shift}
     table = friedman_table("friedman_correct", "", [row, other], True)
     said = text(_accurate(PLAN, [table], ""))
@@ -69,9 +72,11 @@ def test_holm_decides_within_a_family():
     rng = np.random.default_rng(1)
     gaps = rng.normal(size=16)
     gaps = (gaps - gaps.mean()) / gaps.std(ddof=1)
-    times = [Measure(f"time_{i}", f"T{i}", "s", 2, BASE, BASE, "tasks", (gaps + 0.6, gaps * 0))
-             for i in range(4)]  # fmt: skip
-    logs = compare_logs(times, 0.2)
+    logs = (gaps + 0.6, gaps * 0)
+    times = [
+        Measure(f"time_{i}", f"T{i}", "s", 2, BASE, BASE, "tasks", "time", logs) for i in range(4)
+    ]
+    logs = compare_logs(times, MARGINS)
     assert all(0.025 < r["p"] < 0.035 for r in logs.rows)
     assert [decisive(r)[0] for r in logs.rows] == ["p_holm"] * 4
     said = text(_by_task(logs, list(logs.rows), 0.05))
@@ -81,10 +86,10 @@ def test_holm_decides_within_a_family():
 def test_a_slower_task_is_named():
     quick, slow = ((np.log(BASE), np.log(BASE * by) + NOISE) for by in (0.5, 2.0))
     times = [
-        Measure("time_a", "T1", "s", 2, BASE, BASE, "tasks", quick),
-        Measure("time_b", "T2", "s", 2, BASE, BASE, "tasks", slow),
+        Measure("time_a", "T1", "s", 2, BASE, BASE, "tasks", "time", quick),
+        Measure("time_b", "T2", "s", 2, BASE, BASE, "tasks", "time", slow),
     ]
-    logs = compare_logs(times, 0.2)
+    logs = compare_logs(times, MARGINS)
     said = text(_by_task(logs, list(logs.rows), 0.05))
     assert "T1 faster" in said and "T2 slower" in said
 
@@ -96,11 +101,15 @@ def test_no_difference_never_stands_alone():
         (BASE + WIDE - WIDE.mean(), "so this is no evidence of equality either"),
     ):
         table = errors(dynamic)
-        assert words in text(no_difference(table, "error_count", 0.2, 0.05))
-        assert "(20 % of the standard mean)" in text(no_difference(table, "error_count", 0.2, 0.05))
+        assert words in text(no_difference(table, "error_count", 0.05))
+        assert "± 2.00, the declared margin" in text(no_difference(table, "error_count", 0.05))
     zero = np.zeros(16)
-    table = compare([Measure("m", "m", "", 2, zero, zero)], 0.2)
-    assert "undefined: the standard mean" in text(no_difference(table, "m", 0.2, 0.05))
+    table = compare([Measure("m", "m", "", 2, zero, zero, kind="correct")], MARGINS)
+    assert "undefined: all differences are equal" in text(no_difference(table, "m", 0.05))
+    table = compare([Measure("m", "m", "", 2, BASE, BASE + WIDE)], MARGINS)
+    assert "no evidence of equality: no margin was declared" in text(
+        no_difference(table, "m", 0.05)
+    )
 
 
 def test_holm_over_exact_p_leaves_out_what_has_none():

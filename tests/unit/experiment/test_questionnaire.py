@@ -128,12 +128,15 @@ def test_what_was_answered_is_not_asked_again_wherever_it_broke_off(seed):
     assert len(person.pages) < len(whole.pages)
 
 
-@pytest.mark.parametrize(("option", "value"), [("0", "1"), ("1", "0"), ("2", "0")])
-def test_preference_is_1_for_dynamic_and_0_for_neutral_or_standard(option, value):
+@pytest.mark.parametrize(
+    ("option", "value", "text"),
+    [("0", "1", "dynamic"), ("1", "0", "neutral"), ("2", "0", "standard")],
+)
+def test_preference_is_1_for_dynamic_and_0_else_and_says_which(option, value, text):
     rows = rows_of(
         questionnaire.after(with_blocks("comparison"), 4 / 3), Answers(preference=option)
     )
-    assert rows[0] == {"item": "preference", "value": value}
+    assert rows[0] == {"item": "preference", "value": value, "text": text}
 
 
 def test_remarks_left_empty_leave_no_row():

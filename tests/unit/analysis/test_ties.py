@@ -1,0 +1,148 @@
+"""Equal up to rounding is equal: ranks, signs and ties of computed numbers."""
+
+from __future__ import annotations
+
+import itertools
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from analysis.exclude import apply_rules, focus_lost
+from analysis.stats.ranks import friedman, post_hoc, ranks, sign_test, signed_rank
+from analysis.stats.ties import difference_signs, is_constant, levels, slack
+from experiment.power import SampledEffect
+from experiment.power_ranks import RankEffect
+
+# Ten people, three ratings each: the sums of the other condition's are smaller by D, so the means
+# differ by ±2/3, computed in many ways.
+A = np.array([[1, 1, 2], [2, 2, 2], [0, 1, 1], [3, 3, 4], [1, 2, 2],
+              [4, 4, 3], [0, 0, 2], [2, 3, 3], [1, 1, 1], [4, 4, 4]], dtype=float)  # fmt: skip
+D = np.array([2, 2, 2, 2, 2, -2, -2, 2, 2, -2.0])
+
+
+def test_thirds_that_differ_in_the_last_bit_are_tied():
+    """exactRankTests: V = 38.5, p = .34375; without ties one gets 40 and .230."""
+    first, second = A.mean(axis=1), (A.sum(axis=1) - D) / 3
+    assert len(np.unique(np.abs(first - second))) > 1  # the rounding is there
+    for result in (
+        signed_rank(first - second),
+        signed_rank(first - second, slack(first, second)),
+        post_hoc(np.stack([first, second, first + 1], axis=1))[0].signed,
+    ):
+        assert (result.v, result.p) == (38.5, 0.34375)
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("items", [3, 6, 7, 10])
+def test_signed_ranks_of_means_are_those_of_the_sums(seed, items):
+    """Whole-number sums are exact, and means of as many items have the same ranks."""
+    rng = np.random.default_rng(seed)
+    a, b = rng.integers(0, 5, (2, 12, items))
+    exact = signed_rank((a.sum(axis=1) - b.sum(axis=1)).astype(float))
+    first, second = a.mean(axis=1), b.mean(axis=1)
+    assert signed_rank(first - second, slack(first, second)) == exact
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_friedman_of_means_is_that_of_sums(seed):
+    """Means taken in another order of their items, as tables give them."""
+    rng = np.random.default_rng(seed)
+    items = rng.integers(0, 5, (9, 4, 6)).astype(float) / 10
+    sums = np.rint(items.sum(axis=2) * 10)
+    means = np.stack([items[:, j, rng.permutation(6)].mean(axis=1) for j in range(4)], axis=1)
+    np.testing.assert_array_equal(ranks(means), ranks(sums))
+    one, other = friedman(means, rng), friedman(sums, rng)
+    assert (one.chi2, one.w) == (other.chi2, other.w)
+
+
+def test_steps_of_a_fortieth_are_tied_as_the_decimals_are():
+    """scipy issue 17667: .5 s a step, the differences equal as decimals and not as doubles."""
+    steps = [1, -1, 2, 2, -3, 1, 4, -2, 2, 5]
+    a = np.array([0.075 + 0.025 * i for i in range(10)])
+    b = np.array([0.075 + 0.025 * (i - s) for i, s in enumerate(steps)])
+    exact = signed_rank(np.array(steps, dtype=float))
+    assert signed_rank(a - b, slack(a, b)) == exact
+    assert difference_signs(a, b).tolist() == np.sign(steps).tolist()
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_signs_are_those_of_fractions(seed):
+    """Means of decimals: the sign of the exact difference of what was written."""
+    rng = np.random.default_rng(seed)
+    a, b = rng.integers(0, 4, (2, 40, 3))
+    scale = 10.0 ** rng.integers(-3, 7)
+    first, second = (a * 0.1 * scale).mean(axis=1), (b * 0.1 * scale)[:, ::-1].mean(axis=1)
+    exact = [Fraction(int(x), 30) - Fraction(int(y), 30) for x, y in
+             zip(a.sum(axis=1), b.sum(axis=1), strict=True)]  # fmt: skip
+    assert difference_signs(first, second).tolist() == [(e > 0) - (e < 0) for e in exact]
+
+
+def test_what_differs_stays_apart():
+    """A unit at 10¹⁵ among whole numbers, a microsecond, and a neighbour of an outlier."""
+    large = 1e15 + np.array([0.0, 1, 2])
+    assert levels(large, slack(large[:, None])).tolist() == [0, 1, 2]
+    close = np.array([30.0, 30.000001, 30.000002])
+    assert levels(close, slack(close[:, None])).tolist() == [0, 1, 2]
+    beside = np.array([1e6, 2.0, 2.0 + 1e-12])
+    assert levels(beside, slack(beside[:, None])).tolist() == [2, 0, 1]
+
+
+def test_constant_up_to_rounding():
+    assert is_constant(np.array([0.1 + 0.2, 0.3, 0.3]))
+    assert not is_constant(np.array([0.3, 0.3 + 1e-9]))
+    assert is_constant(np.array([]))
+
+
+@pytest.mark.parametrize("n", range(1, 13))
+def test_the_sign_test_counts(n):
+    """Against all outcomes, in whole numbers; as close to even as can be it is exactly 1."""
+    heads = [sum(flips) for flips in itertools.product((0, 1), repeat=n)]
+    for wins in range(n + 1):
+        far = sum(abs(2 * h - n) >= abs(2 * wins - n) for h in heads)
+        assert sign_test(wins, n - wins) == far / len(heads)
+
+
+@pytest.mark.parametrize("total", [999, 2000, 2001, 50_000])
+def test_the_sign_test_of_many_agrees_with_scipy(total):
+    wins = total // 2 - int(total**0.5)
+    assert sign_test(wins, total - wins) == pytest.approx(
+        stats.binomtest(wins, total).pvalue, rel=1e-9
+    )
+
+
+def test_permutation_p_of_an_ordinary_table_is_at_most_one():
+    """The middle of the distribution: all outcomes are as far out, so p is 1 and not .99…96."""
+    y = np.array([[1, 2, 3], [2, 3, 1], [3, 1, 2.0]] * 3)
+    assert friedman(y, np.random.default_rng(0)).exact == 1.0
+    assert signed_rank(np.array([1.0, -1, 2, -2, 3, -3, 4, -4])).p == 1.0
+
+
+def test_power_by_ranks_takes_ties_as_the_report_does():
+    """Means of thirds in two orders: nobody is better."""
+    first = A.mean(axis=1)
+    second = np.array([(row[2] / 3 + row[1] / 3) + row[0] / 3 for row in A])
+    assert (first != second).any()
+    people = RankEffect(SampledEffect("x", np.stack([first, second], axis=1)))
+    assert people.chances() == (0.0, 0.0)
+    assert not people.found(people.people.values[None], 0.05).any()
+
+
+def test_a_share_of_missed_frames_of_exactly_a_twentieth_is_not_more():
+    import pandas as pd
+
+    frames = np.arange(20, 20_001, 20)
+    table = pd.DataFrame({"participant": "p", "trial": range(len(frames)), "attempt": 1,
+                          "source": "human", "frames": frames, "frames_missed": frames // 20,
+                          "row_id": "r", "_file": "f", "_row": 1})  # fmt: skip
+    assert len(apply_rules(table, ("frames_missed",))[0]) == len(table)
+    more = table.assign(frames_missed=table["frames_missed"] + 1)
+    assert len(apply_rules(more, ("frames_missed",))[0]) == 0
+
+
+def test_focus_is_not_lost_by_rounding():
+    import pandas as pd
+
+    table = pd.DataFrame({"time": [0.1 + 0.2, 3.0], "time_clean": [0.3, 2.99]})
+    assert focus_lost(table).tolist() == [False, True]
