@@ -1,7 +1,7 @@
 # Every number of `seethrough report --published`, in R: from the printed numbers, and from the
 # data that were made to have them.
 #
-#   Rscript tests/oracles/published.R PUBLISHED.toml DATA.csv OUT
+#   Rscript tests/oracles/published.R PUBLISHED.toml STUDY.toml DATA.csv OUT
 #
 # DATA.csv: measure, standard, dynamic; one row for each of the 16 people. In `detail` of the checks
 # stand the numbers of the report's sentence, in order.
@@ -119,10 +119,35 @@ rating_rows <- function(paper, data) {
   )
 }
 
-main <- function(toml, file, out) {
+# T2 without an F: the s.d. of a difference is at most the sum of the two, the gap at most what
+# rounding allows. Its numbers are impossible, so no verdict.
+equality_rows <- function(tests, paper, margins) {
+  keys <- sapply(tests, function(r) r$measure)
+  verdict <- function(p) if (p < 0.05) "yes" else "not shown"
+  rows <- lapply(c("error_T4", "distance_T3"), function(key) {
+    row <- tests[[match(key, keys)]]
+    list(
+      measure = key, margin = row$tost_margin, p = row$tost_p, shown = verdict(row$tost_p),
+      noninferior_p = row$noninferior_p, no_worse = verdict(row$noninferior_p)
+    )
+  })
+  a <- paper$correct_T2$standard
+  b <- paper$correct_T2$dynamic
+  gap <- max(abs(high(a$mean) - low(b$mean)), abs(high(b$mean) - low(a$mean)))
+  error <- (high(a$sd) + high(b$sd)) / sqrt(N)
+  p <- pt((margins$correct - gap) / error, N - 1, lower.tail = FALSE)
+  none <- "not to be told: the numbers are impossible"
+  c(rows, list(list(
+    measure = "correct_T2", margin = margins$correct, p = p, shown = none, noninferior_p = p,
+    no_worse = none
+  )))
+}
+
+main <- function(toml, study, file, out) {
   paper <- read_paper(toml)
+  margins <- lapply(read_paper(study)$analysis.margins, as.numeric)
   data <- read.csv(file)
-  tests <- tests_rows(paper, data, as.list(paper$margins))
+  tests <- tests_rows(paper, data, margins)
   checks <- all_checks(paper)
   bad <- Filter(function(c) c$fits != "yes", checks)
   count <- function(what, n) list(what = what, count = n)
@@ -134,10 +159,10 @@ main <- function(toml, file, out) {
       count("not fitting", length(bad))
     ),
     friedman_t2 = t2_rows(paper), friedman_rating = rating_rows(paper, data),
-    equivalence = equality_rows(paper, tests)
+    equivalence = equality_rows(tests, paper, margins)
   )
   write_tables(tables, out)
 }
 
 arguments <- commandArgs(TRUE)
-main(arguments[1], arguments[2], arguments[3])
+main(arguments[1], arguments[2], arguments[3], arguments[4])

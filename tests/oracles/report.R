@@ -12,29 +12,9 @@ invisible(Sys.setlocale("LC_COLLATE", "C"))
 
 here <- dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE)))
 for (file in c(
-  "read", "distributions", "cells", "pairs", "anova", "ranks", "compare", "sections", "validity",
+  "write", "read", "distributions", "cells", "pairs", "anova", "ranks", "compare", "sections", "validity",
   "participants", "mixed"
 )) source(file.path(here, "r", paste0(file, ".R")), encoding = "UTF-8")
-
-as_text <- function(value) {
-  if (is.character(value)) return(value)
-  if (length(value) == 0) return("")
-  if (is.na(value)) return("undefined")
-  sprintf("%.15g", value)
-}
-
-quoted <- function(text) ifelse(grepl("[,\"\n]", text), paste0("\"", gsub("\"", "\"\"", text), "\""), text)
-
-write_rows <- function(rows, file) {
-  columns <- names(rows[[1]])
-  lines <- vapply(rows, function(row) {
-    paste(quoted(vapply(columns, function(c) as_text(row[[c]]), "")), collapse = ",")
-  }, "")
-  text <- enc2utf8(c(paste(columns, collapse = ","), lines))
-  con <- file(file, "wb")
-  writeLines(text, con, useBytes = TRUE)
-  close(con)
-}
 
 main <- function(folder, out) {
   data <- read_folder(folder)
@@ -50,10 +30,7 @@ main <- function(folder, out) {
     tradeoff_tables(d), list(order = order_rows(d)), learning_tables(d),
     list(faults = fault_rows(d), difficulty = difficulty_rows(d), mixed_model = mixed_row(d))
   )
-  dir.create(out, showWarnings = FALSE, recursive = TRUE)
-  for (name in names(tables)) {
-    if (length(tables[[name]])) write_rows(tables[[name]], file.path(out, paste0(name, ".csv")))
-  }
+  write_tables(tables, out)
 }
 
 arguments <- commandArgs(TRUE)

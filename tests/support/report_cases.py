@@ -258,9 +258,7 @@ def _identical(person: int, plays: Plays) -> Plays:
 
 
 def _identical_answers(person: int, answers: Answers) -> Answers:
-    value = {
-        (a.item, a.scenario): a.value for a in answers if a.transparency in ("standard", "")
-    }
+    value = {(a.item, a.scenario): a.value for a in answers if a.transparency in ("standard", "")}
     return [replace(a, value=value[a.item, a.scenario]) for a in answers]
 
 

@@ -11,9 +11,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from unittest.mock import patch
 
+import numpy as np
 from report_cases import Answer, Case, Draws, Play, plain_answers, plain_plays
 
 from analysis.load.schema import CERTIFICATE
+from analysis.published.grim import fitting_whole_numbers
+from analysis.published.numbers import load_published
+from analysis.published.report import reconstructed
 from experiment.config import Study, find, parse
 from experiment.design import session_for
 from experiment.participants.batch import Batch
@@ -195,3 +199,35 @@ def contents(folder: Path) -> str:
         for row in _rows([path]):
             digest.update(repr([(k, v) for k, v in row.items() if k not in UNHELD]).encode())
     return digest.hexdigest()
+
+
+PUBLISHED = "published_data.csv"
+"""Beside R's tables of the published report: the data that were made to have its moments."""
+
+
+def published_data() -> list[tuple[str, float, float]]:
+    """(measure, standard, dynamic) of each person, as the published report makes them."""
+    published = load_published()
+    rng = np.random.default_rng(np.random.SeedSequence(1, spawn_key=(3, 0)))
+    rows = [
+        (m.key, float(a), float(b))
+        for m in reconstructed(published, rng)
+        for a, b in zip(m.standard, m.dynamic, strict=True)
+    ]
+    ratings = [
+        fitting_whole_numbers(
+            m, published.participants, published.rating_items * published.rating_highest,
+            published.rating_items,
+        )
+        for m in published.rating
+    ]  # fmt: skip
+    return rows + [
+        ("rating", a / published.rating_items, b / published.rating_items)
+        for a, b in zip(*(r or () for r in ratings), strict=True)
+    ]
+
+
+def write_published(path: Path) -> None:
+    """The data as a CSV."""
+    lines = [f"{measure},{a!r},{b!r}" for measure, a, b in published_data()]
+    path.write_text("\n".join(["measure,standard,dynamic", *lines]) + "\n")

@@ -1,11 +1,14 @@
 # Do the printed numbers fit each other? `detail` holds the numbers of the report's sentence.
 
-check <- function(key, ok, ..., digits = NULL) {
+check <- function(key, ok, ...) {
   numbers <- unlist(list(...))
-  list(check = key, fits = if (is.logical(ok)) c("no", "yes")[ok + 1] else ok, detail = paste(numbers, collapse = " "))
+  said <- if (is.logical(ok)) c("no", "yes")[ok + 1] else ok
+  list(check = key, fits = said, detail = paste(numbers, collapse = " "))
 }
 
 rounded <- function(x, digits) formatC(x, digits = digits, format = "f")
+# a half that is exact in decimals goes up, whatever its double says
+half_up <- function(x, digits) rounded(floor(x * 10^digits + 0.5 + 1e-9) / 10^digits, digits)
 p_text <- function(p) ifelse(p < 0.001, ".001", rounded(p, 3))
 
 p_check <- function(m) {
@@ -49,7 +52,7 @@ overall_check <- function(paper) {
   stopifnot(nrow(small) == 0) # the sentence would be another one
   check(
     "overall_time", all(abs(plain - as.numeric(printed)) <= room),
-    rounded(plain, 2), printed, 12, 20, t(head(found, 3))
+    half_up(plain, 2), printed, 12, 20, t(head(found, 3))
   )
 }
 
@@ -70,7 +73,7 @@ combined_checks <- function(paper) {
       "combined_error_mean", all(mapply(function(p, l) fits(p, both[[l]]$mean), plain, LEVEL_NAMES)),
       rounded(plain, 4), both$standard$mean, both$dynamic$mean
     ),
-    check("combined_error_weights", max(weights[1, ]) <= min(weights[2, ]), 4, rounded(weights, 2)),
+    check("combined_error_weights", max(weights[1, ]) <= min(weights[2, ]), rounded(weights, 2)),
     check("combined_error_sd", low(both$standard$sd) <= most, rounded(most, 3), 1, both$standard$sd)
   )
 }
@@ -101,7 +104,9 @@ correct_checks <- function(paper) {
   near <- c(below, below + 1)
   mixed <- any(fits((0:(N * 12)) / (N * 12), m$mean)) # 12: least common multiple of 1 to 4
   stopifnot(!mixed) # the sentence would hold a number
-  ok <- lapply(1:12, function(t) lapply(LEVEL_NAMES, function(l) errors_that_fit(paper$correct_T2[[l]], t)))
+  ok <- lapply(1:12, function(t) {
+    lapply(LEVEL_NAMES, function(l) errors_that_fit(paper$correct_T2[[l]], t))
+  })
   both <- which(sapply(ok, function(o) length(o[[1]]) > 0 && length(o[[2]]) > 0))
   first <- ok[[both[1]]]
   list(
@@ -161,7 +166,8 @@ rating_check <- function(paper) {
   per <- as.numeric(paper$rating$items)
   most <- per * as.numeric(paper$rating$highest)
   ok <- sapply(LEVEL_NAMES, function(l) !is.null(moments_that_fit(paper$rating[[l]], most, per)))
-  check("grim_rating", all(ok), sapply(LEVEL_NAMES, function(l) unlist(paper$rating[[l]][c("mean", "sd")])))
+  printed <- lapply(LEVEL_NAMES, function(l) unlist(paper$rating[[l]][c("mean", "sd")]))
+  check("grim_rating", all(ok), printed)
 }
 
 multiplicity_check <- function(paper) {

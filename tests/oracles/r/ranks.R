@@ -2,11 +2,7 @@
 
 # Means are of a few whole numbers, or of decimals with few places: equal ones differ by rounding
 # only, unequal ones by far more than this.
-exact <- function(x) {
-  scale <- max(abs(x), 0)
-  if (scale == 0) return(x)
-  round(x / scale, 10) * scale
-}
+exact <- function(x, scale = max(abs(x))) if (scale == 0) x else round(x / scale, 9)
 
 sign_p <- function(wins, losses) {
   if (wins + losses == 0) return(1)
@@ -76,12 +72,11 @@ sampled_p <- function(r, draws = 200000) {
 pairs_after <- function(y, names) {
   n <- nrow(y)
   k <- ncol(y)
-  y <- matrix(exact(y), n)
-  middle <- colMeans(t(apply(y, 1, rank)))
+  middle <- colMeans(t(apply(matrix(exact(y), n), 1, rank)))
   pairs <- combn(k, 2, simplify = FALSE)
   rows <- lapply(pairs, function(p) {
     gap <- middle[p[1]] - middle[p[2]]
-    d <- exact(y[, p[1]] - y[, p[2]])
+    d <- exact(y[, p[1]] - y[, p[2]], max(abs(y)))
     out <- list(
       pair = paste(names[p], collapse = " – "),
       rank_difference = gap,

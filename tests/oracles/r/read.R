@@ -55,7 +55,7 @@ read_folder <- function(folder) {
 
 # Earlier attempts never count; then each rule of the plan takes out what it hits first.
 exclude <- function(trials, rules, too_fast) {
-  last <- ave(trials$attempt, trials$participant, trials$trial, FUN = max)
+  last <- ave(trials$attempt, paste(trials$participant, trials$trial), FUN = max)
   why <- ifelse(trials$attempt < last, "repeated", "")
   for (rule in rules) {
     hit <- switch(rule,
