@@ -289,7 +289,7 @@ def corrected(table: Table, key: str) -> list[str | Cited]:
     if table.row(key).get("p_holm") is None or not is_defined(table.row(key)["p_holm"]):
         return []
     p = table.cite(key, "p_holm")
-    return [", Holm-corrected p " if p.text.startswith("<") else ", Holm-corrected p = ", p]
+    return [", Holm-corrected p " if p.text.startswith(("<", ">")) else ", Holm-corrected p = ", p]
 
 
 def apa_f(table: Table, key: str) -> list[str | Cited]:
@@ -305,7 +305,7 @@ def apa_f(table: Table, key: str) -> list[str | Cited]:
         table.cite(key, "df2"),
         ") = ",
         table.cite(key, "F"),
-        ", p " if p.text.startswith("<") else ", p = ",
+        ", p " if p.text.startswith(("<", ">")) else ", p = ",
         p,
         ", η²p = ",
         table.cite(key, "pes", "bound2"),

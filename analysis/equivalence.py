@@ -100,7 +100,7 @@ def no_difference(table: Table, key: str, alpha: float) -> tuple[str | Cited, ..
     )
     return say(
         f" No difference was shown; equivalence within ± {{}}, the declared margin: p "
-        f"{'' if p.text.startswith('<') else '= '}{{}} (TOST), {verdict}.",
+        f"{'' if p.text.startswith(('<', '>')) else '= '}{{}} (TOST), {verdict}.",
         margin,
         p,
     ).runs
@@ -116,7 +116,7 @@ def no_ratio(logs: Table, key: str, alpha: float) -> tuple[str | Cited, ...]:
     verdict = "equivalence is shown" if p.value < alpha else "equivalence is not shown either"
     return say(
         f" For a ratio between 1 / {{}} and {{}}, the declared margin, p "
-        f"{'' if p.text.startswith('<') else '= '}{{}} (TOST): {verdict}.",
+        f"{'' if p.text.startswith(('<', '>')) else '= '}{{}} (TOST): {verdict}.",
         margin,
         margin,
         p,

@@ -25,7 +25,11 @@ def bounded(value: float, digits: int) -> str:
 
 
 def p_value(value: float) -> str:
-    """Three decimals, `< .001` below."""
+    """Three decimals, `< .001` below; 1 only where it is 1, as that of an exact test can be."""
+    if value == 1:
+        return "1"
+    if value >= 0.9995:
+        return "> .999"
     return "< .001" if value < 0.001 else bounded(value, 3)
 
 

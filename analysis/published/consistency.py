@@ -6,6 +6,7 @@ A finding says what was asked, whether it fits, and the numbers behind the answe
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -212,7 +213,55 @@ def grim_correct_findings(published: Published) -> list[Finding]:
             "yes" if per in both else "no",
             f"{' or '.join(map(str, both)) or 'none'}, not {per}; {shown}",
         ),
+        _rounding_finding(published, both),
+        _people_finding(published),
     ]
+
+
+def _rounding_finding(published: Published, both: Sequence[int]) -> Finding:
+    """Do the fitting numbers of trials fit only because a half was rounded up?"""
+    left = [
+        t
+        for t in both
+        if all(
+            fitting_scores(m, published.participants, t, halves=False) for m in published.correct
+        )
+    ]
+    lost = [t for t in both if t not in left]
+    rests = bool(lost)
+    n = published.participants
+    halves = {totals(m, n * t, 1)[0] / (n * t) for m in published.correct for t in lost}
+    said = " and ".join(f"{h:.6g}"[1:] for h in sorted(halves))
+    return Finding(
+        "grimmer_correct_rounding",
+        "T2: do those trials fit whichever way halves were rounded?",
+        "no" if rests else "yes",
+        f"{' and '.join(map(str, lost))} fit only if {said} was printed as "
+        f"{bounded(published.correct[0].mean.value, 3)}, a half rounded up; rounded to even, "
+        f"{' or '.join(map(str, left)) or 'none'} up to {MOST_TRIALS} fit"
+        if rests
+        else "no share lies on a half",
+    )
+
+
+def _people_finding(published: Published) -> Finding:
+    """Would the answers of fewer participants have the printed means, and the SD too?"""
+    per = published.per_cell
+    means, whole = [], []
+    for people in range(published.participants - 1, 1, -1):
+        shares = [totals(m, people * per, 1) for m in published.correct]
+        if all(shares):
+            means.append(f"{people} × {per} answers ({shares[0][-1]}/{people * per})")
+            if all(fitting_scores(m, people, per) for m in published.correct):
+                whole.append(str(people))
+    return Finding(
+        "grim_correct_people",
+        f"T2: would fewer participants, {per} trials each, have both means?",
+        "yes" if not means else "the means, not the SD" if not whole else "they would",
+        f"{', '.join(means)}; SD as well: {' or '.join(whole) or 'none'}"
+        if means
+        else "no smaller number would",
+    )
 
 
 def grim_single_findings(published: Published) -> list[Finding]:

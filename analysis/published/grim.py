@@ -13,9 +13,12 @@ import numpy as np
 from analysis.published.numbers import Moments
 
 
-def totals(moments: Moments, count: int, highest: int) -> list[int]:
-    """Sums of `count` whole numbers in 0..highest whose mean prints as given (GRIM)."""
-    return [t for t in range(count * highest + 1) if moments.mean.fits(t / count)]
+def totals(moments: Moments, count: int, highest: int, halves: bool = True) -> list[int]:
+    """Sums of `count` whole numbers in 0..highest whose mean prints as given (GRIM).
+
+    `halves`: whether a mean that lies on a half may print so, rounded up or down.
+    """
+    return [t for t in range(count * highest + 1) if moments.mean.fits(t / count, halves)]
 
 
 def mean_of_shares(moments: Moments, n: int, trials: tuple[int, ...]) -> Fraction | None:
@@ -43,10 +46,12 @@ def partitions(total: int, parts: int, largest: int) -> Iterator[tuple[int, ...]
             yield (first, *rest)
 
 
-def fitting_scores(moments: Moments, n: int, trials: int) -> list[tuple[int, ...]]:
+def fitting_scores(
+    moments: Moments, n: int, trials: int, halves: bool = True
+) -> list[tuple[int, ...]]:
     """Errors per participant (of `trials` each, zeros left out) with the printed mean and s.d."""
     found = []
-    for right in totals(moments, n * trials, 1):
+    for right in totals(moments, n * trials, 1, halves):
         wrong = n * trials - right
         for errors in partitions(wrong, n, trials):
             shares = np.ones(n)

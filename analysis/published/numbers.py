@@ -33,9 +33,15 @@ class Printed:
     def high(self) -> float:
         return self.value + self.half
 
-    def fits(self, value: float) -> bool:
-        """Whether `value` prints as this; 1e-9 forgives the last bits of a half."""
-        return abs(value - self.value) <= self.half + 1e-9
+    def fits(self, value: float, halves: bool = True) -> bool:
+        """Whether `value` prints as this; 1e-9 forgives the last bits of a half.
+
+        A value on a half prints either way, by the rule of rounding; with `halves` false it does
+        only if this ends in an even digit, as rounding to even has it.
+        """
+        gap, even = abs(value - self.value), self.text[-1] in "02468"
+        forgiven = 1e-9 if halves or even else -1e-9
+        return gap <= self.half + forgiven
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +61,7 @@ class Claim:
 
     @property
     def bound(self) -> bool:
-        return self.text.startswith("<")
+        return self.text.startswith(("<", ">"))
 
     def allows(self, low: float, high: float) -> bool:
         """Whether some p in [low, high] is printed like this."""

@@ -165,7 +165,7 @@ def _faster(published: Published, tests: Table, findings: list[Finding]) -> Pros
         words = "no difference shown"
         if row["p_holm"] < ALPHA:
             words = "faster" if row["difference"] > 0 else "slower"
-        equals = "" if p.text.startswith("<") else "= "
+        equals = "" if p.text.startswith(("<", ">")) else "= "
         runs += ["; " if runs else "", f"{row['label']} {words}, p {equals}", p]
     return say(
         f"P1, dynamic transparency is faster: {verdict}. Overall {{}}. By task (Holm-corrected): "
@@ -190,7 +190,7 @@ def _accurate(published: Published, tests: Table, printed: Table, equal: Table) 
     for i, row in enumerate(equal.rows):
         p = equal.cite(str(row["measure"]), "noninferior_p")
         equals = " ≤ " if row["measure"] == "correct_T2" else " = "
-        equals = " " if p.text.startswith("<") else equals
+        equals = " " if p.text.startswith(("<", ">")) else equals
         words = {
             "yes": "and that it is no worse is shown",
             "not shown": "and that it is no worse is not shown either",

@@ -96,7 +96,7 @@ def friedman_sentence(table: Table, key: str, what: str, context: Context) -> Pr
             table.cite(key, "chi2"),
         )
     p, exact = table.cite(key, "p"), table.cite(key, "p_exact")
-    signs = ["" if c.text.startswith("<") else "= " for c in (p, exact)]
+    signs = ["" if c.text.startswith(("<", ">")) else "= " for c in (p, exact)]
     said = say(
         f"{what}{{}}: M = {{}} standard, {{}} dynamic; Friedman χ²({{}}) = {{}}, p {signs[0]}{{}}, "
         f"exact p (sign test) {signs[1]}{{}}, Kendall's W = {{}}.",

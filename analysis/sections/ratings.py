@@ -167,7 +167,7 @@ def _preference(table: Table) -> list[Block]:
         say(
             "Of the {} participants who were asked{}, a share of {} of those who prefer one "
             "prefers dynamic transparency, 95 % CI [{}, {}], "
-            f"sign test p {'' if p.text.startswith('<') else '= '}{{}}.",
+            f"sign test p {'' if p.text.startswith(('<', '>')) else '= '}{{}}.",
             table.cite("preference", "n"),
             neutral,
             table.cite("preference", "mean", "bound2"),

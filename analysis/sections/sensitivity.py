@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from analysis.mixed import MixedEffect, mixed_model
+from analysis.mixed import MODELS, MixedEffect, mixed_model
 from analysis.page.blocks import Block, Column, Section, Table, say
 from analysis.sections.context import Context
 from analysis.stats.undefined import is_defined
@@ -20,7 +20,11 @@ COLUMNS = (
     Column("low", "from", "fixed3", "95 % interval"),
     Column("high", "to", "fixed3", "95 % interval"),
     Column("sd_slope", "SD of slopes", "fixed3", "between participants"),
+    Column("sd_task_slope", "SD of slopes", "fixed3", "between tasks of a participant"),
+    Column("model", "random terms"),
+    Column("singular", "singular?"),
 )
+SHOWN = tuple("n trials estimate error t df p ratio sd_slope sd_task_slope singular".split())
 
 
 def sensitivity_section(context: Context, logs: Table | None) -> Section:
@@ -31,16 +35,19 @@ def sensitivity_section(context: Context, logs: Table | None) -> Section:
         "Mixed model of log times, all trials",
         COLUMNS,
         (_row(fit),),
-        note="log time ~ transparency × task + (1 + transparency | participant), REML; t on n − 1.",
+        SHOWN,
+        note=f"log time ~ transparency × task + {fit.model or '…'}, REML, in lme4's words with "
+        "transparency −½ and ½ and tasks sum-coded; t on n − 1." + _reduced(fit),
     )
     blocks: list[Block] = []
     if is_defined(fit.p):
         p = table.cite("transparency", "p")
         blocks.append(
             say(
-                "With every trial as a row and a random slope of the technique for each "
-                f"participant: ratio {{}}, 95 % CI [{{}}, {{}}], t({{}}) = {{}}, p "
-                f"{'' if p.text.startswith('<') else '= '}{{}}. {_same(context, fit.p, logs)}",
+                f"With every trial as a row and {TERMS[fit.model]}: ratio {{}}, 95 % CI "
+                "[{}, {}], t({}) = {}, p "
+                f"{'' if p.text.startswith(('<', '>')) else '= '}{{}}. "
+                f"{_same(context, fit.p, logs)}",
                 table.cite("transparency", "ratio"),
                 table.cite("transparency", "low"),
                 table.cite("transparency", "high"),
@@ -66,7 +73,37 @@ def _row(fit: MixedEffect) -> dict[str, object]:
         "low": fit.interval[0],
         "high": fit.interval[1],
         "sd_slope": fit.sd_slope,
+        "sd_task_slope": fit.sd_task_slope,
+        "model": fit.model,
+        "singular": fit.singular,
     }
+
+
+TERMS = {
+    " + ".join(names): words
+    for names, words in zip(
+        MODELS,
+        (
+            "the technique's effect free to differ between participants and between their tasks",
+            "the technique's effect free to differ between participants, levels between tasks too",
+            "the technique's effect free to differ between participants",
+            "levels free to differ between participants, who have one trial a level each",
+        ),
+        strict=True,
+    )
+}
+"""What the random terms let differ."""
+
+
+def _reduced(fit: MixedEffect) -> str:
+    """What a reader of the table must know of the fit."""
+    said = ""
+    if fit.singular:
+        said += (
+            " The fit is singular: a variance is estimated as 0, or a correlation as ±1, which few "
+            "participants or like ones can bring about; the test of the effect stands."
+        )
+    return said
 
 
 def _same(context: Context, p: float, logs: Table | None) -> str:

@@ -98,7 +98,7 @@ def _interaction(anova: Sequence[Table], alpha: float) -> list[str | Cited]:
         table.cite(effect, "df2"),
         ") = ",
         table.cite(effect, "F"),
-        ", p " if p.text.startswith("<") else ", p = ",
+        ", p " if p.text.startswith(("<", ">")) else ", p = ",
         p,
         "), so the one over all tasks is a mean of unlike effects, and the tasks' own are what "
         "to read.",
@@ -117,7 +117,7 @@ def _by_task(logs: Table, tasks: Sequence[Any], alpha: float) -> list[str | Cite
         p = logs.cite(str(row["measure"]), "p_holm")
         runs += ["; " if i else "", f"{row['label']} {words}, ratio "]
         runs += [logs.cite(str(row["measure"]), "ratio"), ", p "]
-        runs += ["" if p.text.startswith("<") else "= ", p]
+        runs += ["" if p.text.startswith(("<", ">")) else "= ", p]
         if words == "no difference shown" and is_defined(row["tost_p"]):
             runs += _p(logs, row, "tost_p")
     return [*runs, "."]
@@ -201,7 +201,7 @@ def _p(table: Table, row: Any, column: str) -> list[str | Cited]:
     p = table.cite(str(row["measure"]), column)
     names = {"tost_p": "TOST p", "p_holm": "Holm-corrected p", "noninferior_p": "one-sided p"}
     name = names.get(column, "p")
-    equals = "" if p.text.startswith(("<", "undefined")) else "= "
+    equals = "" if p.text.startswith(("<", ">", "undefined")) else "= "
     return [f" ({name} {equals}", p, ")"]
 
 

@@ -124,7 +124,7 @@ def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: flo
         table.cite(effect, "df2"),
         ") = ",
         table.cite(effect, "F"),
-        ", p " if p.text.startswith("<") else ", p = ",
+        ", p " if p.text.startswith(("<", ">")) else ", p = ",
         p,
     ]
     if row["df1"] > 1:
@@ -144,7 +144,7 @@ def not_found(table: Table, key: str, alpha: float) -> list[str | Cited]:
     """Where an omnibus F shows nothing: `η²p below .06: p = .21, not shown either`."""
     p = table.cite(key, "negligible_p")
     shown = "shown" if is_defined(p.value) and p.value < alpha else "not shown either"
-    equals = "" if p.text.startswith(("<", "undefined")) else "= "
+    equals = "" if p.text.startswith(("<", ">", "undefined")) else "= "
     return [f"that η²p is below {bounded(NEGLIGIBLE, 2)} is {shown} (p {equals}", p, ")"]
 
 

@@ -103,7 +103,7 @@ def _order(context: Context) -> list[Block]:
 def _order_f(table: Table, name: str) -> list[str | Cited]:
     p = table.cite(name, "p")
     df1, df2, f = (table.cite(name, column) for column in ("df1", "df2", "F"))
-    equals = ", p " if p.text.startswith("<") else ", p = "
+    equals = ", p " if p.text.startswith(("<", ">")) else ", p = "
     return ["F(", df1, ",\u00a0", df2, ") = ", f, equals, p]
 
 
@@ -140,7 +140,7 @@ def _learning(context: Context) -> list[Block]:
     shown = ("what", "n", "ratio", "t", "p")
     table = Table("learning", "Learning within a task set", columns, (row,), shown)
     p = table.cite("per trial", "p")
-    words = "p " if p.text.startswith(("<", "undefined")) else "p = "
+    words = "p " if p.text.startswith(("<", ">", "undefined")) else "p = "
     sentence = say(
         "From one trial of a task set to the next, times change by a factor of {}, 95 % CI "
         f"[{{}}, {{}}], t({{}}) = {{}}, {words}{{}}.",

@@ -97,8 +97,23 @@ def test_the_checks_find_what_study_md_lists_and_nothing_else(published):
         "grim_correct",
         "grim_correct_mixed",
         "grimmer_correct",
+        "grimmer_correct_rounding",
+        "grim_correct_people",
         "multiplicity",
     }
+
+
+def test_five_trials_rest_on_a_half_rounded_up_and_nine_people_have_the_mean(published):
+    """77/80 = .9625 prints as .963 only so; 26/27 = .96296 does anyway, with an SD of .111."""
+    found = {f.key: f for f in consistency.all_findings(published)}
+    rounding, people = found["grimmer_correct_rounding"], found["grim_correct_people"]
+    assert (
+        rounding.fits == "no"
+        and "5 and 10 fit only if .9625 was printed as .963" in rounding.detail
+    )
+    assert "rounded to even, none up to 12 fit" in rounding.detail
+    assert people.fits == "the means, not the SD" and "9 × 3 answers (26/27)" in people.detail
+    assert "SD as well: none" in people.detail
 
 
 def moments(mean: str, sd: str) -> Moments:
