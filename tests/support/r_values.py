@@ -77,6 +77,7 @@ FITTED: Mapping[str, Callable[[Mapping[str, str]], float]] = {
     "high": lambda row: _fitted(row, 6) * float(row["high"]),
     # its own standard error is about that of the estimate, or larger
     "sd_slope": _fitted,
+    "sd_task_slope": _fitted,
 }
 """Columns of an iterative fit, and what R's row allows."""
 
