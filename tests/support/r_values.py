@@ -30,6 +30,11 @@ ITERATIVE = 1e-4
 SHAPIRO = 1e-7
 """Of Shapiro's p: scipy's weights come from normal quantiles of seven digits (AS 241, PPND7). W
 agrees to nine digits with R's, p, which looks at log(1 − W), to seven."""
+FLOORS = {
+    "shapiro_p": 1e-12,  # of three values: the difference of two arcsines
+    "nemenyi_p": 1e-12,  # one less an integral near one
+}
+"""What may be left of a number that is small because larger ones cancel in it."""
 SAMPLED = 4.0
 """Monte-Carlo standard errors: 1 in 16,000, and the seeds are fixed."""
 
@@ -175,4 +180,4 @@ def _room(
         return SAMPLED * math.sqrt(truth * (1 - truth) / draws) + 1 / draws
     if table == "mixed_model" and column in FITTED:
         return FITTED[column](theirs)
-    return (SHAPIRO if column == "shapiro_p" else CLOSED) * abs(truth)
+    return (SHAPIRO if column == "shapiro_p" else CLOSED) * abs(truth) + FLOORS.get(column, 0.0)

@@ -88,7 +88,7 @@ check_afex <- function(y, factors, rows) {
   names(grid) <- names(factors)
   long <- data.frame(
     who = factor(rep(seq_len(nrow(y)), ncol(y))),
-    value = as.vector(y - y[1, 1]),
+    value = as.vector((y - y[1, 1]) / sd(y - y[1, 1])),
     grid[rep(seq_len(ncol(y)), each = nrow(y)), , drop = FALSE]
   )
   fit <- suppressMessages(suppressWarnings(afex::aov_ez(

@@ -78,7 +78,7 @@ fit_of <- function(formula, rows) {
   criterion <- lme4::lmer(formula, rows, control = control("bobyqa"), devFunOnly = TRUE)
   lower <- lme4::getME(first, "lower")
   set.seed(1)
-  starts <- c(list(lme4::getME(first, "theta")), lapply(1:15, function(i) {
+  starts <- c(list(lme4::getME(first, "theta")), lapply(seq_len(if (nrow(rows) > 1000) 3 else 15), function(i) {
     ifelse(lower == 0, runif(length(lower), 0, 1.2), runif(length(lower), -0.8, 0.8))
   }))
   ends <- lapply(starts, function(theta) {

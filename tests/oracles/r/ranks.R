@@ -32,12 +32,16 @@ friedman_row <- function(y) {
 
 statistic_of <- function(sums, n, k) rowSums((sums - n * (k + 1) / 2)^2)
 
+orders_of <- function(k) {
+  every <- as.matrix(expand.grid(rep(list(seq_len(k)), k)))
+  every[apply(every, 1, function(o) !anyDuplicated(o)), ]
+}
+
 # every way to give each person's ranks to the conditions, person by person
 permutation_p <- function(r) {
   n <- nrow(r)
   k <- ncol(r)
-  orders <- as.matrix(expand.grid(rep(list(seq_len(k)), k)))
-  orders <- orders[apply(orders, 1, function(o) !anyDuplicated(o)), ]
+  orders <- orders_of(k)
   base <- 2 * n * k + 1
   keys <- 0
   chances <- 1
@@ -61,9 +65,10 @@ sampled_p <- function(r, draws = 200000) {
   n <- nrow(r)
   k <- ncol(r)
   set.seed(1)
+  orders <- orders_of(k)
   sums <- matrix(0, draws, k)
   for (i in seq_len(n)) {
-    sums <- sums + matrix(r[i, ][t(apply(matrix(runif(draws * k), draws), 1, order))], draws)
+    sums <- sums + matrix(r[i, ][orders[sample.int(nrow(orders), draws, TRUE), ]], draws)
   }
   observed <- statistic_of(t(colSums(r)), n, k)
   (sum(statistic_of(sums, n, k) >= observed - 1e-9) + 1) / (draws + 1)
