@@ -138,7 +138,8 @@ def _collection(
     count = study.trials["participant"].nunique()
     planned = about.get("participants")
     if isinstance(planned, int) and planned != count:
-        lines.append(f"{count} participants have data, planned were {planned}.")
+        have = "1 participant has" if count == 1 else f"{count} participants have"
+        lines.append(f"{have} data, planned were {planned}.")
     each, levels, tasks = (design.get(k) for k in ("trials", "transparency", "tasks"))
     if isinstance(each, int) and isinstance(levels, Sequence) and isinstance(tasks, Sequence):
         lines += _short(study, each * len(levels) * len(tasks))

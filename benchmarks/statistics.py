@@ -1,8 +1,9 @@
-"""Accuracy and time of the statistics, and of whole reports.
+"""Size, coverage, accuracy and time of the statistics, and of whole reports.
 
 `seethrough bench statistics --json FILE`. The accuracy rows compare ways to compute F on data whose
 F is known as a fraction, at offsets up to 10¹⁵; their times are ratios within one run. The report
-rows start the program itself, on made data of 384 and 240,000 trials.
+rows start the program itself, on made data of 384 and 240,000 trials. The rows of sizes are
+`benchmarks/sizes.py`'s.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import json
 import tempfile
 import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -24,6 +25,7 @@ from analysis.stats.anova import repeated_measures
 from analysis.stats.undefined import is_defined
 from benchmarks.memory import used_by
 from benchmarks.rows import Row, row
+from benchmarks.sizes import sizes
 
 Array = NDArray[np.float64]
 OFFSETS = (0.0, 1e6, 1e9, 1e12, 1e15)
@@ -37,10 +39,16 @@ if main(sys.argv[1:]):
 """
 
 
-def figures() -> Iterator[Row]:
-    """Accuracy against time, then whole reports."""
-    yield from accuracy()
-    for participants, seconds, gib in REPORTS:
+PARTS = ("sizes", "accuracy", "reports")
+
+
+def figures(only: Sequence[str] = PARTS) -> Iterator[Row]:
+    """Sizes and coverages, worst first; accuracy against time; then whole reports."""
+    if "sizes" in only:
+        yield from sizes()
+    if "accuracy" in only:
+        yield from accuracy()
+    for participants, seconds, gib in REPORTS if "reports" in only else ():
         yield from reports(participants, seconds, gib)
 
 

@@ -25,11 +25,16 @@ def bounded(value: float, digits: int) -> str:
 
 
 def p_value(value: float) -> str:
-    """Three decimals, `< .001` below; 1 only where it is 1, as that of an exact test can be."""
+    """Three decimals, `< .001` below; 1 only where it is 1, as that of an exact test can be.
+
+    What three would show as .050 gets a fourth, to tell on which side of .05 it is.
+    """
     if value == 1:
         return "1"
     if value >= 0.9995:
         return "> .999"
+    if bounded(value, 3) == ".050" != repr(value)[1:]:
+        return bounded(value, 4)
     return "< .001" if value < 0.001 else bounded(value, 3)
 
 
@@ -47,10 +52,10 @@ def show(value: object, style: str) -> str:
     """`value` as `style` says: text, int, fixedN, boundN, p, sigN. Undefined shows its reason."""
     if value is None:
         return ""
-    if isinstance(value, Undefined) or style == "text" or isinstance(value, str):
-        return str(value)
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, Undefined) or style == "text" or isinstance(value, str):
+        return str(value)
     number = float(value)  # type: ignore[arg-type]
     if style == "int":
         return f"{number:.0f}".replace("-", MINUS)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from analysis.comparison import apa_f
+from analysis.equivalence import RATIOS
 from analysis.page.blocks import Block, Cited, Column, Fold, Prose, Section, Table, say
 from analysis.published.consistency import Finding
 from analysis.published.numbers import Published
@@ -199,7 +200,9 @@ def _accurate(published: Published, tests: Table, printed: Table, equal: Table) 
     verdict = "contradicted" if parts["less"] else "supported"
     if any(row["no_worse"] != "yes" for row in equal.rows) and not parts["less"]:
         verdict = "not contradicted, and not shown everywhere"
-    margins = ", ".join(f"{k.replace('_', ' ')} {v:g}" for k, v in published.margins.items())
+    margins = ", ".join(
+        f"{k.replace('_', ' ')} {v:g}" for k, v in published.margins.items() if k not in RATIOS
+    )
     return say(
         f"P2, dynamic transparency does not cost accuracy: {verdict}.{{}}. T2's shares right are "
         f"{{}} and {{}}. Margins (ours): {margins}.",

@@ -226,7 +226,8 @@ def _ordinal(published: Published, rng: Generator) -> Section:
             say(
                 f"T2: no answers of {published.participants} participants in "
                 f"{published.per_cell} trials have the printed means and standard deviations "
-                f"(see the checks); the smallest number of trials that allows them is {trials}."
+                f"(see the checks); the smallest number of trials that allows them is {trials}, "
+                "if halves were rounded up."
             )
         )
     if cases:

@@ -98,6 +98,14 @@ def _tests(key: str, title: str, note: str, measures: Sequence[Measure], context
 def _sentence(tests: Table, m: Measure, context: Context) -> Prose:
     row = tests.row(m.key)
     what = measured(m.key, m.label)
+    if not is_defined(row["F"]):
+        return say(
+            f"{what[0].upper()}{what[1:]}{{}}: M = {{}} standard, {{}} dynamic; no test: {{}}.",
+            of_people(tests, m.key, context),
+            tests.cite(m.key, "mean_standard"),
+            tests.cite(m.key, "mean_dynamic"),
+            tests.cite(m.key, "F"),
+        )
     start = say(
         f"{what[0].upper()}{what[1:]}{{}}: M = {{}} (SD = {{}}) standard, {{}} (SD = {{}}) "
         "dynamic, {}.",

@@ -84,7 +84,7 @@ def _sentence(table: Table, found: Sequence[Balance]) -> Prose:
     _, worst = max(known, key=lambda pair: pair[0])
     runs: list[str | Cited] = [
         f"Difficulty: of {len(known)} comparisons of the scenes the largest difference is ",
-        table.cite(worst.measure.key, "smd"),
+        table.cite(worst.measure.key, "smd", "fixed3"),
         f" SD of scenes ({name_of(worst.task)}, {QUANTITIES[worst.quantity]})",
     ]
     over = [*(b for smd, b in known if smd >= LARGE), *apart]

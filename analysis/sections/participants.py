@@ -14,6 +14,7 @@ from analysis.plan import config_of
 from analysis.sections.context import Context
 from analysis.sections.tables import name_of
 from analysis.stats.distributions import detectable
+from analysis.stats.ranks import sign_test
 
 COUNTS = (
     Column("participant", "participant"),
@@ -203,6 +204,7 @@ REACH = (
     Column("alpha", "α", "bound3"),
     Column("power", "power", "bound2"),
     Column("dz", "d_z", "fixed2", "the smallest that is found so often"),
+    Column("sign_p", "least p", "p", "of the exact sign test"),
 )
 
 
@@ -212,7 +214,7 @@ def reach(context: Context) -> Table | None:
     if n < 2:
         return None
     row = {"what": "paired test", "n": n, "alpha": alpha, "power": POWER}
-    row["dz"] = detectable(n, alpha, POWER)
+    row["dz"], row["sign_p"] = detectable(n, alpha, POWER), sign_test(n, 0)
     return Table("smallest_effect", "What so many participants can find", REACH, (row,))
 
 
@@ -228,8 +230,10 @@ def reach_sentence(found: Table) -> Prose:
         )
     return say(
         "Only {} participants: a difference must be as large as d_z = {} for a paired test to find "
-        "it in a share of {} of studies. Intervals and p rest on normal differences, which so few "
-        "values cannot show: read every number here as rough.",
+        "it in a share of {} of studies, and an exact sign test reaches p = {} at best. Intervals "
+        "and p rest on normal differences, which so few values cannot show: read every number here "
+        "as rough.",
         *cited,
+        found.cite(key, "sign_p"),
         kind="warning",
     )

@@ -159,14 +159,14 @@ def _preference(table: Table) -> list[Block]:
     row = table.row("preference")
     neutral: list[str | Cited] = []
     if row["neutral"]:
-        neutral = [" (", table.cite("preference", "neutral"), " prefer neither)"]
+        neutral = [", of them ", table.cite("preference", "neutral"), " for neither"]
     if not is_defined(row["mean"]):
         return [say("Preference: {}.", table.cite("preference", "mean"))]
     p = table.cite("preference", "p")
     return [
         say(
-            "Of the {} participants who were asked{}, a share of {} of those who prefer one "
-            "prefers dynamic transparency, 95 % CI [{}, {}], "
+            "Preference (n = {}{}): of those who prefer one, a share of {} prefers dynamic "
+            "transparency, 95 % CI [{}, {}], "
             f"sign test p {'' if p.text.startswith(('<', '>')) else '= '}{{}}.",
             table.cite("preference", "n"),
             neutral,

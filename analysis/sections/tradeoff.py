@@ -147,7 +147,7 @@ def _allowed(table: Table, found: Sequence[Change]) -> list[str | Cited]:
     """No sign is no proof: how strong a trade-off the intervals leave possible."""
     known = {c.task: low for c in found if is_defined(low := table.row(c.task)["r_low"])}
     if not known:
-        return []
+        return [" That is no proof that nobody did: no correlation has an interval here."]
     task = min(known, key=lambda name: known[name])
     return [
         f" That is no proof that nobody did: in {name_of(task)} the interval still allows a "

@@ -139,20 +139,22 @@ def _learning(context: Context) -> list[Block]:
     )
     shown = ("what", "n", "ratio", "t", "p")
     table = Table("learning", "Learning within a task set", columns, (row,), shown)
-    p = table.cite("per trial", "p")
-    words = "p " if p.text.startswith(("<", ">", "undefined")) else "p = "
-    sentence = say(
-        "From one trial of a task set to the next, times change by a factor of {}, 95 % CI "
-        f"[{{}}, {{}}], t({{}}) = {{}}, {words}{{}}.",
-        table.cite("per trial", "ratio"),
-        table.cite("per trial", "low"),
-        table.cite("per trial", "high"),
-        table.cite("per trial", "df"),
-        table.cite("per trial", "t"),
-        p,
-    )
     curve = learning_curve(context.trials)
-    return [sentence, learning_figure("learning", curve), table, _curve_table(curve)]
+    figure = learning_figure("learning", curve)
+    return [_slope(table), figure, table, _curve_table(curve)]
+
+
+def _slope(table: Table) -> Prose:
+    """The change from trial to trial, with its test where there is one."""
+    key = "per trial"
+    p, start = table.cite(key, "p"), "From one trial of a task set to the next, times change by "
+    if not is_defined(p.value):
+        return say(f"{start}a factor of {{}}; no test: {{}}.", table.cite(key, "ratio"), p)
+    words = "p " if p.text.startswith(("<", ">")) else "p = "
+    cited = [table.cite(key, name) for name in ("ratio", "low", "high", "df", "t")]
+    return say(
+        f"{start}a factor of {{}}, 95 % CI [{{}}, {{}}], t({{}}) = {{}}, {words}{{}}.", *cited, p
+    )
 
 
 def _curve_table(curve: pd.DataFrame) -> Table:

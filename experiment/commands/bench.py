@@ -28,7 +28,9 @@ BENCHES = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("bench", choices=BENCHES, help="what to measure")
-    parser.add_argument("--only", metavar="PART,…", help="some parts of the table (simulate)")
+    parser.add_argument(
+        "--only", metavar="PART,…", help="some parts of the table (simulate, statistics)"
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table to a file")
     parser.add_argument(
         "--markdown", type=Path, metavar="FILE", help="put the table into a page, as Markdown"

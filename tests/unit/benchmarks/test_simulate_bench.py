@@ -14,7 +14,11 @@ from tasks.events import KeyPress, KeyRelease, Tick
     "words, message",
     [
         ("bench simulate --only speed", "--only = speed: expected some of visual, data, many"),
-        ("bench statistics --only data", "--only = data: expected some of no parts"),
+        (
+            "bench statistics --only data",
+            "--only = data: expected some of sizes, accuracy, reports",
+        ),
+        ("bench session --only data", "--only = data: expected some of no parts"),
     ],
 )
 def test_parts_that_are_not_there_are_one_line(capsys, words, message):
