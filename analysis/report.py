@@ -112,7 +112,7 @@ def write(
     folder.clear(old)
     pictures = {f.key: write_files(f, out / "figures") for f in figures_of(report.sections)}
     (out / "tables").mkdir(parents=True, exist_ok=True)
-    for table in _tables(report):
+    for table in tables_of(report):
         (out / "tables" / f"{table.key}.csv").write_text(as_csv(table), encoding="utf-8")
     (out / "report.md").write_text(as_markdown(report), encoding="utf-8")
     page = out / "report.html"
@@ -123,7 +123,7 @@ def write(
     return page
 
 
-def _tables(report: Report) -> list[Table]:
+def tables_of(report: Report) -> list[Table]:
     """The tables that become files: not the further views of others."""
     blocks = [b for s in report.sections for b in walk(s.blocks)]
     return [b for b in blocks if isinstance(b, Table) and not b.source]

@@ -1,0 +1,189 @@
+# The report's tables, section by section, from trials and answers. Each is a list of rows.
+
+two_levels <- function(trials) identical(levels_in(trials$transparency, LEVELS), LEVELS)
+
+task_factors <- function(rows) {
+  list(task = levels_in(rows$task, TASKS), transparency = levels_in(rows$transparency, LEVELS))
+}
+
+# people × task × transparency; `column` averaged over the trials of a cell
+by_task <- function(rows, who, column, f = mean) table_of(rows, who, column, task_factors(rows), f)
+
+spread_row <- function(v, log_v = NULL) {
+  names <- c("mean", "sd", "geometric", "median", "minimum", "maximum")
+  if (!length(v)) return(setNames(rep(list(undefined), 6), names))
+  geometric <- if (is.null(log_v)) undefined else exp(mean(log_v))
+  list(
+    mean = mean(v), sd = if (length(v) > 1) sd0(v) else undefined, geometric = geometric,
+    median = median(v), minimum = min(v), maximum = max(v)
+  )
+}
+
+# each task × transparency cell over those who have it
+cell_rows <- function(cells, logs = NULL) {
+  rows <- list()
+  for (task in cells$factors$task) {
+    for (level in cells$factors$transparency) {
+      v <- cells$values[, task, level]
+      there <- !is.na(v)
+      rows <- c(rows, list(c(
+        list(cell = paste0(task, "/", level), n = sum(there), trials = sum(cells$counts[there, task, level])),
+        spread_row(unname(v[there]), if (!is.null(logs)) unname(logs$values[there, task, level]))
+      )))
+    }
+  }
+  rows
+}
+
+# the measures of a people × task × transparency table: overall, then each task
+task_measures <- function(cells, prefix, overall, family, kind) {
+  tasks <- cells$factors$task
+  found <- list()
+  if (length(tasks) > 1) {
+    middle <- apply(cells$values, c(1, 3), mean) # NA unless all are there
+    found <- list(of_cells(middle, 1, paste0(prefix, "_", overall), "", kind))
+  }
+  own <- lapply(seq_along(tasks), function(i) {
+    of_cells(cells$values, i, paste0(prefix, "_", tasks[i]), family, kind)
+  })
+  keep(c(found, own))
+}
+
+# cells as people × cells, the first factor running slowest, of who has them all
+complete_matrix <- function(values) {
+  d <- dim(values)
+  kept <- whole(values)
+  out <- matrix(aperm(values, c(1, rev(seq_along(d)[-1]))), nrow = d[1])
+  out[kept, , drop = FALSE]
+}
+
+anova_of <- function(cells) {
+  y <- complete_matrix(cells$values)
+  if (!nrow(y) || min(lengths(cells$factors)) < 2) return(NULL)
+  anova_rows(y, cells$factors)
+}
+
+# people × scenario × transparency: the mean over the tasks nested in a scenario
+by_scenario <- function(cells, rows) {
+  scenario <- sapply(cells$factors$task, function(t) rows$scenario[match(t, rows$task)])
+  there <- levels_in(scenario, SCENARIOS)
+  values <- array(NA, c(dim(cells$values)[1], length(there), dim(cells$values)[3]))
+  for (i in seq_along(there)) {
+    values[, i, ] <- apply(cells$values[, scenario == there[i], , drop = FALSE], c(1, 3), mean)
+  }
+  list(values = values, factors = list(scenario = there, transparency = cells$factors$transparency))
+}
+
+time_tables <- function(d) {
+  d$rows$log_time <- log(d$rows$time)
+  cells <- by_task(d$rows, d$who, "time")
+  logs <- by_task(d$rows, d$who, "log_time")
+  out <- list(time_cells = cell_rows(cells, logs))
+  if (!two_levels(d$rows)) return(out)
+  out$tests_time <- compare(task_measures(cells, "time", "overall", "tasks", "time"), d$margins)
+  measures <- task_measures(logs, "time", "overall", "tasks", "time")
+  out$tests_log_time <- holm(
+    lapply(measures, log_row, margins = d$margins), sapply(measures, function(m) m$family)
+  )
+  out$anova_time_task <- anova_of(cells)
+  out$anova_time_task_log <- anova_of(logs)
+  out$anova_time_scenario <- anova_of(by_scenario(cells, d$rows))
+  out$anova_time_scenario_log <- anova_of(by_scenario(logs, d$rows))
+  out
+}
+
+# |Σ answer − Σ truth| / Σ truth over the trials of a cell; or Σ |answer − truth| / Σ truth
+relative_error <- function(rows, who, cancel) {
+  rows <- rows[rows$task %in% c("count", "count_in_building") & !is.na(rows$count_error), ]
+  rows$true_number <- as.numeric(rows$truth)
+  rows$off <- if (cancel) rows$count_error else abs(rows$count_error)
+  off <- by_task(rows, who, "off", sum)
+  off$values <- abs(off$values) / by_task(rows, who, "true_number", sum)$values
+  off
+}
+
+accuracy_tables <- function(d) {
+  right <- by_task(d$rows, d$who, "correct")
+  out <- list(correct_cells = cell_rows(right))
+  if (!two_levels(d$rows)) return(out)
+  errors <- task_measures(relative_error(d$rows, d$who, TRUE), "error", "combined", "counting", "count_error")
+  absolute <- task_measures(relative_error(d$rows, d$who, FALSE), "absolute_error", "combined", "counting", "count_error")
+  marks <- d$rows[d$rows$task == "unique", ]
+  if (nrow(marks)) {
+    place <- table_of(marks, d$who, "distance", list(transparency = LEVELS))
+    far <- of_cells(place$values, 1, "distance_unique", "", "distance")
+    out$tests_accuracy <- compare(keep(c(errors, list(far))), d$margins)
+  } else {
+    out$tests_accuracy <- compare(errors, d$margins)
+  }
+  out$tests_absolute_error <- compare(absolute, d$margins)
+  tasks <- right$factors$task
+  shares <- keep(lapply(seq_along(tasks), function(i) {
+    of_cells(right$values, i, paste0("correct_", tasks[i]), "tasks", "correct")
+  }))
+  rows <- lapply(shares, friedman_of, margins = d$margins)
+  out$friedman_correct <- holm(rows, sapply(shares, function(m) m$family), "p_exact")
+  out
+}
+
+ITEMS <- c("efficiency", "ease", "enjoy")
+
+ratings_tables <- function(d) {
+  q <- d$questions
+  out <- list(single_items = single_items(q))
+  q <- q[q$item %in% ITEMS & !is.na(q$value), ]
+  if (!two_levels(q)) return(out)
+  factors <- list(
+    item = levels_in(q$item, ITEMS), scenario = levels_in(q$scenario, SCENARIOS), transparency = LEVELS
+  )
+  cells <- table_of(q, sort(unique(d$questions$participant), method = "radix"), "value", factors)
+  v <- cells$values
+  overall <- of_cells(apply(v, c(1, 4), mean), 1, "rating_overall", "", "rating")
+  each <- list()
+  for (s in seq_along(factors$scenario)) {
+    for (i in seq_along(factors$item)) {
+      key <- paste0(factors$item[i], "_", factors$scenario[s])
+      each <- c(each, list(of_cells(v[, i, s, ], 1, key, "ratings", "rating")))
+    }
+  }
+  measures <- keep(c(list(overall), each))
+  rows <- lapply(measures, friedman_of, margins = d$margins)
+  out$friedman_ratings <- holm(rows, sapply(measures, function(m) m$family), "p_exact")
+  if (length(factors$scenario) < 2) return(out)
+  y <- complete_matrix(aperm(apply(v, c(1, 3, 4), mean), c(1, 3, 2)))
+  if (nrow(y) < 2) return(out)
+  test <- friedman_row(y)
+  out$friedman_conditions <- list(c(list(measure = "rating_conditions"), test))
+  if (is.na(test$chi2)) return(out)
+  names <- as.vector(t(outer(LEVELS, factors$scenario, paste)))
+  out$post_hoc_conditions <- pairs_after(y, names)
+  out
+}
+
+# A preference for neither is a tie: counted, and left out of share, interval and test.
+single_items <- function(q) {
+  rows <- lapply(c("preference", "depth_self_report", "depth_test"), function(item) {
+    own <- q[q$item == item & !is.na(q$value), ]
+    if (!nrow(own)) return(NULL)
+    out <- list(
+      item = item, n = nrow(own), neutral = "", mean = mean(own$value), sd = sd_or_none(own$value),
+      low = "", high = "", p = ""
+    )
+    if (item != "preference") return(out)
+    neither <- own$text == "neutral" | !own$value %in% c(0, 1)
+    v <- own$value[!neither]
+    out$neutral <- sum(neither)
+    out[c("mean", "sd", "low", "high", "p")] <- undefined
+    if (!length(v)) return(out)
+    test <- binom.test(sum(v == 1), length(v))
+    out$mean <- mean(v)
+    out$sd <- sd_or_none(v)
+    out$low <- test$conf.int[1]
+    out$high <- test$conf.int[2]
+    out$p <- test$p.value
+    out
+  })
+  keep(rows)
+}
+
+sd_or_none <- function(v) if (length(v) > 1) sd(v) else undefined
