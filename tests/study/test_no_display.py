@@ -67,4 +67,4 @@ def test_a_slot_whose_session_could_not_begin_is_given_out_again(tmp_path):
     done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     assert "slots     0 complete, 0 open, 4 free, 0 void entries" in done.stdout
-    assert "next      seethrough run STUDY --next: slot 1, row 1" in done.stdout
+    assert "next      seethrough run demo --next: slot 1, row 1" in done.stdout
