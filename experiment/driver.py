@@ -10,6 +10,7 @@ from typing import Any
 from experiment.errors import InputError
 
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software")  # rasterisers on the processor
+INSTEAD = "`seethrough simulate` plays a study, `seethrough render` draws"
 AUTOMATIC = 4  # samples where a graphics card draws
 
 
@@ -28,8 +29,13 @@ def samples_for(wanted: str | int, context: Any) -> int:
     20 ms a frame at 800 × 600, a graphics card next to nothing."""
     if isinstance(wanted, int):
         return wanted
+    return 0 if on_the_processor(context) else AUTOMATIC
+
+
+def on_the_processor(context: Any) -> bool:
+    """Whether a software rasteriser draws."""
     renderer = context.info["GL_RENDERER"].lower()
-    return 0 if any(name in renderer for name in SOFTWARE) else AUTOMATIC
+    return any(name in renderer for name in SOFTWARE)
 
 
 def open_context() -> Any:
@@ -42,14 +48,14 @@ def open_context() -> Any:
         raise InputError(str(error)) from None
 
 
-def no_window(error: Exception) -> InputError:
-    """What to say, and to do, where no window can be opened."""
+def no_window(error: Exception, instead: str = INSTEAD) -> InputError:
+    """What to say, and to do instead, where no window can be opened."""
     said = " ".join(str(error).split())
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         said = "DISPLAY is not set"
     return InputError(
         f"display: no window can be opened ({said}); expected to be started from a terminal on a "
-        "desktop; without one, `seethrough simulate` plays a study, `seethrough render` draws"
+        f"desktop; without one, {instead}"
     )
 
 

@@ -20,6 +20,7 @@ FILE = "ledger.sqlite"
 LOCKS = "locks.sqlite"  # of sessions without a ledger: pilots
 POINTER = "ledger.url"
 MOVED = "ledger-moved.sqlite"
+STUDY = "study.path"
 
 
 def find(data: Path, wanted: str = "") -> URL:
@@ -42,6 +43,29 @@ def find(data: Path, wanted: str = "") -> URL:
 def exists(data: Path, wanted: str = "") -> bool:
     """Whether the folder has a ledger."""
     return bool(wanted) or (data / POINTER).exists() or (data / FILE).exists()
+
+
+def note_study(data: Path, study: Path, name: str = "") -> None:
+    """Note which file the study is in, for `status`: its path, or the `name` of a shipped one."""
+    text = f"{name or study.resolve()}\n"
+    path = data / STUDY
+    try:
+        if not path.exists() or path.read_text("utf-8") != text:
+            path.unlink(missing_ok=True)
+            write_new(path, text)
+    except FileExistsError:
+        pass  # another station noted its own just now
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def noted_study(data: Path) -> str:
+    """What was noted; empty where nothing was, or where the file is not there any more."""
+    try:
+        noted = (data / STUDY).read_text("utf-8").strip()
+    except (OSError, UnicodeDecodeError):
+        return ""
+    return noted if ("/" not in noted and "\\" not in noted) or Path(noted).is_file() else ""
 
 
 def settle(data: Path, url: URL, engine: Engine) -> None:

@@ -7,8 +7,7 @@ import pyglet
 pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
-from experiment.driver import window_context
-from experiment.errors import InputError
+from experiment.driver import no_window, window_context
 from experiment.viewer import Viewer, ViewState
 from renderer.models.translucent.scenes import TranslucentScene
 from renderer.ordering.prepared import Prepared
@@ -25,8 +24,7 @@ def show(scene: TranslucentScene, prepared: Prepared, method: str, size: tuple[i
     try:
         window = pyglet.window.Window(*size, caption=f"{scene.name} – {method}", vsync=True)
     except Exception as error:  # pyglet raises a different class on each platform
-        problem = str(error) or "no display"
-        raise InputError(f"view: {problem}, expected a display (or --picture FILE)") from error
+        raise no_window(error, "--picture FILE writes the first picture") from error
     context = window_context()
     viewer = Viewer(context, window.get_framebuffer_size(), scene, prepared)
     label = pyglet.text.Label(

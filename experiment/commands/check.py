@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import csv
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,13 +13,18 @@ from experiment.config import Study, load
 from experiment.design import order_of, session_for
 from experiment.errors import InputError
 from experiment.texts import Texts
+from experiment.verdicts import FAILS, OK, WARNING, Verdicts
 
 if TYPE_CHECKING:
     from experiment.certificate import Difficulty, Match
+    from experiment.machine import FrameTimes
 
 SECONDS = 10.0  # of the hardest scene
 LEAST_DISK = 1.0  # GiB
 MOST_REDRAWS = 50
+MOST_ORDERS = 64  # more than a square of the conditions that there can be has rows
+SMOOTH, HOPELESS = 0.01, 0.5  # shares of frames missed: above the first a warning, the last fails
+NO_CARD = "no graphics card draws: expected frames to be late in hard scenes"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,43 +44,51 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"{arguments.certificate}: exists already; expected a new file")
     study = load(arguments.study)
     Texts(study.study.language, study.texts)
-    print(f"config      {study.study.name}: valid, {study.digest()[:12]}")
-    for line in (*_models(study), *_design(study)):
-        print(line)
+    said = Verdicts()
+    said.say("config", f"{study.study.name}, {study.digest()[:12]}")
+    _models(study, said)
+    _design(study, said)
     if arguments.config_only:
-        return 0
-    from experiment.driver import describe, open_context
+        return said.sum_up()
+    from experiment.driver import describe, on_the_processor, open_context
 
     context = open_context()
     for name, value in describe(context).items():
-        print(f"machine     {name}: {value}")
+        software = name == "renderer" and on_the_processor(context)
+        said.say("machine", f"{name}: {value}", *([WARNING, NO_CARD] if software else []))
     measured = _measured(study, context)
-    passed = _difficulty(study, measured, context, arguments.redraw)
+    _difficulty(study, measured, context, arguments.redraw, said)
     if arguments.certificate is not None:
         _write(measured, arguments.certificate)
-    return 0 if _machine(study, measured, context, arguments.seconds) and passed else 1
+    _machine(study, measured, context, arguments.seconds, said)
+    return said.sum_up()
 
 
-def _models(study: Study) -> Iterator[str]:
+def _models(study: Study, said: Verdicts) -> None:
     """What the study brings along: read already, or there would be no study."""
     from tasks.own_models import mesh_of
 
     for own in study.walkthrough.models:
         count = len(mesh_of(own).triangles)
-        yield f"model       {own.name}: {own.file}, {count} triangles, {own.sha256[:12]}"
+        said.say("model", f"{own.name}: {own.file}, {count} triangles, {own.sha256[:12]}")
 
 
-def _design(study: Study) -> Iterator[str]:
+def _design(study: Study, said: Verdicts) -> None:
     factors, count = study.design.factors(), study.study.participants
     per_session = sum(len(s.trials) for s in session_for(1, factors))
     rows = Counter(order_of(slot, len(factors.conditions)) for slot in range(1, count + 1))
-    yield f"design      {count} participants × {per_session} trials = {count * per_session} trials"
+    total = count * per_session
+    said.say("design", f"{count} participants × {per_session} trials = {total} trials")
     for order, number in sorted(rows.items()):
-        yield f"            {number} × " + " → ".join(
-            "/".join(factors.conditions[c]) for c in order
-        )
+        way = " → ".join("/".join(factors.conditions[c]) for c in order)
+        said.say("design", f"{number} × {way}")
     uneven = max(rows.values()) - min(rows.values())
-    yield f"            {'balanced' if uneven == 0 else f'rows differ by {uneven}'}"
+    orders = {order_of(slot, len(factors.conditions)) for slot in range(1, MOST_ORDERS + 1)}
+    if uneven == 0 and len(rows) == len(orders):
+        said.say("design", "each order equally often")
+    else:
+        why = f"expected a multiple of {len(orders)} participants"
+        said.say("design", "the orders are not equally often", WARNING, why)
 
 
 def _measured(study: Study, context: Any) -> list[Difficulty]:
@@ -93,23 +105,25 @@ def _measured(study: Study, context: Any) -> list[Difficulty]:
     return measured
 
 
-def _difficulty(study: Study, measured: list[Difficulty], context: Any, redraw: bool) -> bool:
+def _difficulty(
+    study: Study, measured: list[Difficulty], context: Any, redraw: bool, said: Verdicts
+) -> None:
     from experiment.certificate import matches, worst
 
     found = matches(study, measured)
     for task in study.design.tasks:
         own = [match for match in found if match.task == task]
-        print(f"difficulty  {task}: " + ", ".join(_means(m) for m in own if m.ok) + ": ok")
+        if any(match.ok for match in own):
+            said.say("difficulty", f"{task}: " + ", ".join(_means(m) for m in own if m.ok))
         for match in (m for m in own if not m.ok):
-            print(
-                f"difficulty  {task}: {_means(match)}: apart {_apart(match, match.difference)}, "
-                f"at most {_apart(match, match.bound)}: NOT MATCHED"
+            apart = f"apart {_apart(match, match.difference)}"
+            why = (
+                f"not matched, expected at most {_apart(match, match.bound)}; farthest off: "
+                f"{worst(match, measured).trial.scene}"
             )
-            print(f"            farthest off: {worst(match, measured).trial.scene}")
-    passed = all(match.ok for match in found)
-    if redraw and not passed:
-        _redraw(study, measured, context)
-    return passed
+            said.say("difficulty", f"{task}: {_means(match)}, {apart}", FAILS, why)
+    if redraw and not all(match.ok for match in found):
+        _redraw(study, measured, context, said)
 
 
 def _means(match: Match) -> str:
@@ -123,7 +137,7 @@ def _apart(match: Match, value: float) -> str:
     return f"{value:.3f}" if match.measure in SHARES else f"{100 * value:.0f} %"
 
 
-def _redraw(study: Study, measured: list[Difficulty], context: Any) -> None:
+def _redraw(study: Study, measured: list[Difficulty], context: Any, said: Verdicts) -> None:
     """Draw the worst scene again until all match; print the line for the config."""
     from experiment.certificate import Certifier, matches, trials_of, worst
 
@@ -132,14 +146,17 @@ def _redraw(study: Study, measured: list[Difficulty], context: Any) -> None:
         bad = next((m for m in matches(study, measured) if not m.ok), None)
         if bad is None:
             quoted = ", ".join(f'"{name}"' for name in names)
-            print(f"redraw      these scenes drawn again match; in [design]: redraw = [{quoted}]")
+            # Last on its line, so that it can be copied into the study.
+            said.say("redraw", "the levels match with more scenes drawn again")
+            print(f"            ok; in [design]: redraw = [{quoted}]")
             return
         names.append(worst(bad, measured).trial.scene)
         design = study.design.model_copy(update={"redraw": tuple(names)})
         study = study.model_copy(update={"design": design})
         certifier, again = Certifier(study, context), {d.trial.stream: d for d in measured}
         measured = [again.get(t.stream) or certifier.measure(t) for t in trials_of(study)]
-    print(f"redraw      {MOST_REDRAWS} scenes drawn again, and the levels still do not match")
+    why = "the levels still do not match"
+    said.say("redraw", f"{MOST_REDRAWS} scenes drawn again", FAILS, why)
 
 
 def _write(measured: list[Difficulty], path: Path) -> None:
@@ -154,7 +171,9 @@ def _write(measured: list[Difficulty], path: Path) -> None:
             table.writerow([d.trial.scene, d.trial.task, d.trial.transparency, *cells])
 
 
-def _machine(study: Study, measured: list[Difficulty], context: Any, seconds: float) -> bool:
+def _machine(
+    study: Study, measured: list[Difficulty], context: Any, seconds: float, said: Verdicts
+) -> None:
     """Frame times where they are worst: the scenes with most to see through, in each scenario."""
     from experiment.machine import frame_times, free_disk
 
@@ -167,24 +186,40 @@ def _machine(study: Study, measured: list[Difficulty], context: Any, seconds: fl
         )
         times = frame_times(study, hardest.trial, context, seconds)
         rate = study.display.refresh
-        print(
-            f"machine     {scenario}, {level}: {times.frames} frames of {hardest.trial.scene}, "
+        text = (
+            f"{scenario}, {level}: {times.frames} frames of {hardest.trial.scene}, "
             f"median {times.median:.1f} ms, 99 % within {times.p99:.1f} ms; "
             f"{100 * times.missed:.1f} % over 1.5 periods of {rate:g} Hz"
         )
-    fit = _refresh(study)
+        said.say("machine", text, *smooth(times, rate))
+    _refresh(study, said)
     free = free_disk(Path.cwd())
-    print(f"machine     free disk: {free:.1f} GiB" + ("" if free > LEAST_DISK else ": TOO LITTLE"))
-    return fit and free > LEAST_DISK
+    enough = [] if free > LEAST_DISK else [FAILS, f"expected {LEAST_DISK:g} GiB or more"]
+    said.say("machine", f"free disk: {free:.1f} GiB", *enough)
 
 
-def _refresh(study: Study) -> bool:
+def smooth(times: FrameTimes, rate: float) -> tuple[str, str]:
+    """The verdict on frame times, and why. Where more frames are missed than not, the display's
+    rate is out of reach: nobody should be run on this machine."""
+    if times.missed > HOPELESS:
+        return (
+            FAILS,
+            f"{rate:g} Hz is out of reach here ({1000 / times.median:.0f} frames a second): "
+            "expected a graphics card, a smaller window or an easier scene",
+        )
+    if times.missed > SMOOTH:
+        return WARNING, f"expected at most {100 * SMOOTH:g} % missed; the report counts them"
+    return OK, ""
+
+
+def _refresh(study: Study, said: Verdicts) -> None:
     """Measured against declared refresh rate, where there is a display."""
     from experiment.system_window import available
 
     if not available():
-        print("machine     no display: refresh rate not measured")
-        return True
+        why = "no display: simulated people only, and the refresh rate was not measured"
+        said.say("machine", "window: none can be opened", WARNING, why)
+        return
     from experiment import refresh
     from experiment.clock import RealClock
     from experiment.window import Window
@@ -192,5 +227,5 @@ def _refresh(study: Study) -> bool:
     window = Window(study.display, Texts("en"), RealClock(), "check")
     rate, declared = window.measured, window.declared
     window.close()
-    print(f"machine     refresh: {refresh.said(rate, declared)}")
-    return refresh.fits(rate, declared)
+    right = [] if refresh.fits(rate, declared) else [FAILS, "write the measured one into [display]"]
+    said.say("machine", f"refresh: {refresh.said(rate, declared)}", *right)

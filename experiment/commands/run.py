@@ -8,7 +8,7 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
-from experiment.config import Study, load
+from experiment.config import Study, find, load, shipped
 from experiment.errors import InputError
 from experiment.folders import check_participant, folder_of, next_free, taken
 from experiment.private import make_folder
@@ -64,12 +64,15 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
     from experiment.ledger import Ledger  # SQLAlchemy: only where a ledger is needed
     from experiment.ledger_files import reconcile
     from experiment.ledger_lock import playing
+    from experiment.ledger_place import note_study
     from experiment.ledger_plan import plan_of
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
     with Ledger.open(data, url, plan, _now()) as ledger:
         for line in reconcile(ledger, data, _now()):
             print(line, file=sys.stderr)
+        path = find(arguments.study)
+        note_study(data, path, path.stem if path in shipped().values() else "")
         used = taken(data, "human")
         entry = ledger.reserve(arguments.participant, _now(), arguments.slot, used)
         locks = ledger.locks()

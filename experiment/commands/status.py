@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from collections import Counter
 from collections.abc import Sequence
 from datetime import UTC, datetime
@@ -32,7 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
     now = datetime.now(UTC)
     with Ledger.existing(arguments.data, arguments.ledger) as ledger:
         changes = reconcile(ledger, arguments.data, now)
-        lines = [*(f"mended    {line}" for line in changes), *describe(ledger, now)]
+        study = study_words(arguments.data, ledger.plan.study)
+        lines = [*(f"mended    {line}" for line in changes), *describe(ledger, now, study)]
     problems = [one_line(line) for line in _changed(arguments.data)]
     files = [f"files     {line}" for line in problems or ["as they were written: chains hold"]]
     print("\n".join([*lines[:-1], *files, lines[-1]]))
@@ -45,7 +47,16 @@ def _changed(data: Path) -> list[str]:
     return [f"{name}: {line}" for name in names for line in verify(folder_of(data, "human", name))]
 
 
-def describe(ledger: Ledger, now: datetime) -> list[str]:
+def study_words(data: Path, name: str) -> str:
+    """The study as `seethrough run` takes it: as noted by the last run, else a shipped one."""
+    from experiment.config import shipped
+    from experiment.ledger_place import noted_study
+
+    noted = noted_study(data) or (name if name in shipped() else "")
+    return shlex.quote(noted) if noted else f"[the file of the study {name}]"
+
+
+def describe(ledger: Ledger, now: datetime, study: str) -> list[str]:
     """The ledger in lines for the experimenter."""
     plan, entries = ledger.plan, ledger.entries()
     of = {s: [e for e in entries if e.status == s] for s in (COMPLETE, LIVE, VOID, SURPLUS)}
@@ -62,7 +73,7 @@ def describe(ledger: Ledger, now: datetime) -> list[str]:
         *_people("open", of[LIVE], {e.participant for e in stale}),
         *_people("void", of[VOID]),
         *_people("surplus", of[SURPLUS]),
-        f"next      {_next(ledger, now)}",
+        f"next      {_next(ledger, now, study)}",
     ]
 
 
@@ -86,10 +97,10 @@ def _people(what: str, entries: Sequence[Entry], stale: Sequence[str] | set[str]
     ]
 
 
-def _next(ledger: Ledger, now: datetime) -> str:
+def _next(ledger: Ledger, now: datetime, study: str) -> str:
     slot = ledger.upcoming(now)
     if slot is None:
         return "nobody: every slot is complete or open; wait for the open ones, or withdraw"
     beyond = " (past the number wanted)" if slot > ledger.plan.participants else ""
     row = row_of(slot, ledger.plan.rows) + 1
-    return f"seethrough run STUDY --next: slot {slot}, row {row}{beyond}"
+    return f"seethrough run {study} --next: slot {slot}, row {row}{beyond}"

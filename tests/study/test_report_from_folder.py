@@ -149,3 +149,40 @@ def test_an_unrelated_folder_is_not_written_to(tmp_path, capsys):
 def test_no_data_and_no_published_is_bad_input(tmp_path, capsys):
     assert main(["report", "--out", str(tmp_path / "out")]) == 2
     assert "expected either DATA or --published" in capsys.readouterr().err
+
+
+def contents(folder):
+    return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_a_report_takes_the_place_of_another_only_when_told(tmp_path, capsys):
+    """And of nothing else, ever: refused with a line, and nothing is touched."""
+    out = tmp_path / "out"
+    many = {"analysis": {"tests": ["time", "accuracy"]}, "study": {"title": "How far one sees"}}
+    make_folder(tmp_path / "a", Made(participants=3, trials=1, config=many))
+    few = {"analysis": {"tests": ["time"]}, "study": {"title": "How far one sees"}}
+    make_folder(tmp_path / "b", Made(participants=3, trials=1, config=few))
+    first, second = (["report", str(tmp_path / n), "--out", str(out)] for n in "ab")
+    assert main(first) == 0
+    before = contents(out)
+    assert b"<h1>How far one sees: report</h1>" in before[Path("report.html")]
+    assert main(second) == 2 and contents(out) == before
+    assert f"--out = {out}: holds a report already: expected another folder, or --replace" in (
+        capsys.readouterr().err
+    )
+    for name in ("notes.txt", "tables/mine.csv", "figures/mine.svg", "tables/x.txt"):
+        mine = out / name
+        mine.write_text("mine", encoding="utf-8")
+        assert main([*second, "--replace"]) == 2 and contents(out) == {
+            **before,
+            Path(name): b"mine",
+        }
+        assert f"holds {name}, which is no part of a report" in capsys.readouterr().err
+        mine.unlink()
+    assert main(["report", str(tmp_path / "none"), "--out", str(out), "--replace"]) == 2
+    assert contents(out) == before  # what cannot be made replaces nothing
+    assert main([*second, "--replace"]) == 0
+    after = contents(out)
+    assert after[Path("report.html")] != before[Path("report.html")]
+    assert main(["report", str(tmp_path / "b"), "--out", str(tmp_path / "new")]) == 0
+    assert set(after) == set(contents(tmp_path / "new"))  # no table of the earlier one is left

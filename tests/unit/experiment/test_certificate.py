@@ -1,16 +1,19 @@
 """The difficulty certificate: on scenes whose answer is known, and how it fails."""
 
 import csv
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from experiment import cli
+from experiment import cli, machine
 from experiment.certificate import Certifier, Difficulty, matches, walking_path, worst
+from experiment.commands.check import smooth
 from experiment.config import parse
 from experiment.design import Trial, session_for
+from experiment.machine import FrameTimes
 from renderer import geometry
 from renderer.camera import look_at
 from renderer.gpu.context import standalone
@@ -141,7 +144,47 @@ def test_every_measure_is_matched_and_the_trial_that_adds_most_is_named():
     assert worst(found["occluders"], measured).trial.scene == "dynamic-3"
 
 
-def test_check_fails_names_the_trial_finds_redraws_and_they_match(study_file, tmp_path, capsys):
+def verdict_of(line):
+    """How a line of check ends: "…: ok", "…: WARNING, why" or "…: FAILS, why"."""
+    found = re.search(r"^\S+ +\S.*: (ok|WARNING|FAILS)(, .*)?$", line)
+    return found and found[1]
+
+
+@pytest.mark.parametrize(
+    ("missed", "verdict"),
+    [
+        (0.0, "ok"),
+        (0.01, "ok"),
+        (0.011, "WARNING"),
+        (0.5, "WARNING"),
+        (0.51, "FAILS"),
+        (1.0, "FAILS"),
+    ],
+)
+def test_hopeless_frame_rates_are_said(missed, verdict):
+    found, why = smooth(FrameTimes(100, 80.0, 90.0, missed), 60.0)
+    assert found == verdict
+    if verdict == "FAILS":
+        assert why.startswith(
+            "60 Hz is out of reach here (12 frames a second): expected a graphics"
+        )
+
+
+def test_a_design_whose_orders_cannot_be_even_is_a_warning(study_file, capsys):
+    """Of two conditions each order comes first as often with an even number of people only."""
+    for people, word, status in ((1, "WARNING", 0), (2, "ok", 0), (3, "WARNING", 0)):
+        text = study_file.read_text().replace("participants = 2", f"participants = {people}")
+        study_file.write_text(text)
+        assert cli.main(["check", str(study_file), "--config-only"]) == status
+        lines = capsys.readouterr().out.splitlines()
+        assert all(map(verdict_of, lines)) and verdict_of(lines[-1]) == word
+        assert verdict_of(next(s for s in lines if "equally often" in s)) == word
+        study_file.write_text(text.replace(f"participants = {people}", "participants = 2"))
+
+
+def test_check_fails_names_the_trial_finds_redraws_and_they_match(
+    study_file, tmp_path, capsys, monkeypatch
+):
     strict = tmp_path / "strict.toml"
     strict.write_text(
         study_file.read_text().replace("trials = 1\n", "trials = 1\ntolerance = 0.02\n")
@@ -149,7 +192,8 @@ def test_check_fails_names_the_trial_finds_redraws_and_they_match(study_file, tm
     words = ["--seconds", "0"]
     assert cli.main(["check", str(strict), "--redraw", *words]) == 1
     said = capsys.readouterr().out
-    assert "NOT MATCHED" in said and "farthest off: stream-1-" in said
+    assert "FAILS, not matched" in said and "farthest off: stream-1-" in said
+    assert all(verdict_of(s) or "ok; in [design]: redraw" in s for s in said.splitlines())
     line = next(s for s in said.splitlines() if "in [design]: redraw" in s)
     redraw = line.partition("in [design]: ")[2]
     mended = tmp_path / "mended.toml"
@@ -157,8 +201,14 @@ def test_check_fails_names_the_trial_finds_redraws_and_they_match(study_file, tm
         strict.read_text().replace("tolerance = 0.02\n", f"tolerance = 0.02\n{redraw}\n")
     )
     out = tmp_path / "certificate.csv"
+    # Whether this machine is quick enough now is no matter of the scenes.
+    monkeypatch.setattr(machine, "frame_times", lambda *_: FrameTimes(100, 5.0, 8.0, 0.0))
     assert cli.main(["check", str(mended), "--certificate", str(out), *words]) == 0
-    assert "NOT MATCHED" not in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "not matched" not in said and all(map(verdict_of, said.splitlines()))
+    assert re.fullmatch(
+        r"verdict     0 failures, \d+ warnings?: (ok|WARNING)", said.splitlines()[-1]
+    )
     with open(out, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 4 and all(0 < float(r["visible"]) <= 1 for r in rows)

@@ -7,6 +7,7 @@ import pytest
 
 from experiment import cli
 from experiment.chain import seal_of
+from experiment.commands import withdraw as withdraw_module
 from experiment.config import find, load
 from experiment.errors import InputError
 from experiment.ledger import Ledger
@@ -125,7 +126,7 @@ def test_status_says_who_has_what_and_what_is_next(tmp_path, capsys):
     assert "balance   completed rows differ by 1\n          row 1: 1 complete, 0 open" in said
     assert "open      C, slot 3, since 2026-01-02T03:04:05.000Z (stale: its slot may" in said
     assert "void      B, slot 2, since 2026-01-02T03:04:05.000Z: felt ill\\x1b[2J" in said
-    assert "next      seethrough run STUDY --next: slot 2, row 2" in said
+    assert "next      seethrough run demo --next: slot 2, row 2" in said
 
 
 def test_withdrawing_asks_and_removes_only_when_told(sessions, tmp_path, capsys, monkeypatch):
@@ -167,3 +168,43 @@ def test_status_names_what_was_changed_in_the_files(sessions, tmp_path, capsys):
     assert cli.main(["status", str(tmp_path)]) == 1
     said = capsys.readouterr().out
     assert f"files     P02: {table.with_suffix('.json').name}: changed, or the header of" in said
+
+
+def test_status_names_the_study_as_run_takes_it(sessions, tmp_path, capsys):
+    """A shipped one by its name, one's own by its path, quoted for a shell; gone: by its name."""
+    own = tmp_path / "my studies" / "mine.toml"
+    own.parent.mkdir()
+    own.write_bytes(find("demo").read_bytes().replace(b'name = "demo"', b'name = "mine"'))
+    data = tmp_path / "data"
+    assert cli.main(["run", str(own), "--next", "--data", str(data)]) == 0
+    capsys.readouterr()
+    for said in (f"seethrough run '{own}' --next: slot 2", "[the file of the study mine] --next"):
+        assert cli.main(["status", str(data)]) == 0
+        assert said in capsys.readouterr().out.splitlines()[-1]
+        own.unlink(missing_ok=True)
+
+
+def left_by(data, source, participant):
+    """The files of a session without a slot."""
+    who = Who(STUDY.study.name, participant, source, 1, {"study_sha256": STUDY.digest()}, 1)
+    FileRecorder(data, who).close("complete")
+    return data / "data" / source / participant
+
+
+def test_who_has_no_slot_is_withdrawn_without_a_ledger(tmp_path, capsys):
+    simulated, other = (left_by(tmp_path, "simulated", name) for name in ("S01", "S02"))
+    pilot = left_by(tmp_path, "pilot", "P01")
+    withdraw = ["withdraw", str(tmp_path), "--participant"]
+    with pytest.raises(InputError, match="--yes: expected"):
+        withdraw_module.run(cli._parser(withdraw).parse_args([*withdraw, "S01"]))
+    assert cli.main([*withdraw, "S01", "--yes"]) == 0
+    assert "S01: 3 files of a simulated participant removed" in capsys.readouterr().out
+    assert not simulated.exists() and other.exists() and pilot.exists()
+    assert cli.main([*withdraw, "P01", "--yes"]) == 0 and not pilot.exists()
+    assert cli.main([*withdraw, "P07", "--source", "simulated", "--yes"]) == 2
+    assert cli.main([*withdraw, "P07", "--yes"]) == 2  # a person's slot: in the ledger alone
+    said = capsys.readouterr().err.splitlines()
+    assert "no such simulated participant" in said[0] and "no ledger" in said[1]
+    left_by(tmp_path, "pilot", "S02")
+    assert cli.main([*withdraw, "S02", "--yes"]) == 2 and other.exists()
+    assert "--source: expected one of pilot, simulated" in capsys.readouterr().err
