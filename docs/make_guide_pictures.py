@@ -5,8 +5,10 @@ python docs/make_guide_pictures.py
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -26,8 +28,10 @@ from renderer.gpu.context import standalone
 from tasks.base import Outcome
 from tasks.catalog import TASKS
 from tasks.events import KeyPress
+from tasks.hud import practice_mark
 
 SIZE = (800, 600)
+ENTER = KeyPress(0.0, "enter")
 OUT = Path(__file__).parent / "pictures" / "guide"
 
 
@@ -48,9 +52,9 @@ class Camera:
         picture.save(OUT / f"{name}.png", optimize=True)
         print(OUT / f"{name}.png")
 
-    def page(self, page: Page, name: str | None = None) -> None:
+    def page(self, page: Page, name: str | None = None, **how: Any) -> None:
         """A page; drawn a few times, because ImGui settles its layout over two frames."""
-        form = Form(page)
+        form = Form(page, **how)
         for _ in range(4):
             self.stage.draw_form(form, self.target, 1 / 60)
         self.keep(name or page.name.replace(" ", "-"))
@@ -87,6 +91,10 @@ def main() -> None:
     trial = task_sets[0].trials[0]
     record = TrialRecord(trial, wrong, 14, 0.0, 30.0, 0.0, False, 1800, 0, 0.0, 0.0, 0.0)
     camera.page(_feedback(record))
+    camera.page(_page("pause"), "waiting", waiting="wait.scene")
+    camera.page(
+        blocks.ratings("dynamic", "abstract"), "missing", answers={"ease": "3"}, insisted=True
+    )
     camera.stage.done = 1.0
     camera.page(blocks.tlx("dynamic"), "tlx")
     camera.page(blocks.sus("dynamic"), "sus")
@@ -108,6 +116,25 @@ def _task(camera: Camera, run: TrialRun, trial: Trial) -> None:
         for _ in range(3):
             camera.stage.draw_view(task.view(state), run.technique(trial), camera.target, 1 / 60)  # type: ignore[arg-type]
         camera.keep(f"task-{trial.task}{suffix}")
+    if trial.task == "unique":
+        _practice(camera, run, trial, task.on_event(state, ENTER))
+
+
+def _practice(camera: Camera, run: TrialRun, trial: Trial, state: Any) -> None:
+    """A practice trial as it begins, with Enter pressed too early, and the feedback of another."""
+    count = TASKS["count_in_building"]
+    example = run.scenes.example(replace(trial, task=count.name))
+    early = count.on_event(run.scenes.begin(count, example, camera.stage.aspect), ENTER)
+    view = count.view(early)
+    view = replace(view, hud=(*view.hud, practice_mark(camera.stage.aspect)))
+    for _ in range(3):
+        camera.stage.draw_view(view, run.technique(trial), camera.target, 1 / 60)  # type: ignore[arg-type]
+    camera.keep("practice")
+    task = TASKS[trial.task]
+    record = TrialRecord(
+        trial, task.outcome(state), 1, 0.0, 30.0, 0.0, False, 1800, 0, 0.0, 0.0, 0.0
+    )
+    camera.page(_feedback(replace(record, solution=task.solution(state))), "feedback-unique")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from tasks.controls import Orbit, changed
 from tasks.visit import Visit
 
 YAWS = 8  # of an orbit
-AWAY, DIRECTIONS = (6.0, 9.0), 6  # world units from a thing in the building, and sides of it
+AWAY, DIRECTIONS = (7.5, 10.0), 6  # world units from a thing in the building, and sides of it
 MOST_THINGS = 2  # of those asked for in a building, to stand before
 ROOM = 0.5  # world units between the camera and any thing
 

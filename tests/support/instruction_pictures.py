@@ -60,6 +60,7 @@ def main(seeds):
     for seed in range(1, seeds + 1):
         for which, sight in sights(renderer, seed):
             found[which].append(sight)
+        print(f"{seed} of {seeds} seeds", file=sys.stderr, flush=True)
     for (task, level), all_ in sorted(found.items()):
         print(
             f"{task:18s}{level:9s} {len(all_):3d} pictures: the largest thing asked for fills at "
