@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
+from analysis.errors import DataError
 from experiment.errors import InputError, one_line
 
 COMMANDS = {
@@ -20,6 +21,7 @@ COMMANDS = {
     "withdraw": "remove a participant's data, leaving a dated mark",
     "export": "give the data another form: wide, parquet, bids, psychds",
     "report": "make the statistics report from a data folder",
+    "seal": "print one hash over everything that was recorded",
     "check": "check a study before anybody is invited",
     "render": "draw a scene into a picture",
     "view": "look at a scene of translucent polygons, ordered by a method",
@@ -59,6 +61,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return int(arguments.run(arguments) or 0)
     except InputError as error:
         print(f"seethrough: {one_line(str(error))}", file=sys.stderr)
+        return 2
+    except DataError as error:
+        for line in error.shown():
+            print(f"seethrough: {line}", file=sys.stderr)
         return 2
     except OSError as error:
         if error.filename is None:

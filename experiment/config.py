@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-import tomllib
+import os
 from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
@@ -24,6 +24,7 @@ from experiment.errors import InputError
 from experiment.folders import PARTICIPANT
 from experiment.own_models import beside
 from experiment.parameter_tables import from_table
+from experiment.study_files import LARGEST_TEXT, read_beside, read_toml
 from renderer.techniques.dynamic import DynamicTransparency
 from tasks.parameters import AbstractParameters, BuildingParameters
 
@@ -202,7 +203,7 @@ def shipped() -> dict[str, Path]:
 def find(name: str) -> Path:
     """The config file for a path or a shipped study's name. Raises InputError."""
     path = Path(name)
-    if _is_file(path):
+    if _is_there(path):
         return path
     if path.name == name and name in shipped():
         return shipped()[name]
@@ -213,25 +214,18 @@ def find(name: str) -> Path:
     )
 
 
-def _is_file(path: Path) -> bool:
+def _is_there(path: Path) -> bool:
+    """Whether there is something that is no folder: what it is, reading it will say."""
     try:
-        return path.is_file()
-    except OSError:  # a name that is too long for the disk
+        return os.path.lexists(path) and not path.is_dir()
+    except (OSError, ValueError):  # a name that is too long for the disk, or holds a null byte
         return False
 
 
 def load(name: str) -> Study:
     """Read and check a study. Raises InputError with file, key, value and what was expected."""
     path = find(name)
-    try:
-        table = tomllib.loads(path.read_bytes().decode("utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: byte {error.start} is not UTF-8") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{path}: not valid TOML: {_one_line(str(error))}") from None
-    study = _with_consent(parse(table, str(path)), path)
+    study = _with_consent(parse(read_toml(path), str(path)), path)
     return study.with_walkthrough(beside(study.walkthrough, path))
 
 
@@ -239,11 +233,12 @@ def _with_consent(study: Study, path: Path) -> Study:
     """The study with the text of its consent file among its texts. Raises InputError."""
     if not study.session.consent:
         return study
-    file = path.parent / study.session.consent
     try:
-        text = file.read_bytes().decode("utf-8").strip()
-    except (OSError, ValueError) as error:  # ValueError: not UTF-8, or a null byte in the name
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
+        data = read_beside(path, study.session.consent, LARGEST_TEXT)
+        text = data.decode("utf-8-sig").strip()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        reason = "not UTF-8" if isinstance(error, UnicodeDecodeError) else reason
         raise InputError(
             f"{path}: session.consent = {_show(study.session.consent)}: expected a text file "
             f"beside the study ({reason})"

@@ -19,7 +19,8 @@ from tasks.events import Event, FocusChange, KeyPress
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5
-DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares
+DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares, closer at the start:
+DIGEST_SOONEST = 0.25  # so that a short trial has some too
 
 LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
 MENU = Page(
@@ -142,7 +143,8 @@ class Running:
         if self._watch.frames == 0:
             self.first = flip
         self._watch.frame(flip, self.view)
-        due = flip - self._digested >= DIGEST_EVERY
+        after = min(DIGEST_EVERY, max(DIGEST_SOONEST, (flip - self.first) / 4))
+        due = flip - self._digested >= after
         digest = self._world.display.digest() if due else ""
         self._digested = flip if due else self._digested
         self._world.recorder.frame(flip, self.view, digest)
