@@ -135,15 +135,15 @@ class SessionTable(_Table):
     that many stations share (its password belongs into PostgreSQL's own password file).
     """
 
-    training_limit: Annotated[float, Field(ge=0)] = 300.0
-    trial_limit: Annotated[float, Field(ge=0)] = 0.0
-    session_limit: Annotated[float, Field(ge=0)] = 4800.0
+    training_limit: Annotated[float, Field(ge=0, le=1e9)] = 300.0
+    trial_limit: Annotated[float, Field(ge=0, le=1e9)] = 0.0
+    session_limit: Annotated[float, Field(ge=0, le=1e9)] = 4800.0
     consent: str = ""
     demographics: bool = False
     color_check: bool = False
     questionnaire: tuple[QuestionnaireBlock, ...] = ("ratings", "comparison", "remarks")
     resume: Literal["block", "trial"] = "block"
-    stale_after: Annotated[float, Field(ge=0)] = 86_400.0
+    stale_after: Annotated[float, Field(ge=0, le=1e9)] = 86_400.0
     # Where slots are kept is no part of what is studied: not in the digest, nor in any sidecar.
     ledger: Annotated[str, Field(pattern=r"^(postgresql://([^:@/]+@)?[^@]+)?$", exclude=True)] = ""
 
