@@ -15,7 +15,7 @@ from typing import Any
 
 from analysis.load.chain import read_rows
 from analysis.load.files import Source
-from analysis.load.person import Session
+from analysis.load.person import CHUNK, Session
 from analysis.load.schema import SOURCES
 from analysis.load.whole import verified_person
 from experiment.config import Study, parse
@@ -72,6 +72,11 @@ def find_trial(data: Path, participant: str, number: int, attempt: int | None = 
     check_participant(participant)
     sources = [s for s in SOURCES if os.path.lexists(folder_of(data, s, participant))]
     if not sources:
+        if any(CHUNK.fullmatch(p.name) for p in (data / "data" / "simulated").glob("S*")):
+            raise InputError(
+                f"{data}: --participant = {participant}: simulated in data mode, which keeps no "
+                "traces: there is nothing to show again"
+            )
         raise InputError(f"{data}: --participant = {participant}: no such participant")
     if len(sources) > 1:
         raise InputError(f"{data}: --participant = {participant}: in {len(sources)} sources")

@@ -67,9 +67,11 @@ def _verify(recorded: Recorded) -> int:
             if drawn.digest(frame) != frame.digest:
                 different += 1
                 print(f"frame at {frame.time:.3f} s: another picture than was shown")
+    rest = f"the camera of {found} frames, and the answer; {different} different"
     if drawn is None:
-        print("no picture was kept: this session was played without a window; compared were")
-    print(f"{pictures} frames compared, of {found} the camera, the answer; {different} different")
+        print(f"no picture was kept, since it was played without a window; compared: {rest}")
+    else:
+        print(f"{pictures} pictures compared, {rest}")
     return 1 if different else 0
 
 

@@ -58,7 +58,7 @@ def test_a_session_without_a_window_is_compared_in_what_it_kept(data, tmp_path, 
     simulated = replace(recorded, camera=plain)
     assert verify(simulated) == 0
     said = capsys.readouterr().out
-    assert "no picture was kept" in said and f"of {len(rows) - 1} the camera" in said
+    assert "no picture was kept" in said and f"the camera of {len(rows) - 1} frames" in said
     other = replace(simulated, row={**recorded.row, "answer": "999", "correct": "maybe"})
     assert verify(other) == 1
     assert "answer = '999': the replay makes" in capsys.readouterr().out
