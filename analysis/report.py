@@ -26,8 +26,10 @@ from analysis.sections.summary import summary_section
 from analysis.sections.time import time_section
 from analysis.sections.tradeoff import tradeoff_section
 from analysis.sections.validity import validity_section
+from analysis.written import FILE, half_of, own_folder, write_over
 
 SIMULATED = "Simulated participants: for planning only, never evidence about people."
+UNCHAINED = "Tables without hash chains: whether they were changed cannot be known."
 PILOT = "Pilot data: not part of the study."
 
 
@@ -49,6 +51,8 @@ def make_report(data: Path, options: Options) -> Report:
     context = Context(study, plan, trials, excluded, options.seed)
     sections = _sections(context)
     banner = {"simulated": SIMULATED, "pilot": PILOT}.get(study.source, "")
+    if any(chain.state == "none" for chain in study.chains):
+        banner = f"{banner} {UNCHAINED}".strip()
     subtitle = f"Study {study.name}. Source: {study.source}. {study.description}"
     return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections))
 
@@ -110,16 +114,23 @@ def write(
     browser = find_browser() if "pdf" in formats else ""
     report = make()
     folder.clear(old)
-    pictures = {f.key: write_files(f, out / "figures") for f in figures_of(report.sections)}
-    (out / "tables").mkdir(parents=True, exist_ok=True)
+    if not out.is_dir():
+        own_folder(out)
+    figures, tables = own_folder(out / "figures"), own_folder(out / "tables")
+    pictures = {f.key: write_files(f, figures) for f in figures_of(report.sections)}
     for table in tables_of(report):
-        (out / "tables" / f"{table.key}.csv").write_text(as_csv(table), encoding="utf-8")
-    (out / "report.md").write_text(as_markdown(report), encoding="utf-8")
+        write_over(tables / f"{table.key}.csv", as_csv(table))
+    write_over(out / "report.md", as_markdown(report))
     page = out / "report.html"
-    text = as_html(report, pictures, version("seethrough"), library())
-    page.write_text(text, encoding="utf-8")
+    write_over(page, as_html(report, pictures, version("seethrough"), library()))
     if browser:
-        print_pdf(browser, page, out / "report.pdf")
+        half = half_of(out / "report.pdf")
+        try:
+            print_pdf(browser, page, half)
+            half.chmod(FILE)
+            half.replace(out / "report.pdf")
+        finally:
+            half.unlink(missing_ok=True)
     return page
 
 

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
+from analysis.errors import DataError
 from experiment import streams
 from experiment.errors import InputError, one_line
 
@@ -26,6 +27,7 @@ COMMANDS = {
     "withdraw": "remove a participant's data, leaving a dated mark",
     "export": "give the data another form: wide, parquet, bids, psychds",
     "report": "make the statistics report from a data folder",
+    "seal": "print one hash over everything that was recorded",
     "check": "check a study before anybody is invited",
     "render": "draw a scene into a picture",
     "view": "look at a scene of translucent polygons, ordered by a method",
@@ -87,6 +89,8 @@ def _run(words: Sequence[str]) -> int:
         return int(arguments.run(arguments) or 0)
     except InputError as error:
         return _failed(error.lines, 2)
+    except DataError as error:
+        return _failed(error.shown(), 2)
     except OSError as error:
         if error.filename is None:
             raise

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
@@ -15,6 +16,7 @@ from experiment.errors import MOST, InputError, gathered, short, shown
 from experiment.own_models import beside
 from experiment.parameter_tables import Fault, faulty, from_table
 from experiment.study_errors import study_error
+from experiment.study_files import LARGEST_TEXT, read_beside
 from experiment.study_tables import (
     AnalysisTable,
     DesignTable,
@@ -92,7 +94,7 @@ def shipped() -> dict[str, Path]:
 def find(name: str) -> Path:
     """The config file for a path or a shipped study's name. Raises InputError."""
     path = Path(name)
-    if _is_file(path):
+    if _is_there(path):
         return path
     if path.name == name and name in shipped():
         return shipped()[name]
@@ -103,10 +105,11 @@ def find(name: str) -> Path:
     )
 
 
-def _is_file(path: Path) -> bool:
+def _is_there(path: Path) -> bool:
+    """Whether there is something that is no folder: what it is, reading it will say."""
     try:
-        return path.is_file()
-    except OSError:  # a name that is too long for the disk
+        return os.path.lexists(path) and not path.is_dir()
+    except (OSError, ValueError):  # a name that is too long for the disk, or holds a null byte
         return False
 
 
@@ -138,9 +141,10 @@ def load(name: str) -> Study:
 def _consent(name: str, path: Path) -> str:
     """The text of the consent file beside the study at `path`. Raises InputError."""
     try:
-        return (path.parent / name).read_bytes().decode("utf-8-sig").strip()
-    except (OSError, ValueError) as error:  # ValueError: not UTF-8, or a null byte in the name
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
+        return read_beside(path, name, LARGEST_TEXT).decode("utf-8-sig").strip()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        reason = "not UTF-8" if isinstance(error, UnicodeDecodeError) else reason
         raise InputError(
             f"{path}: session.consent = {shown(name)}: expected a text file beside the study "
             f"({reason})"

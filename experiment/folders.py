@@ -26,8 +26,13 @@ def folder_of(data: Path, source: str, participant: str) -> Path:
 
 def stem_of(study: str, participant: str, session: int = 1) -> str:
     """Start of a participant's file names. Psych-DS values are letters and digits only."""
-    plain = re.sub(r"[^A-Za-z0-9]", "", participant) or "x"
-    return f"study-{study}_subject-{plain}_session-{session}"
+    subject = re.sub(r"[^A-Za-z0-9]", "", participant) or "x"
+    return f"study-{study}_subject-{subject}_session-{session}"
+
+
+def plain(participant: str) -> str:
+    """What file names keep of an id, upper and lower case alike as some disks have them."""
+    return re.sub(r"[^A-Za-z0-9]", "", participant).lower()
 
 
 def taken(data: Path, source: str) -> frozenset[str]:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from experiment.errors import InputError
+from experiment.model_files import check_files
 from experiment.private import make_folder, write_new
 from tasks.own_models import digest, kept_as, mesh_of, packed
 from tasks.parameters import BuildingParameters
@@ -20,6 +21,7 @@ def beside(parameters: BuildingParameters, path: Path) -> BuildingParameters:
     for number, model in enumerate(parameters.models):
         try:
             model = replace(model, folder=str(path.parent))
+            check_files(path, model.file)
             mesh_of(model)
             found.append(replace(model, sha256=digest(model)))
         except (ValueError, OSError) as error:

@@ -20,12 +20,13 @@ LEVELS = ("standard", "dynamic")
 def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect | RankEffect]:
     """Times, errors, right answers, distances and ratings of a folder's participants.
 
-    Each with the test that the analysis makes of it. Raises InputError.
+    Each with the test that the analysis makes of it. Raises DataError for a folder that a report
+    refuses, InputError for one that has no such participants.
     """
     try:
         study = load_study(folder, source)
     except DataError as error:
-        raise InputError(f"--effect = {folder}: {error}") from None
+        raise DataError(f"--effect = {folder}: {line}" for line in error.lines) from None
     trials = study.trials
     if tuple(measures.design(trials)["transparency"]) != LEVELS:
         raise InputError(f"--effect = {folder}: expected trials of both transparency levels")

@@ -9,9 +9,9 @@ import errno
 import os
 from pathlib import Path
 
+from analysis.written import FILE, FOLDER, half_of
 from experiment.errors import InputError
 
-FOLDER, FILE = 0o700, 0o600
 NO_LINKS = (errno.EPERM, errno.ENOTSUP, errno.EMLINK, errno.ENOSYS)
 
 
@@ -32,12 +32,12 @@ def make_folder(path: Path) -> None:
 def write_new(path: Path, content: str | bytes) -> None:
     """A new file with all of `content`, on disk when this returns, or none. Raises OSError.
 
-    FileExistsError where there is one, also from another process. The name appears last, so a
-    crash leaves no half file.
+    FileExistsError where there is one, also from another process or a link that leads nowhere. The
+    name appears last, so a crash leaves no half file.
     """
-    half = path.with_name(f".{path.name}.{os.getpid()}")
+    half = half_of(path)
+    file = os.open(half, os.O_WRONLY | os.O_CREAT | os.O_EXCL, FILE)
     try:
-        file = os.open(half, os.O_WRONLY | os.O_CREAT | os.O_EXCL, FILE)
         try:
             write(file, content.encode("utf-8", "replace") if isinstance(content, str) else content)
             os.fsync(file)
@@ -56,7 +56,7 @@ def _name(half: Path, path: Path) -> None:
     except OSError as error:
         if error.errno not in NO_LINKS:
             raise
-        if path.exists():
+        if os.path.lexists(path):
             raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(path)) from None
         os.rename(half, path)
 

@@ -16,6 +16,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from analysis.load.person import Folder
 from experiment.chain import (
     END,
     TRIALS_TABLE,
@@ -29,7 +30,7 @@ from experiment.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
 from experiment.dataset import describe_dataset
 from experiment.design import Trial
 from experiment.errors import InputError
-from experiment.folders import folder_of, next_free, stem_of
+from experiment.folders import folder_of, next_free, plain, stem_of, taken
 from experiment.private import make_folder, refused, write_new
 from experiment.record_files import Table, Traces, header_of, mend
 from experiment.world import TrialRecord
@@ -73,9 +74,10 @@ class FileRecorder:
         self._now = now
         self.folder = folder_of(data, who.source, who.participant)
         self.stem = stem_of(who.study, who.participant, who.session)
+        _check_alike(data, who)
         describe_dataset(data, who.study)
         try:
-            self._trials = self._begin()
+            self._trials = self._begin(data)
         except FileExistsError:
             raise InputError(
                 f"{self.folder}: participant {who.participant} exists already; "
@@ -89,15 +91,19 @@ class FileRecorder:
         self._traces: Traces | None = None
         self._started = ""
 
-    def _begin(self) -> Table:
+    def _begin(self, data: Path) -> Table:
         """Folder, sidecar and table. Whoever writes the sidecar first has the session."""
         sidecar, table = (self._file(f"trials_data.{kind}") for kind in ("json", "csv"))
         if sidecar.exists():
             raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(sidecar))
+        for place in (data / "data", self.folder.parent, self.folder, self.folder / "traces"):
+            if place.is_symlink():  # whoever planted it would get what is recorded
+                raise InputError(f"{place}: a link: expected a folder of this study's own")
         make_folder(self.folder / "traces")
         content: dict[str, Any] = {"started": self._now(), **asdict(self.who), "chain": {}}
         before = latest_table(self.folder)
         if before is not None:
+            _check_before(self.folder, data)
             content["mended"] = mend(self.folder)
             content["chain"]["follows"] = end_of(before)
             if not before.with_name(before.name.replace(TRIALS_TABLE, END)).exists():
@@ -220,6 +226,23 @@ class FileRecorder:
             "session": who.session,
             "source": who.source,
         }
+
+
+def _check_alike(data: Path, who: Who) -> None:
+    """File names hold an id's letters and digits alone: A-1, A1 and A_1 would be one subject."""
+    own = plain(who.participant)
+    same = [p for p in taken(data, who.source) if p != who.participant and plain(p) == own]
+    if same:
+        raise InputError(
+            f"--participant = {who.participant!r}: {same[0]!r} has files already: expected an id "
+            "that differs in its letters and digits, of which file names are made"
+        )
+
+
+def _check_before(folder: Path, data: Path) -> None:
+    """Nobody goes on after files that are not as they were written: it would vouch for them."""
+    for line in Folder(folder, data).read().problems[:1]:
+        raise InputError(f"{data}: {line}; expected the earlier files as they were written")
 
 
 def _json(content: Mapping[str, Any]) -> str:

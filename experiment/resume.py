@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from analysis.load.chain import LONGEST_CELL
 from experiment.chain import ANSWERS_TABLE
 from experiment.config import Study
 from experiment.design import TaskSet, session_for
@@ -138,6 +139,7 @@ def _rows(table: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
     """A table's whole rows; one that a crash cut short does not count. Raises InputError."""
     data = table.read_bytes()
     text = data[: whole_rows(data)].decode("utf-8", "replace")
+    csv.field_size_limit(LONGEST_CELL)  # a remark may be longer than Python's own limit
     rows = csv.reader(io.StringIO(text, newline=""))
     header = next(rows, [])
     for name in columns:

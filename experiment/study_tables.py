@@ -175,13 +175,15 @@ class SessionTable(Table):
     """[session]: limits, pages before and after, and what becomes of a broken-off session."""
 
     training_limit: Annotated[
-        float, key("most time for the practice trials of a task set; 0: no limit", "s", ge=0)
+        float,
+        key("most time for the practice trials of a task set; 0: no limit", "s", ge=0, le=1e9),
     ] = 300.0
     trial_limit: Annotated[
-        float, key("most time for a trial, then it counts as timed out; 0: no limit", "s", ge=0)
+        float,
+        key("most time for a trial, then it counts as timed out; 0: no limit", "s", ge=0, le=1e9),
     ] = 0.0
     session_limit: Annotated[
-        float, key("most time for the session, then it ends; 0: no limit", "s", ge=0)
+        float, key("most time for the session, then it ends; 0: no limit", "s", ge=0, le=1e9)
     ] = 4800.0
     consent: Annotated[
         str, key("text file beside the study's, shown first and to be agreed to; empty: none")
@@ -198,7 +200,7 @@ class SessionTable(Table):
     stale_after: Annotated[
         float,
         key("an open session not heard of for so long loses its slot to whoever needs one", "s",
-            ge=0),
+            ge=0, le=1e9),
     ] = 86_400.0  # fmt: skip
     # Where slots are kept is no part of what is studied: not in the digest, nor in any sidecar.
     ledger: Annotated[
@@ -219,10 +221,14 @@ class MarginsTable(Table):
     tested against them.
     """
 
-    time: Annotated[float | None, key("of completion times, as a ratio", gt=1)] = None
-    count_error: Annotated[float | None, key("of the share that a count is off by", gt=0)] = None
+    time: Annotated[float | None, key("of completion times, as a ratio", gt=1, le=1e3)] = None
+    count_error: Annotated[
+        float | None, key("of the share that a count is off by", gt=0, le=1e3)
+    ] = None
     correct: Annotated[float | None, key("of the share of right answers", gt=0, lt=1)] = None
-    distance: Annotated[float | None, key("of the distance of a mark", "world units", gt=0)] = None
+    distance: Annotated[
+        float | None, key("of the distance of a mark", "world units", gt=0, le=1e9)
+    ] = None
 
 
 class AnalysisTable(Table):
@@ -237,7 +243,7 @@ class AnalysisTable(Table):
     ] = ()  # fmt: skip
     too_fast: Annotated[
         float, key("an answer sooner than this is impossible: what `exclude` leaves out by that "
-                   "name", "s", gt=0),
+                   "name", "s", gt=0, le=1e9),
     ] = 0.2  # fmt: skip
     margins: Annotated[MarginsTable, key("differences that would not matter")] = MarginsTable()
 

@@ -1,13 +1,21 @@
-"""TOML files as editors save them: what cannot be read is said in one line."""
+"""TOML files as editors save them: what cannot be read is said in one line.
+
+What would take tomllib minutes is refused at once.
+"""
 
 from __future__ import annotations
 
 import codecs
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
 
 from experiment.errors import InputError, short
+from experiment.study_files import LARGEST_STUDY, read_regular
+
+DEEPEST = 16  # names in a dotted key: a study has three
+LONGEST = 200  # characters of a bare word: tomllib takes the square of a key's or number's length
 
 _OTHERS = (
     (codecs.BOM_UTF32_LE, "UTF-32"),  # first: UTF-16's mark begins it
@@ -17,10 +25,22 @@ _OTHERS = (
 )
 
 
+_OPEN = re.compile(r"\"\"\"|\'\'\'|[\"\'#]")
+_REST = {  # what follows the beginning of a text or comment, to its end
+    '"""': re.compile(r'(?:[^"\\]|\\.|"(?!""))*"""', re.DOTALL),
+    "'''": re.compile(r"(?:[^']|'(?!''))*'''"),
+    '"': re.compile(r'(?:[^"\\\n]|\\.)*"'),
+    "'": re.compile(r"[^'\n]*'"),
+    "#": re.compile(r"[^\n]*"),
+}
+_DEEP = re.compile(rf"(?:[^\s.=\[\]{{}},]+[ \t]*\.[ \t]*){{{DEEPEST}}}")
+_LONG = re.compile(rf"[^\s.=\[\]{{}},]{{{LONGEST + 1}}}")
+
+
 def read_toml(path: Path) -> dict[str, Any]:
     """The table in a file. Raises InputError."""
     try:
-        content = path.read_bytes()
+        content = read_regular(path, LARGEST_STUDY)
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     return parse_toml(content, str(path))
@@ -37,10 +57,35 @@ def parse_toml(content: bytes, file: str) -> dict[str, Any]:
         raise InputError(f"{file}: {said}; expected to be saved as UTF-8") from None
     if named := _encoding(content):
         raise InputError(f"{file}: is {named}, not UTF-8; expected to be saved as UTF-8")
+    _refuse_slow(text, file)
     try:
         return tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{file}: not valid TOML: {_said(error, text)}") from None
+
+
+def _refuse_slow(text: str, file: str) -> None:
+    """Raises InputError for what tomllib would take minutes for."""
+    plain = _without_texts(text)
+    if found := _LONG.search(plain) or _DEEP.search(plain):
+        line, what = plain.count("\n", 0, found.start()) + 1, found.group()[:20]
+        raise InputError(
+            f"{file}: not a study's TOML: {what}…: expected keys of at most {DEEPEST} names, and "
+            f"words and numbers of at most {LONGEST} characters (near line {line})"
+        )
+
+
+def _without_texts(text: str) -> str:
+    """The same without texts and comments, which may hold anything."""
+    kept, at = [], 0
+    while opened := _OPEN.search(text, at):
+        kept.append(text[at : opened.start()])
+        rest = _REST[opened.group()].match(text, opened.end())
+        if rest is None:
+            return "".join(kept)  # no TOML: tomllib says where
+        kept.append("_" + "\n" * text.count("\n", opened.start(), rest.end()))
+        at = rest.end()
+    return "".join([*kept, text[at:]])
 
 
 def _encoding(content: bytes) -> str | None:

@@ -30,7 +30,8 @@ from tasks.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5
-DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares
+DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares, closer at the start:
+DIGEST_SOONEST = 0.25  # so that a short trial has some too
 
 MEANT = ("escape", "f1")  # keys that are for the session, whenever they were pressed
 POINTER = "pointer"  # the left button, among the keys that are down
@@ -174,7 +175,8 @@ class Running:
         if not self._watch.seen:
             self._since = flip
         self._watch.frame(flip, self.view)
-        due = flip - self._digested >= DIGEST_EVERY
+        after = min(DIGEST_EVERY, max(DIGEST_SOONEST, (flip - self.first) / 4))
+        due = flip - self._digested >= after
         digest = self._world.display.digest() if due else ""
         self._digested = flip if due else self._digested
         self._world.recorder.frame(flip, self.view, digest)

@@ -17,6 +17,7 @@ import vl_convert
 
 from analysis.figures.style import DYNAMIC, FAINT, INK, RULE, STANDARD
 from analysis.page.blocks import Figure
+from analysis.written import write_over
 
 _VARIABLES = {
     INK: "var(--ink)",
@@ -48,14 +49,13 @@ def whole(figure: Figure) -> dict[str, Any]:
 
 
 def write_files(figure: Figure, folder: Path) -> str:
-    """Write KEY.svg, .png and .pdf into `folder`; returns the chart for the page."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Write KEY.svg, .png and .pdf into `folder`, which is there; the chart for the page."""
     plain = whole(figure)
     svg = _named(vl_convert.vegalite_to_svg(plain), figure)
-    (folder / f"{figure.key}.svg").write_text(svg, encoding="utf-8")
-    (folder / f"{figure.key}.pdf").write_bytes(vl_convert.svg_to_pdf(svg))
+    write_over(folder / f"{figure.key}.svg", svg)
+    write_over(folder / f"{figure.key}.pdf", vl_convert.svg_to_pdf(svg))
     white = svg.replace(">", '><rect width="100%" height="100%" fill="white"/>', 1)
-    (folder / f"{figure.key}.png").write_bytes(vl_convert.svg_to_png(white, scale=PNG_SCALE))
+    write_over(folder / f"{figure.key}.png", vl_convert.svg_to_png(white, scale=PNG_SCALE))
     return _in_page(plain, svg)
 
 

@@ -8,6 +8,8 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from analysis.load.chain import ChainState
+from analysis.load.seal import seal
+from analysis.load.study import Study
 from analysis.page.blocks import Block, Column, Fold, Section, Table, say
 from analysis.plan import Plan, config_of, digest
 from analysis.sections.context import Context
@@ -30,6 +32,7 @@ def software() -> list[dict[str, str]]:
 def provenance_section(context: Context) -> Section:
     """The last section of a study's report."""
     study = context.study
+    sealed, files = seal(study.folder, study.source)
     configs = sorted({digest(config_of(s)) for s in study.sidecars.values() if config_of(s)})
     ran = [
         *software(),
@@ -38,11 +41,13 @@ def provenance_section(context: Context) -> Section:
         {"what": "config hash (12 of 64)", "value": ", ".join(configs) or "no config recorded"},
         {"what": "analysis plan", "value": _plan(context.plan)},
         {"what": "hash chains", "value": _chains(study.chains)},
+        {"what": "seal", "value": f"{sealed} ({files} files; seethrough seal)"},
         *_recorded(study.sidecars.values()),
     ]
     blocks: list[Block] = [
-        say(f"Hash chains: {_chains(study.chains)}."),
+        say(f"Hash chains: {_chains(study.chains)}.{_unknown(study)}"),
         *(say(f"{line}.") for line in study.repairs),
+        say(f"Seal of everything recorded: {sealed}."),
         Table("ran", "What ran", PAIRS, tuple(ran)),
         Fold(f"The {len(study.files)} files read, with their SHA-256", (_files(context),)),
     ]
@@ -77,6 +82,20 @@ def _chains(chains: Sequence[ChainState]) -> str:
     if gone:
         parts.append(f"{gone} without their traces, which are not in this folder")
     return f"of {len(states)} trial tables {'; '.join(parts)}"
+
+
+def _unknown(study: Study) -> str:
+    """What cannot be known of sessions without an end, and of participants without a ledger."""
+    lines = []
+    open_ = [c.file for c in study.chains if c.state == "open"]
+    if open_:
+        lines.append(
+            f"Never closed: {', '.join(open_[:5])}{' …' if len(open_) > 5 else ''}: rows after "
+            "their last and answers of theirs could have been removed or changed without a trace."
+        )
+    if study.source == "human":
+        lines.append(study.ledger.said())
+    return "".join(f" {line}" for line in lines)
 
 
 def _recorded(sidecars: Iterable[Mapping[str, Any]]) -> list[dict[str, str]]:

@@ -6,6 +6,7 @@ import argparse
 import re
 from pathlib import Path
 
+from analysis.written import write_over
 from experiment.config import load
 from experiment.errors import InputError
 
@@ -58,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
     text = f"{what} Two-sided tests at α = {alpha:g}, {arguments.replications} replications."
     try:
         arguments.out.parent.mkdir(parents=True, exist_ok=True)
-        arguments.out.write_text(page(title, text, points, least, command), encoding="utf-8")
+        write_over(arguments.out, page(title, text, points, least, command))
     except OSError as error:
         raise InputError(f"--out = {arguments.out}: cannot be written: {error.strerror}") from None
     print(f"page: {arguments.out}")

@@ -13,6 +13,7 @@ import numpy as np
 
 from experiment.errors import InputError
 from experiment.replay import Frame, Recorded, find_trial, replay
+from experiment.replay_check import Pictures, differences, has_pictures
 
 LOOKS_EVERY = 0.5  # s of session time between two rows of the visibility table
 
@@ -53,29 +54,25 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _verify(recorded: Recorded) -> int:
-    """Draw every frame that has a digest and compare."""
-    from experiment.driver import open_context
-    from experiment.stage import Stage
-    from experiment.texts import Texts
-
-    context = open_context()
-    driver = context.info["GL_RENDERER"]
-    if driver != recorded.driver:
-        print(f"recorded with {recorded.driver}, drawn with {driver}: pictures may differ")
-    study = recorded.study
-    texts = Texts(study.study.language, study.texts)
-    stage = Stage(context, recorded.size, texts, recorded.samples)
-    target = context.framebuffer([context.texture(recorded.size, 4)])
-    checked = different = 0
+    """Compare all that was kept: the camera's way, the answer, and the pictures' digests."""
+    different = found = pictures = 0
+    drawn = Pictures(recorded) if has_pictures(recorded) else None
     for frame in replay(recorded):
-        if frame.digest:
-            stage.draw_view(frame.view, recorded.technique, target, 1 / 60)
-            checked += 1
-            if stage.digest() != frame.digest:
+        found += 1
+        for line in differences(recorded, frame):
+            different += 1
+            print(line)
+        if frame.digest and drawn is not None:
+            pictures += 1
+            if drawn.digest(frame) != frame.digest:
                 different += 1
                 print(f"frame at {frame.time:.3f} s: another picture than was shown")
-    print(f"{checked} frames compared, {different} different")
-    return 1 if different or not checked else 0
+    rest = f"the camera of {found} frames, and the answer; {different} different"
+    if drawn is None:
+        print(f"no picture was kept, since it was played without a window; compared: {rest}")
+    else:
+        print(f"{pictures} pictures compared, {rest}")
+    return 1 if different else 0
 
 
 def _visibility(recorded: Recorded, path: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 HELP = "make the statistics report from a data folder"
@@ -40,23 +39,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Make the report; returns 0, or 2 with one line for each thing wrong with the data."""
+    """Make the report; returns 0. Raises DataError with a line for each thing that is wrong."""
     # analysis imports pandas and scipy, which takes a second: only when the command runs
     from analysis.errors import DataError
     from analysis.report import Options, make_published, make_report, write
 
     options = Options(args.source, args.alpha, args.exclude)
-    try:
-        if args.published == (args.data is not None):
-            raise DataError("report: expected either DATA or --published")
-        make = make_published if args.published else lambda: make_report(args.data, options)
-        page = write(args.out, make, args.format, args.replace)
-    except DataError as error:
-        for line in error.shown():
-            print(f"seethrough: {line}", file=sys.stderr)
-        return 2
-    except OSError as error:
-        print(f"seethrough: {error.filename}: {error.strerror}", file=sys.stderr)
-        return 2
-    print(page)
+    if args.published == (args.data is not None):
+        raise DataError("report: expected either DATA or --published")
+    make = make_published if args.published else lambda: make_report(args.data, options)
+    print(write(args.out, make, args.format, args.replace))
     return 0

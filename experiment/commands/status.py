@@ -5,14 +5,15 @@ from __future__ import annotations
 import argparse
 import shlex
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiment.chain import verify
+from analysis.load.ledger import differences
+from analysis.load.whole import examined
 from experiment.errors import one_line
-from experiment.folders import folder_of, taken
+from experiment.folders import taken
 from experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
 
 if TYPE_CHECKING:
@@ -35,16 +36,19 @@ def run(arguments: argparse.Namespace) -> int:
         changes = reconcile(ledger, arguments.data, now)
         study = study_words(arguments.data, ledger.plan.study)
         lines = [*(f"mended    {line}" for line in changes), *describe(ledger, now, study)]
-    problems = [one_line(line) for line in _changed(arguments.data)]
-    files = [f"files     {line}" for line in problems or ["as they were written: chains hold"]]
+        entries = {entry.participant: entry.status for entry in ledger.entries()}
+    problems = [one_line(line) for line in _changed(arguments.data, entries)]
+    whole = "as they were written: chains hold, and nobody in the ledger lacks files"
+    files = [f"files     {line}" for line in problems or [whole]]
     print("\n".join([*lines[:-1], *files, lines[-1]]))
     return 1 if problems else 0
 
 
-def _changed(data: Path) -> list[str]:
-    """What the hash chains say about every participant's files."""
-    names = sorted(taken(data, "human"))
-    return [f"{name}: {line}" for name in names for line in verify(folder_of(data, "human", name))]
+def _changed(data: Path, entries: Mapping[str, str]) -> list[str]:
+    """What is not as it was written, and what ledger and files say of one another."""
+    if not taken(data, "human"):
+        return list(differences(entries, []))
+    return examined(data, "human", entries).problems
 
 
 def study_words(data: Path, name: str) -> str:

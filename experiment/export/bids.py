@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -11,9 +10,9 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
+from analysis.load.files import read_json
 from experiment.columns import TRIALS, Column
-from experiment.errors import InputError
-from experiment.export.dataset import Dataset, Row, as_json, put
+from experiment.export.dataset import Dataset, Row, as_json, check_labels, harmless, put
 from experiment.export.wide import item_name
 
 VERSION = "1.10.0"
@@ -58,15 +57,8 @@ def bids(data: Dataset, out: Path) -> None:
 
 def _labels(participants: Sequence[str]) -> dict[str, str]:
     """BIDS labels are letters and digits only."""
-    labels = {p: re.sub(r"[^A-Za-z0-9]", "", p) for p in participants}
-    for label in labels.values():
-        same = [p for p in participants if labels[p].lower() == label.lower()]
-        if len(same) > 1 or not label:
-            raise InputError(
-                f"--format = bids: participants {', '.join(same)}: expected ids that differ in "
-                "their letters and digits, of which BIDS makes its labels"
-            )
-    return labels
+    check_labels("bids", participants)
+    return {p: re.sub(r"[^A-Za-z0-9]", "", p) for p in participants}
 
 
 def _events(rows: Sequence[Row]) -> list[dict[str, str]]:
@@ -98,12 +90,8 @@ def _presentation(data: Dataset, participant: str, session: str) -> dict[str, An
     """How it was shown, from the session's sidecar."""
     folder = data.folder / "data" / data.source / participant
     found = list(folder.glob(f"*_session-{session}_trials_data.json"))
-    made: Mapping[str, Any] = {}
-    if found:
-        try:
-            made = json.loads(found[0].read_text(encoding="utf-8")).get("provenance", {})
-        except (ValueError, AttributeError, RecursionError):
-            raise InputError(f"{found[0]}: expected a JSON object") from None
+    made: Any = read_json(found[0], data.folder).get("provenance") if found else None
+    made = made if isinstance(made, Mapping) else {}
     display = made.get("display", {})
     return {
         "StimulusPresentation": {
@@ -131,7 +119,7 @@ def _phenotype(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
         if answer["participant"] in labels:
             label = f"sub-{labels[answer['participant']]}"
             row = rows.setdefault(label, {"participant_id": label})
-            row[item_name(answer)] = answer["value"] or answer["text"]
+            row[item_name(answer)] = answer["value"] or harmless(answer["text"])
     items = sorted({name for row in rows.values() for name in row} - {"participant_id"})
     path = out / "phenotype"
     put(path / "questionnaire.tsv", _tsv(["participant_id", *items], list(rows.values())))

@@ -8,19 +8,23 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from analysis.load.chain import read_rows
+from analysis.load.whole import verified
 from experiment.columns import TABLES, Column
-from experiment.dataset import FILE
 from experiment.errors import InputError
-from experiment.folders import PARTICIPANT
+from experiment.folders import PARTICIPANT, plain
 from experiment.private import make_folder, write_new
 from experiment.record_files import csv_line
 
-SOURCES = ("human", "simulated", "pilot")
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "'")
+HARMLESS = "a text that begins with one of = + - @ ' or a tab has one ' more before it"
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 Row = Mapping[str, str]
 
 
@@ -41,20 +45,28 @@ class Dataset:
 
 
 def read(data: Path, source: str | None = None) -> Dataset:
-    """The data folder's tables. Raises InputError with file, row, column and value."""
-    try:
-        name = str(json.loads((data / FILE).read_text(encoding="utf-8"))["name"])
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        raise InputError(f"{data / FILE}: expected a JSON object with the study's name") from None
-    chosen = _source(data, source)
-    files = {
-        table: sorted((data / "data" / chosen).glob(f"*/*_{table}_data.csv")) for table in TABLES
-    }
-    tables = {
-        table: [row for path in paths for row in _rows(path, TABLES[table])]
-        for table, paths in files.items()
-    }
-    return Dataset(data, name, chosen, tables, files)
+    """The data folder's tables, verified as a report verifies them.
+
+    Raises DataError where a file is not as it was written, InputError with file, row, column and
+    value where a table is none of ours.
+    """
+    whole = verified(data, source)
+    paths: dict[str, list[Path]] = {table: [] for table in TABLES}
+    rows: dict[str, list[Row]] = {table: [] for table in TABLES}
+    for person in whole.people:
+        for session in person.sessions:
+            found = {
+                "trials": session.table,
+                "questionnaire": session.answers,
+                "notes": session.notes,
+            }
+            for table, held in found.items():
+                if held is not None:
+                    paths[table].append(data / held.name)
+                    rows[table] += _rows(data / held.name, held.data, TABLES[table])
+    if not rows["trials"]:
+        raise InputError(f"{data}: no trial tables: expected data/SOURCE/PARTICIPANT/*.csv")
+    return Dataset(data, str(whole.about.get("name", data.name)), whole.source, rows, paths)
 
 
 def check_out(out: Path) -> None:
@@ -83,6 +95,28 @@ def as_json(value: Any) -> str:
     return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
 
 
+def harmless(text: str) -> str:
+    """A free text as spreadsheets show it, whatever it begins with; HARMLESS says how to undo it.
+
+    A spreadsheet takes a cell that begins with one of FORMULA for something to calculate, or to
+    run. Numbers are left alone.
+    """
+    if not text.startswith(FORMULA):
+        return text
+    return text if _NUMBER.fullmatch(text) else "'" + text
+
+
+def check_labels(form: str, participants: Sequence[str]) -> None:
+    """Labels hold letters and digits alone. Raises InputError where two people would be one."""
+    for own in participants:
+        same = [p for p in participants if plain(p) == plain(own)]
+        if len(same) > 1 or not plain(own):
+            raise InputError(
+                f"--format = {form}: participants {', '.join(same)}: expected ids that differ in "
+                "their letters and digits, of which labels are made"
+            )
+
+
 def latest_attempts(rows: Sequence[Row]) -> list[Row]:
     """Each participant's trials once: of a repeated trial, the last attempt."""
     last: dict[tuple[str, int], Row] = {}
@@ -91,24 +125,11 @@ def latest_attempts(rows: Sequence[Row]) -> list[Row]:
     return [last[key] for key in sorted(last)]
 
 
-def _source(data: Path, wanted: str | None) -> str:
-    there = [s for s in SOURCES if any((data / "data" / s).glob("*/*_trials_data.csv"))]
-    if wanted is not None and wanted not in there:
-        raise InputError(f"--source = {wanted}: expected one of: {', '.join(there) or 'none'}")
-    if not there:
-        raise InputError(f"{data}: no trial tables: expected data/SOURCE/PARTICIPANT/*.csv")
-    if wanted is None and len(there) > 1:
-        raise InputError(f"{data}: several sources: choose with --source {' or '.join(there)}")
-    return wanted or there[0]
-
-
-def _rows(path: Path, columns: tuple[Column, ...]) -> list[Row]:
+def _rows(path: Path, data: bytes, columns: tuple[Column, ...]) -> list[Row]:
     """A table's rows, every cell of its column's type."""
     try:
-        with open(path, encoding="utf-8", newline="") as file:
-            reader = csv.reader(file, strict=True)
-            header, *lines = list(reader) or [[]]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        header, *lines = read_rows(data.decode("utf-8")) or [[]]
+    except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: not readable as a table: {error}") from None
     names = [column.name for column in columns]
     if header != names:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from experiment.dataset import FILE
-from experiment.export.dataset import Dataset, put
+from experiment.export.dataset import Dataset, check_labels, put
 
 
 def psychds(data: Dataset, out: Path) -> None:
     """The data files under names that are strictly key-value pairs. Raises InputError."""
+    check_labels("psychds", data.participants)
     put(out / FILE, (data.folder / FILE).read_text(encoding="utf-8"))
     for table, paths in data.files.items():
         for path in paths:

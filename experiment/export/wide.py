@@ -6,7 +6,16 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from experiment.columns import QUESTIONNAIRE, TRIALS
-from experiment.export.dataset import Dataset, Row, as_csv, as_json, latest_attempts, put
+from experiment.export.dataset import (
+    HARMLESS,
+    Dataset,
+    Row,
+    as_csv,
+    as_json,
+    harmless,
+    latest_attempts,
+    put,
+)
 
 MEASURES = ("time", "time_clean", "timed_out", "correct", "count_error", "distance")
 NUMBERS = {"true": "1", "false": "0"}
@@ -27,7 +36,7 @@ def wide(data: Dataset, out: Path) -> None:
     for answer in data.tables["questionnaire"]:
         name = item_name(answer)
         if answer["participant"] in rows:
-            rows[answer["participant"]][name] = answer["value"] or answer["text"]
+            rows[answer["participant"]][name] = answer["value"] or harmless(answer["text"])
             meaning[name] = said["item"]
     first = ["participant", "slot"]
     columns = [*first, *sorted(set(meaning) - set(first))]
@@ -47,4 +56,5 @@ def _number(text: str) -> str:
 
 
 def _codebook(meaning: Mapping[str, str]) -> dict[str, str]:
-    return {**meaning, "*": "booleans are 1 and 0; of a repeated trial, the last attempt"}
+    rules = "booleans are 1 and 0; of a repeated trial, the last attempt; " + HARMLESS
+    return {**meaning, "*": rules}

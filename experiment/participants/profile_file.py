@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import tomllib
+import os
 from collections.abc import Mapping
 from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import Any
 
+from analysis.written import write_over
 from experiment.errors import InputError
 from experiment.participants.profile import AVERAGE, PROFILES, Profile
+from experiment.toml_file import read_toml
 
 SHIPPED = Path(__file__).with_name("profiles")  # files that come with the program
 
@@ -24,7 +26,7 @@ def find(name: str) -> Profile:
     if name in PROFILES:
         return PROFILES[name]
     path = SHIPPED / f"{name}.toml" if name in names() else Path(name)
-    if not path.is_file():
+    if not os.path.lexists(path):
         raise InputError(
             f"--profile = {name}: expected one of {', '.join(names())}, or a profile file"
         )
@@ -33,10 +35,7 @@ def find(name: str) -> Profile:
 
 def read(path: Path) -> Profile:
     """The profile in a file: [profile] holds what differs from the average one."""
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: {error}") from None
+    content = read_toml(path)
     values = content.get("profile", {})
     if not isinstance(values, dict):
         raise InputError(f"{path}: profile = {values}: expected a table")
@@ -61,7 +60,7 @@ def write(path: Path, profile: Profile, provenance: Mapping[str, Any]) -> None:
     lines += [f"{k} = {_toml(v)}" for k, v in asdict(profile).items() if v != average[k]]
     lines += ["", "[provenance]"]
     lines += [f"{k} = {_toml(v)}" for k, v in provenance.items()]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_over(path, "\n".join(lines) + "\n")
 
 
 def _word(kind: Any) -> str:

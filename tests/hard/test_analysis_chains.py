@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import tempfile
 from pathlib import Path
 
 import pytest
 from data_folders import ANSWERS, TRIALS, edit, refused
-from made_chains import chain
+from disks import nobody
+from made_chains import chain, enter
 from made_data import Made, make_folder
 
+from analysis.errors import DataError
 from analysis.load.chain import start_of
 from analysis.load.study import load_study
 from analysis.page.markdown import as_markdown
@@ -150,3 +154,102 @@ def test_a_session_that_does_not_follow_the_one_before_is_found(folder):
             refused(folder, f"session-2.*: {pattern}")
         else:
             load_study(folder)
+
+
+@pytest.mark.parametrize("how", ["crlf", "bom", "quoted", "no end", "utf-16", "semicolons"])
+def test_a_table_saved_again_is_told_from_one_that_was_changed(folder, how):
+    """The original is still what it was: one line says so, and a changed cell is named anyway."""
+    chain(folder)
+    path = folder / TRIALS
+    whole = path.read_text()
+
+    def save(text):
+        if how == "crlf":
+            return text.replace("\n", "\r\n").encode()
+        if how in ("bom", "utf-16"):
+            return text.encode("utf-8-sig" if how == "bom" else "utf-16")
+        if how == "no end":
+            return text.removesuffix("\n").encode()
+        if how == "semicolons":
+            return text.replace(",", ";").encode()
+        return text.replace(",dynamic,", ',"dynamic",').encode()
+
+    path.write_bytes(save(whole))
+    refused(folder, r"P01.*_trials_data\.csv: saved again by another program; put the original")
+    lines = whole.split("\n")
+    times = lines[0].split(",").index("time")
+    for row in range(1, len(lines) - 1):  # every dynamic time divided by three, as was tried
+        cells = lines[row].split(",")
+        if "dynamic" in cells:
+            cells[times] = repr(float(cells[times]) / 3)
+            lines[row] = ",".join(cells)
+    path.write_bytes(save("\n".join(lines)))
+    refused(folder, r"P01.*_trials_data\.csv: row \d+: changed, or a row before it removed and ")
+
+
+def test_a_questionnaire_saved_again_is_told_from_one_that_was_changed(folder):
+    chain(folder)
+    path = folder / ANSWERS
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    refused(folder, r"P01.*questionnaire_data.csv: saved again by another program")
+
+
+def test_an_end_file_that_the_next_session_found_cannot_go(folder):
+    """What goes on after a killed session holds its files: without that it had been closed."""
+    end = chain(folder)
+    first = folder / TRIALS
+    second = Path(str(first).replace("session-1", "session-2"))
+    header, *rows = first.read_text().rstrip("\n").split("\n")
+    chained = {"follows": rows[-1].rpartition(",")[2]}
+    start = start_of({"chain": chained}, header)
+    second.with_suffix(".json").write_text(json.dumps({"chain": {**chained, "start": start}}))
+    second.write_text(header + "\n")
+    load_study(folder)
+    end.unlink()
+    refused(folder, r"P01/.*session-1_end\.json: removed after the session")
+
+
+def test_a_table_loses_its_chain_only_where_nobody_has_one(folder):
+    chain(folder)
+    path = folder / TRIALS
+    lines = path.read_text().split("\n")
+    plain = "\n".join(line.rpartition(",")[0] for line in lines)
+    path.write_text(plain)
+    refused(folder, "P01.*column = chain: missing, though its sidecar begins a chain")
+    path.with_suffix(".json").unlink()
+    refused(folder, "P01.*: no chain in table and sidecar, though Seethrough recorded")
+
+
+def test_ledger_and_folders_are_compared_both_ways(folder):
+    chain(folder)
+    enter(folder, P01="complete", P02="surplus", P03="live", P04="void", P05="live")
+    load_study(folder)  # P03 was completed, and the ledger not yet told; the others left no files
+    (folder / "ledger.sqlite").unlink()
+    enter(folder, P01="complete", P02="complete", P06="complete")
+    refused(folder, "P06: complete in the ledger, but without files: the folder was removed")
+    refused(folder, "P03: not in the ledger: the folder was added, or the ledger lost")
+    (folder / TRIALS.replace("_trials_data.csv", "_end.json")).unlink()
+    refused(folder, r"P01: complete in the ledger, but no end file says so")
+
+
+@pytest.mark.parametrize("name", ["data/human", "data/human/P01", "data/human/P01/traces", TRIALS])
+def test_what_may_not_be_read_is_not_taken_for_absent(made, name):
+    """As somebody whom permissions stop, where this is run by root, whom none does."""
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(shutil.copytree(made, Path(place) / "data"))
+        chain(folder)
+        for path in (Path(place), *Path(place).rglob("*")):
+            path.chmod(0o755)
+        (folder / name).chmod(0)
+        user, error = nobody(), None
+        try:
+            if user:
+                os.seteuid(user)
+            load_study(folder)
+        except DataError as caught:
+            error = caught
+        finally:
+            if user:
+                os.seteuid(0)
+            (folder / name).chmod(0o755)
+        assert error is not None and error.lines[0] == f"{name}: cannot be read: Permission denied"

@@ -2,12 +2,14 @@
 
 import csv
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from recorded_session import DrawnDisplay, play_recorded
 
 from experiment import cli
+from experiment.commands.replay import _verify as verify
 from experiment.errors import InputError
 from experiment.replay import find_trial, replay
 
@@ -39,8 +41,42 @@ def test_a_changed_event_is_found(data, tmp_path, capsys):
     rows[at] = ",".join(cells)
     recorded.events.write_text("\n".join(rows) + "\n")
     words = ["replay", str(changed), "--participant", "P01", "--trial", "1", "--verify"]
-    assert cli.main(words) == 1
-    assert "another picture than was shown" in capsys.readouterr().out
+    assert cli.main(words) == 2  # the chain refuses it before anything is drawn
+    assert "trial-001_events.csv: changed after the session" in capsys.readouterr().err
+    assert verify(recorded) == 1  # and so do the pictures, and the camera's way
+    said = capsys.readouterr().out
+    assert "another picture than was shown" in said and "another camera than was recorded" in said
+
+
+def test_a_session_without_a_window_is_compared_in_what_it_kept(data, tmp_path, capsys):
+    """Simulated participants are shown nothing: camera and answer are there all the same."""
+    recorded = find_trial(data, "P01", 1)
+    plain = tmp_path / "camera.csv"
+    rows = recorded.camera.read_text().splitlines()
+    bare = [rows[0], *(f"{row.rpartition(',')[0]}," for row in rows[1:])]
+    plain.write_text("\n".join(bare) + "\n")
+    simulated = replace(recorded, camera=plain)
+    assert verify(simulated) == 0
+    said = capsys.readouterr().out
+    assert "no picture was kept" in said and f"the camera of {len(rows) - 1} frames" in said
+    other = replace(simulated, row={**recorded.row, "answer": "999", "correct": "maybe"})
+    assert verify(other) == 1
+    assert "answer = '999': the replay makes" in capsys.readouterr().out
+
+
+def test_a_short_trial_has_enough_pictures_to_compare(data):
+    """Twelve frames of a quarter second: the first, the last, and more than one a second."""
+    for number in (1, 2, 3, 4):
+        recorded = find_trial(data, "P01", number)
+        with open(recorded.camera, encoding="utf-8", newline="") as file:
+            kept = [bool(row["digest"]) for row in csv.DictReader(file)]
+        assert kept[0] and kept[-1] and sum(kept) >= 6
+
+
+@pytest.mark.parametrize("name", ["../../x", "../human/P01", "P0*", "*", "/", ".", "a/b"])
+def test_a_participant_is_no_path(data, name):
+    with pytest.raises(InputError, match=r"--participant = .*: expected 1 to 32 letters"):
+        find_trial(data, name, 1)
 
 
 def test_the_camera_path_of_the_replay_is_the_recorded_one(data):

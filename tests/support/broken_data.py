@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from broken_records import RECORDS
+from made_chains import chain, enter
 from made_data import ANSWER_COLUMNS, TRIAL_COLUMNS, Made, make_folder
 
 WRONG = {
@@ -51,6 +53,9 @@ def break_one(folder: Path, number: int) -> Case:
     rng = np.random.default_rng(np.random.SeedSequence(20261123, spawn_key=(number,)))
     kinds = list(KINDS)
     kind = kinds[number % len(kinds)]
+    if kind in RECORDS:
+        chain(folder)
+        enter(folder)
     return Case(kind, KINDS[kind](folder, rng))
 
 
@@ -206,4 +211,5 @@ KINDS: dict[str, Callable[[Path, np.random.Generator], str]] = {
     "bytes": _bytes,
     "json": _json,
     "gone": _gone,
+    **RECORDS,
 }

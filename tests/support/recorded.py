@@ -28,7 +28,7 @@ OUTCOMES = {
 
 
 def record(
-    data: Path, participant: str, slot: int, source: str = "human", session: int = 1
+    data: Path, participant: str, slot: int, source: str = "human", remark: str = REMARK
 ) -> None:
     """A whole session of the demo study, its first trial repeated, one trial timed out."""
     clock = iter(range(10_000))
@@ -55,6 +55,6 @@ def record(
     for number, (transparency, scenario) in enumerate(STUDY.design.factors().conditions):
         cell = {"transparency": transparency, "scenario": scenario}
         recorder.answers([{"item": "ease", "value": str(number), **cell}])
-    recorder.answers([{"item": "remarks", "text": REMARK}])
+    recorder.answers([{"item": "remarks", "text": remark}])
     recorder.note(trials[0], "the phone\trang")
     recorder.close("complete")

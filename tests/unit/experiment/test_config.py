@@ -82,7 +82,12 @@ WRONG = [
     ("study", "name", "a b", r"study\.name = \"a b\": expected 1 to 32 letters and digits "),
     ("study", "seed", -1, r"study\.seed = -1: expected a whole number from 0 to 2\^63"),
     ("display", "samples", 3, r"display\.samples = 3: expected one of \"auto\", 0, 2, 4, 8$"),
-    ("session", "trial_limit", -3, r"session\.trial_limit = -3: expected a number from 0$"),
+    (
+        "session",
+        "trial_limit",
+        -3,
+        r"session\.trial_limit = -3: expected a number from 0 to 1e+09$",
+    ),
     (
         "analysis",
         "alpha",

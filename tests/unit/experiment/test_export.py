@@ -2,7 +2,7 @@
 
 import csv
 import json
-import re
+import shutil
 import stat
 
 import fastparquet
@@ -11,8 +11,11 @@ import pytest
 from bids_validator import BIDSValidator
 from recorded import REMARK, record
 
+from analysis.load.study import load_study
 from experiment import cli
-from experiment.columns import TABLES
+from experiment.columns import TABLES, TRIALS
+from experiment.errors import InputError
+from experiment.export.dataset import _rows, harmless
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +59,7 @@ def test_wide_has_each_measure_of_each_trial_once(data, tmp_path):
                 assert row[f"{measure}_{cell}"] == value
                 seen += 1
     assert seen > 20
-    assert list(table["remarks"]) == [REMARK, REMARK]
+    assert list(table["remarks"]) == [REMARK, REMARK]  # begins with no formula: as it is
     assert list(table["ease_standard_walkthrough"]) == [1, 1]
     codebook = json.loads((out / "wide.json").read_text("utf-8"))
     assert set(codebook) - {"*"} == {"participant", *table.columns}
@@ -118,11 +121,17 @@ def test_bids_names_and_columns_are_valid(data, tmp_path):
 
 
 def test_bids_labels_that_would_be_one_are_refused(tmp_path, capsys):
-    for slot, name in enumerate(("P_1", "P1"), start=1):
-        record(tmp_path / "data", name, slot)
-    words = ["export", str(tmp_path / "data"), "--format", "bids", "--out", str(tmp_path / "out")]
-    assert cli.main(words) == 2
-    assert "participants P1, P_1: expected ids that differ" in capsys.readouterr().err
+    record(tmp_path / "data", "P_1", 1)
+    with pytest.raises(InputError, match="'P_1' has files already: expected an id that differs"):
+        record(tmp_path / "data", "P1", 2)  # file names would say the same of both
+    record(tmp_path / "other", "P1", 2)  # as older versions let them be
+    shutil.copytree(tmp_path / "other" / "data", tmp_path / "data" / "data", dirs_exist_ok=True)
+    for form in ("bids", "psychds"):
+        words = ["export", str(tmp_path / "data"), "--format", form, "--out", str(tmp_path / "o")]
+        assert cli.main(words) == 2
+        assert "participants P1, P_1: expected ids that differ" in capsys.readouterr().err
+        assert not (tmp_path / "o").exists()
+    exported(tmp_path / "data", "wide", tmp_path / "o")
 
 
 def test_sources_are_never_mixed_and_nothing_is_overwritten(data, tmp_path, capsys):
@@ -131,9 +140,11 @@ def test_sources_are_never_mixed_and_nothing_is_overwritten(data, tmp_path, caps
     record(folder, "S01", 1, "simulated")
     words = ["export", str(folder), "--format", "wide", "--out", str(tmp_path / "out")]
     assert cli.main(words) == 2
-    assert "several sources: choose with --source human or simulated" in capsys.readouterr().err
+    assert "sources are never mixed: choose with --source" in capsys.readouterr().err
     assert cli.main([*words, "--source", "pilot"]) == 2
-    assert "--source = pilot: expected one of: human, simulated" in capsys.readouterr().err
+    assert "source = pilot: expected one that has data (human, simulated)" in (
+        capsys.readouterr().err
+    )
     exported(folder, "wide", tmp_path / "out", "--source", "simulated")
     assert list(pd.read_csv(tmp_path / "out" / "wide.csv")["participant"]) == ["S01"]
     assert cli.main([*words, "--source", "human"]) == 2
@@ -154,7 +165,44 @@ def test_a_broken_table_is_named(tmp_path, capsys, old, new, message):
     record(tmp_path / "data", "P01", 1)
     (path,) = tmp_path.rglob("*_trials_data.csv")
     path.write_text(path.read_text("utf-8").replace(old, new, 1), "utf-8")
-    words = ["export", str(tmp_path / "data"), "--format", "wide", "--out", str(tmp_path / "out")]
-    assert cli.main(words) == 2
-    assert re.search(rf"_trials_data\.csv: {message}\n$", capsys.readouterr().err)
-    assert not (tmp_path / "out").exists()
+    with pytest.raises(InputError, match=rf"_trials_data\.csv: {message}$"):
+        _rows(path, path.read_bytes(), TRIALS)  # another program's table, which has no chain
+    for form in ("wide", "parquet", "bids", "psychds"):  # this one has: nothing takes it
+        words = ["export", str(tmp_path / "data"), "--format", form, "--out", str(tmp_path / "out")]
+        assert cli.main(words) == 2
+        assert "session-1_trials_data.csv: " in capsys.readouterr().err
+        assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("=cmd|' /C calc'!A0", "'=cmd|' /C calc'!A0"),
+        ("+1 for dynamic", "'+1 for dynamic"),
+        ("-1.5", "-1.5"),
+        ("-1e-3", "-1e-3"),
+        ("+7", "+7"),
+        ("- it was fun", "'- it was fun"),
+        ("@SUM(A1)", "'@SUM(A1)"),
+        ("\t=1", "'\t=1"),
+        ("'tis fine", "''tis fine"),
+        ("fun = yes", "fun = yes"),
+        ("", ""),
+        ("-1.5\n=1", "'-1.5\n=1"),
+    ],
+)
+def test_no_remark_is_a_formula_and_each_can_be_had_again(text, shown):
+    assert harmless(text) == shown
+    undone = shown[1:] if shown.startswith("'") else shown
+    assert undone == text
+
+
+def test_a_cell_of_any_length_is_read(tmp_path):
+    """More than the 131,072 characters that Python's reader takes by itself."""
+    record(tmp_path / "data", "P01", 1, remark="=" + "long " * 40_000)
+    out = exported(tmp_path / "data", "wide", tmp_path / "out")
+    csv.field_size_limit(2**31 - 1)
+    with open(out / "wide.csv", encoding="utf-8", newline="") as file:
+        (row,) = csv.DictReader(file)
+    assert row["remarks"] == "'=" + "long " * 40_000
+    assert len(load_study(tmp_path / "data").questionnaire) == 5

@@ -119,8 +119,9 @@ def test_status_says_who_has_what_and_what_is_next(tmp_path, capsys):
             ledger.reserve(name, NOW)
         ledger.complete("A", NOW)
         ledger.void("B", "felt ill\x1b[2J", NOW)
-    assert cli.main(["status", str(tmp_path)]) == 0
+    assert cli.main(["status", str(tmp_path)]) == 1
     said = capsys.readouterr().out
+    assert "files     A: complete in the ledger, but without files" in said
     assert "study     demo: 4 participants wanted, 4 rows of the design" in said
     assert "slots     1 complete, 1 open (1 stale), 2 free, 1 void entries" in said
     assert "balance   completed rows differ by 1\n          row 1: 1 complete, 0 open" in said
@@ -167,7 +168,8 @@ def test_status_names_what_was_changed_in_the_files(sessions, tmp_path, capsys):
     table.write_text(table.read_text("utf-8").replace("row_id", "row_ld", 1), "utf-8")
     assert cli.main(["status", str(tmp_path)]) == 1
     said = capsys.readouterr().out
-    assert f"files     P02: {table.with_suffix('.json').name}: changed, or the header of" in said
+    changed = f"{table.relative_to(tmp_path)}: row 1: this header, or its sidecar, was changed"
+    assert f"files     {changed}" in said
 
 
 def test_status_names_the_study_as_run_takes_it(sessions, tmp_path, capsys):

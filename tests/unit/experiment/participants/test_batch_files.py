@@ -84,6 +84,11 @@ def test_the_chain_holds_and_a_changed_digit_breaks_it(tmp_path):
     table.write_text(table.read_text().replace("2.1,", "2.2,", 1))
     with pytest.raises(Exception, match="row 3: changed"):
         load_study(tmp_path)
+    table.write_text(table.read_text().replace("2.2,", "2.1,", 1))
+    (end,) = folder.glob("*_end.json")
+    end.unlink()  # a chunk's folder is whole, or it is not there
+    with pytest.raises(Exception, match=r"_end\.json: missing: expected in a folder of data mode"):
+        load_study(tmp_path)
 
 
 def test_bids_takes_rows_that_do_not_say_when_they_began(tmp_path):
