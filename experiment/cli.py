@@ -11,7 +11,7 @@ from typing import NoReturn
 
 from analysis.errors import DataError
 from experiment import streams
-from experiment.errors import InputError, one_line
+from experiment.errors import InputError, one_line, unknown
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
@@ -50,6 +50,8 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     parser = _Parser(prog="seethrough", description="User studies of occlusion management.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     chosen = next((a for a in argv if not a.startswith("-")), None)
+    if chosen is not None and chosen not in COMMANDS:
+        parser.error(f"{chosen[:60]}: {unknown(chosen, COMMANDS, 'command')}")
     for name, summary in COMMANDS.items():
         sub = commands.add_parser(name, help=summary, description=summary)
         if name == chosen:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import Any
 
 from analysis.written import write_over
-from experiment.errors import InputError
+from experiment.errors import InputError, gathered, short, shown, unknown
 from experiment.participants.profile import AVERAGE, PROFILES, Profile
 from experiment.toml_file import read_toml
 
@@ -39,17 +39,23 @@ def read(path: Path) -> Profile:
     values = content.get("profile", {})
     if not isinstance(values, dict):
         raise InputError(f"{path}: profile = {values}: expected a table")
-    known = {f.name for f in fields(Profile)}
-    for key, value in values.items():
-        if key not in known:
-            raise InputError(f"{path}: profile.{key}: unknown; known: {', '.join(sorted(known))}")
-        wanted = str if key == "name" else (int, float)
-        if isinstance(value, bool) or not isinstance(value, wanted):
-            raise InputError(f"{path}: profile.{key} = {value!r}: expected a {_word(wanted)}")
+    if faults := [f"{path}: profile.{fault}" for fault in _faults(values)]:
+        raise gathered(faults)
     try:
         return replace(AVERAGE, **{"name": path.stem, **values})
     except ValueError as error:
         raise InputError(f"{path}: profile.{error}") from None
+
+
+def _faults(values: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with the keys of a profile, a line each."""
+    known = sorted(f.name for f in fields(Profile))
+    for key, value in values.items():
+        wanted = str if key == "name" else (int, float)
+        if key not in known:
+            yield f"{short(key)} = {shown(value)}: {unknown(key, known)}"
+        elif isinstance(value, bool) or not isinstance(value, wanted):
+            yield f"{key} = {shown(value)}: expected a {_word(wanted)}"
 
 
 def write(path: Path, profile: Profile, provenance: Mapping[str, Any]) -> None:

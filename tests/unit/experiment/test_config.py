@@ -86,7 +86,7 @@ WRONG = [
         "session",
         "trial_limit",
         -3,
-        r"session\.trial_limit = -3: expected a number from 0 to 1e+09$",
+        r"session\.trial_limit = -3: expected a number from 0 to 1e\+09$",
     ),
     (
         "analysis",

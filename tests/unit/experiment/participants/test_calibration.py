@@ -166,10 +166,13 @@ def test_profiles_survive_being_written(tmp_path):
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("[profile]\npaec = 1.0", r"p.toml: profile.paec: unknown; known: attention_shift"),
-        ("[profile]\npace = 'fast'", r"p.toml: profile.pace = 'fast': expected a number"),
+        (
+            "[profile]\npaec = 1.0",
+            r"p.toml: profile.paec = 1.0: unknown key, did you mean pace\? known: attention_shift",
+        ),
+        ("[profile]\npace = 'fast'", r"p.toml: profile.pace = \"fast\": expected a number"),
         ("[profile]\nname = 3", r"p.toml: profile.name = 3: expected a text"),
-        ("[profile]\npace = true", r"p.toml: profile.pace = True: expected a number"),
+        ("[profile]\npace = true", r"p.toml: profile.pace = true: expected a number"),
         ("[profile]\nkey = -2", r"p.toml: profile.key = -2, expected a number from 0 to 1000"),
         ("profile = 3", r"p.toml: profile = 3: expected a table"),
         ("[profile", r"p.toml: "),
