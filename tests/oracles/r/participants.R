@@ -41,7 +41,8 @@ participants_tables <- function(d) {
   out
 }
 
-# the standardised difference that a two-sided paired t test finds in 80 % of studies
+# the standardised difference that a two-sided paired t test finds in 80 % of studies, and the
+# least p that a sign test can have
 smallest_effect <- function(n, alpha) {
   critical <- qt(1 - alpha / 2, n - 1)
   missed <- function(nc) p_noncentral_t(critical, n - 1, nc) - p_noncentral_t(-critical, n - 1, nc)
@@ -50,7 +51,10 @@ smallest_effect <- function(n, alpha) {
     n, power = 0.8, sig.level = alpha, type = "one.sample", strict = TRUE, tol = 1e-10
   )$delta
   stopifnot(abs(dz / theirs - 1) < 1e-6)
-  list(what = "paired test", n = n, alpha = alpha, power = 0.8, dz = dz)
+  list(
+    what = "paired test", n = n, alpha = alpha, power = 0.8, dz = dz,
+    sign_p = binom.test(n, n)$p.value
+  )
 }
 
 missing_rows <- function(d) {
