@@ -75,7 +75,7 @@ def _move(old: Path, engine: Engine) -> None:
     source = store.connect(store.sqlite_url(old))
     try:
         with store.exclusive(source) as read, store.exclusive(engine) as write:
-            for table in (store.STUDIES, store.ENTRIES):
+            for table in (store.STUDIES, store.ENTRIES, store.SUMS):
                 rows = [dict(row) for row in read.execute(table.select()).mappings()]
                 for row in rows:
                     row.pop("id", None)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from experiment.chain import verify
+from experiment.commands.withdraw import WITHDRAWN
 from experiment.errors import one_line
 from experiment.folders import folder_of, taken
 from experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
@@ -33,10 +34,36 @@ def run(arguments: argparse.Namespace) -> int:
     with Ledger.existing(arguments.data, arguments.ledger) as ledger:
         changes = reconcile(ledger, arguments.data, now)
         lines = [*(f"mended    {line}" for line in changes), *describe(ledger, now)]
-    problems = [one_line(line) for line in _changed(arguments.data)]
+        missing, open_ = held_against_files(ledger.entries(), arguments.data)
+    lines[-1:-1] = [f"files     {line}" for line in open_]
+    problems = [*missing, *(one_line(line) for line in _changed(arguments.data))]
     files = [f"files     {line}" for line in problems or ["as they were written: chains hold"]]
     print("\n".join([*lines[:-1], *files, lines[-1]]))
     return 1 if problems else 0
+
+
+def held_against_files(entries: Sequence[Entry], data: Path) -> tuple[list[str], list[str]]:
+    """What the ledger knows and the files do not, or have against it: problems, and notes."""
+    from experiment.ledger_files import ends_complete
+    from experiment.ledger_place import POINTER
+
+    problems: list[str] = []
+    notes: list[str] = []
+    elsewhere = (data / POINTER).exists()  # stations may have folders of their own
+    for entry in entries:
+        folder = folder_of(data, "human", entry.participant)
+        status, there = entry.status, any(folder.glob("*_trials_data.json"))
+        ended = there and any(ends_complete(folder))
+        if status in (COMPLETE, SURPLUS) and not there and elsewhere:
+            notes.append(f"{entry.participant}: {status} in the ledger, no files here")
+        elif status in (COMPLETE, SURPLUS) and not ended:
+            what = "its files say it is not" if there else "its files are missing"
+            problems.append(f"{entry.participant}: {status} in the ledger, {what}")
+        elif status == LIVE and not there:
+            notes.append(f"{entry.participant}: open, no files: never begun, or they were removed")
+        elif status == VOID and entry.why.startswith(WITHDRAWN) and folder.exists():
+            notes.append(f"{entry.participant}: withdrawn, its files are there")
+    return problems, notes
 
 
 def _changed(data: Path) -> list[str]:

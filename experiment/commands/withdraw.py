@@ -28,7 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Remove and mark; 0 when done, 1 when the answer was no."""
     from experiment.ledger import Ledger
-    from experiment.ledger_files import reconcile
+    from experiment.ledger_files import mark_withdrawn, reconcile
+    from experiment.ledger_lock import playing
 
     data, participant = arguments.data, check_participant(arguments.participant)
     folder = folder_of(data, "human", participant)
@@ -47,7 +48,9 @@ def run(arguments: argparse.Namespace) -> int:
             return 1
         # The mark first: were this to stop halfway, it says what is to be done again.
         why = WITHDRAWN + (f": {arguments.why}" if arguments.why else "")
-        slot = ledger.void(participant, why, now).slot
+        with playing(ledger.locks(), participant):  # refused while a session runs
+            slot = ledger.void(participant, why, now).slot
+            mark_withdrawn(data, participant, slot, now)
     if not arguments.keep_files and files:
         for place in (folder, *aside):
             if place.exists():
