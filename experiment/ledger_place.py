@@ -44,6 +44,11 @@ def exists(data: Path, wanted: str = "") -> bool:
     return bool(wanted) or (data / POINTER).exists() or (data / FILE).exists()
 
 
+def exists_elsewhere(data: Path, wanted: str = "") -> bool:
+    """Whether the ledger is, or will be, in a database and not in the folder."""
+    return bool(wanted) or (data / POINTER).exists()
+
+
 def settle(data: Path, url: URL, engine: Engine) -> None:
     """Note a database's address in the folder; what its SQLite file holds moves there.
 

@@ -19,6 +19,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 
 from experiment.errors import InputError
 from experiment.ledger_slots import COMPLETE, LIVE
+from experiment.network_drive import network_drive
 
 DAMAGED = (
     "the ledger is damaged: put back a copy, or move it away and it is made again from the data"
@@ -138,10 +139,13 @@ def _sqlite(url: URL) -> Engine:
     _make_private(Path(url.database))
     engine = sql.create_engine(url, connect_args={"timeout": WAIT})
 
+    # A write-ahead log needs memory that all stations share: over a network there is none.
+    journal = "DELETE" if network_drive(Path(url.database)) else "WAL"
+
     @sql.event.listens_for(engine, "connect")
     def _(connection: Any, _: Any) -> None:
         connection.isolation_level = None  # the driver begins no transactions of its own
-        for pragma in ("journal_mode=WAL", "synchronous=FULL", "foreign_keys=ON"):
+        for pragma in (f"journal_mode={journal}", "synchronous=FULL", "foreign_keys=ON"):
             connection.execute(f"PRAGMA {pragma}")
 
     @sql.event.listens_for(engine, "begin")
@@ -178,7 +182,7 @@ def errors(url: URL) -> Iterator[None]:
         raise InputError(
             f"{where}: needs the package {error.name}: pip install 'seethrough[stations]'"
         ) from None
-    except (SQLAlchemyError, sqlite3.Error) as error:
+    except (SQLAlchemyError, sqlite3.Error, UnicodeError) as error:
         reason = error.orig if isinstance(error, DBAPIError) else error
         words = " ".join(str(reason).split()).removeprefix("connection failed: ")
         raise InputError(f"{where}: the ledger cannot be used: {words}") from None

@@ -61,12 +61,20 @@ def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
 
 def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
     """A participant's session in the slot that the ledger gives."""
+    from experiment import ledger_place as place
     from experiment.ledger import Ledger  # SQLAlchemy: only where a ledger is needed
     from experiment.ledger_files import reconcile
     from experiment.ledger_lock import playing
     from experiment.ledger_plan import plan_of
+    from experiment.network_drive import network_drive
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
+    if not place.exists_elsewhere(data, url) and (kind := network_drive(data)):
+        print(
+            f"{data}: a network drive ({kind}): the ledger's locks may not hold between stations; "
+            "expected --ledger postgresql://… where there are several",
+            file=sys.stderr,
+        )
     with Ledger.open(data, url, plan, _now()) as ledger:
         for line in reconcile(ledger, data, _now()):
             print(line, file=sys.stderr)
