@@ -11,6 +11,7 @@ from experiment import refresh
 from experiment.clock import RealClock
 from experiment.config import Study
 from experiment.display import Input
+from experiment.interrupt import check
 from experiment.own_models import keep
 from experiment.provenance import changed_since, provenance
 from experiment.recorder import FileRecorder, Who
@@ -53,6 +54,7 @@ def play_in_window(
     if not refresh.fits(window.measured, window.declared):
         print(f"display: {refresh.said(window.measured, window.declared)}", file=sys.stderr)
     try:
+        check()
         described = provenance(study, window.describe(), speed=clock.speed, **(about or {}))
         if start.made is not None:
             # The study is the same, or it would be refused; the program need not be.

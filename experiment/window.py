@@ -21,6 +21,7 @@ from experiment.config import DisplayTable
 from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for, window_context
 from experiment.event_time import EventTime
+from experiment.interrupt import check
 from experiment.key_names import KEY_NAMES
 from experiment.page_drawing import Form
 from experiment.pages import Answers, Page
@@ -219,6 +220,7 @@ class Window:
 
     def _pump(self) -> float:
         """Dispatch what came in; the time before which nothing is left to come."""
+        check()
         now = self.clock.now()
         self._window.switch_to()
         self._window.settle()

@@ -11,6 +11,7 @@ from pathlib import Path
 from experiment.config import Study, load
 from experiment.errors import InputError
 from experiment.folders import check_participant, folder_of, next_free, taken
+from experiment.interrupt import check, deferred
 from experiment.private import make_folder
 
 
@@ -34,6 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the session; 0 when it was completed, 1 when it was left."""
+    with deferred():
+        return _run(arguments)
+
+
+def _run(arguments: argparse.Namespace) -> int:
     study = load(arguments.study)
     data = arguments.data or Path("data") / study.study.name
     if arguments.participant is not None:
@@ -83,9 +89,10 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
         locks = ledger.locks()
     # The session takes an hour, in which a connection may be lost: the ledger is opened again.
     try:
+        check()
         with playing(locks, entry.participant) as guard:
             status = _play(study, entry.participant, entry.slot, "human", data, guard)
-    except InputError:
+    except (InputError, KeyboardInterrupt):
         if entry.new and not folder_of(data, "human", entry.participant).exists():
             with Ledger.open(data, url, plan, _now()) as ledger:
                 ledger.cancel(entry.participant)
@@ -112,6 +119,7 @@ def _play(
     from experiment.clock import RealClock
     from experiment.live import play_in_window  # OpenGL and the window: not for --help
 
+    check()
     what = "pilot run, " if source == "pilot" else ""
     print(f"{what}participant {participant}, slot {slot}, data in {data}", file=sys.stderr)
     return play_in_window(study, participant, slot, source, data, RealClock(), guard=guard)
