@@ -206,10 +206,10 @@ class Ledger:
         """Now as most of the ledger has it; what is live and stamped far ahead was heard of now."""
         c = store.ENTRIES.c
         begun = sql.select(store.STUDIES.c.begun).where(store.STUDIES.c.name == self.plan.study)
-        told = [at.execute(begun).scalar_one(), *self._held(at).changed]
-        now = judged(now, told)
+        held = self._held(at)
+        now = judged(now, [at.execute(begun).scalar_one(), *held.changed])
         ahead = stamp(now + timedelta(seconds=self.plan.stale_after))
-        if self.plan.stale_after:
+        if self.plan.stale_after and held.changed and max(held.changed) > ahead:
             for entry in self._select(at, c.status == LIVE, c.changed > ahead):
                 self._change(at, entry, LIVE, now, entry.why)
         return now

@@ -60,9 +60,10 @@ def _study(at: Connection, study: str) -> list[Any]:
 
 
 def _keep(at: Connection, study: str, participant: str, values: Sequence[Any]) -> None:
-    forget(at, study, participant)
     new = {"study": study, "participant": participant, "sum": _sum(values)}
-    at.execute(store.SUMS.insert().values(new))
+    changed = store.SUMS.update().where(_is(study, participant)).values(sum=new["sum"])
+    if at.execute(changed).rowcount == 0:
+        at.execute(store.SUMS.insert().values(new))
 
 
 def _is(study: str, participant: str) -> sql.ColumnElement[bool]:

@@ -11,8 +11,8 @@ from experiment.ledger_plan import Plan
 from experiment.network_drive import network_drive
 
 MOUNTED = r"""/dev/sda1 / ext4 rw 0 0
-server:/home /home nfs4 rw 0 0
-/dev/sdb1 /home/local ext4 rw 0 0
+server:/far /shared nfs4 rw 0 0
+/dev/sdb1 /shared/local ext4 rw 0 0
 //lab/share /mnt/lab\040share cifs rw 0 0
 me@host: /srv/far fuse.sshfs rw 0 0
 """
@@ -22,9 +22,9 @@ me@host: /srv/far fuse.sshfs rw 0 0
     ("path", "kind"),
     [
         ("/data/study", ""),
-        ("/home/ann/data", "nfs4"),
-        ("/home/local/data", ""),
-        ("/homely/data", ""),
+        ("/shared/ann/data", "nfs4"),
+        ("/shared/local/data", ""),
+        ("/sharedly/data", ""),
         ("/mnt/lab share/study", "cifs"),
         ("/srv/far/x", "fuse.sshfs"),
     ],
@@ -36,7 +36,7 @@ def test_the_nearest_mount_decides(tmp_path, path, kind):
 
 
 def test_where_the_system_does_not_say_there_is_none(tmp_path):
-    assert network_drive(Path("/home/x"), tmp_path / "missing") == ""
+    assert network_drive(Path("/shared/x"), tmp_path / "missing") == ""
 
 
 @pytest.mark.parametrize(("kind", "journal"), [("", "wal"), ("nfs4", "delete")])
