@@ -12,7 +12,7 @@ from __future__ import annotations
 import json
 from collections.abc import Collection
 from dataclasses import replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from sqlalchemy.engine import Connection, Engine
 
 from experiment import ledger_place as place
 from experiment import ledger_store as store
+from experiment import ledger_sums as sums
 from experiment.errors import InputError
 from experiment.folders import check_participant
 from experiment.ledger_lock import Locks
@@ -28,12 +29,13 @@ from experiment.ledger_plan import Plan, difference
 from experiment.ledger_slots import (
     COMPLETE,
     LIVE,
+    STALE,
     SURPLUS,
     VOID,
     Entry,
     Held,
     free_name,
-    moment,
+    judged,
     next_slot,
     stale_before,
     stamp,
@@ -85,7 +87,13 @@ class Ledger:
             engine.dispose()
             what = "no study" if not rows else "several studies"
             raise InputError(f"{_where(engine)}: {what}: expected {name or 'one'}")
-        return cls(engine, _plan(rows[0]), _where(engine))
+        try:
+            with store.exclusive(engine) as at:
+                sums.verify(at, rows[0].name, _where(engine))
+            return cls(engine, _plan(rows[0]), _where(engine))
+        except BaseException:
+            engine.dispose()
+            raise
 
     def close(self) -> None:
         """Give the database back."""
@@ -121,8 +129,8 @@ class Ledger:
         with store.exclusive(self._engine) as at:
             if slot is not None and slot < 1:
                 raise InputError(f"--slot = {slot}: expected at least 1")
+            now = self._now(at, now)
             held = self._held(at)
-            now = held.not_before(now)
             name = participant or self._free_name(at, taken)
             mine = self._find(at, check_participant(name))
             if mine is not None:
@@ -137,16 +145,21 @@ class Ledger:
     def complete(self, participant: str, now: datetime) -> Entry:
         """The participant's session is complete; doing so twice changes nothing."""
         with store.exclusive(self._engine) as at:
-            mine = self._known(at, participant)
+            mine, now = self._known(at, participant), self._now(at, now)
             if mine.status in (COMPLETE, SURPLUS):
                 return mine
-            status = COMPLETE if self._holder(at, mine.slot) in (None, mine) else SURPLUS
-            return self._change(at, mine, status, now, "")
+            if mine.status == VOID:
+                if not mine.why.startswith(STALE):
+                    raise InputError(f"{self.where}: participant = {participant}: {_said(mine)}")
+                # The slot was given away: what was completed is kept, and so is the mark.
+                return self._change(at, mine, SURPLUS, now, mine.why)
+            return self._change(at, mine, COMPLETE, now, "")
 
     def void(self, participant: str, why: str, now: datetime) -> Entry:
         """The participant's slot is free again; the entry stays, with its date and reason."""
         with store.exclusive(self._engine) as at:
-            return self._change(at, self._known(at, participant), VOID, now, why)
+            mine = self._known(at, participant)
+            return self._change(at, mine, VOID, self._now(at, now), why)
 
     def cancel(self, participant: str) -> None:
         """Forget a reservation whose session never began, as if it had not been made."""
@@ -154,6 +167,7 @@ class Ledger:
             mine = self._known(at, participant)
             if mine.status == LIVE:
                 at.execute(store.ENTRIES.delete().where(self._is(mine.participant)))
+                sums.forget(at, self.plan.study, mine.participant)
 
     def add(self, entries: Collection[Entry]) -> None:
         """Enter what is known from elsewhere, as it is (a ledger made again from its data)."""
@@ -165,12 +179,13 @@ class Ledger:
         """The slot that the next new participant would get; None if all are live or complete."""
         with store.exclusive(self._engine) as at:
             held = self._held(at)
-            return self._next(held, held.not_before(now))
+            return self._next(held, self._now(at, now))
 
     def stale(self, now: datetime) -> tuple[Entry, ...]:
         """Live entries whose slots would be given out again."""
-        before = stale_before(now, self.plan.stale_after)
-        return tuple(e for e in self.entries() if e.status == LIVE and e.changed < before)
+        with store.exclusive(self._engine) as at:
+            before = stale_before(self._now(at, now), self.plan.stale_after)
+            return tuple(e for e in self._select(at) if e.status == LIVE and e.changed < before)
 
     # Inside a transaction
 
@@ -186,6 +201,18 @@ class Ledger:
         query = sql.select(c.slot, c.status, c.changed).where(c.study == self.plan.study)
         rows = at.execute(query.where(c.status.in_((LIVE, COMPLETE)))).all()
         return Held(*zip(*rows, strict=True)) if rows else Held((), (), ())
+
+    def _now(self, at: Connection, now: datetime) -> datetime:
+        """Now as most of the ledger has it; what is live and stamped far ahead was heard of now."""
+        c = store.ENTRIES.c
+        begun = sql.select(store.STUDIES.c.begun).where(store.STUDIES.c.name == self.plan.study)
+        held = self._held(at)
+        now = judged(now, [at.execute(begun).scalar_one(), *held.changed])
+        ahead = stamp(now + timedelta(seconds=self.plan.stale_after))
+        if self.plan.stale_after and held.changed and max(held.changed) > ahead:
+            for entry in self._select(at, c.status == LIVE, c.changed > ahead):
+                self._change(at, entry, LIVE, now, entry.why)
+        return now
 
     def _holder(self, at: Connection, slot: int) -> Entry | None:
         c = store.ENTRIES.c
@@ -223,18 +250,17 @@ class Ledger:
                 f"--slot = {slot}: {holder.participant} has it ({holder.status} since "
                 f"{holder.changed}): expected a free one"
             )
-        self._change(at, holder, VOID, now, f"stale; slot given to {by}")
+        self._change(at, holder, VOID, now, f"{STALE}; slot given to {by}")
 
     def _go_on(self, at: Connection, mine: Entry, now: datetime, slot: int | None) -> Entry:
         """The entry of a participant who is known: live goes on, stale too while it can."""
         if slot not in (None, mine.slot):
             raise InputError(f"--slot = {slot}: {mine.participant} has slot {mine.slot}")
-        stale = mine.status == VOID and mine.why.startswith("stale")
+        stale = mine.status == VOID and mine.why.startswith(STALE)
         if mine.status == LIVE or (stale and self._holder(at, mine.slot) is None):
             return self._change(at, mine, LIVE, now, "")
-        said = f"{mine.status} since {mine.changed}" + (f" ({mine.why})" if mine.why else "")
         raise InputError(
-            f"--participant = {mine.participant}: {said}; the next free one is "
+            f"--participant = {mine.participant}: {_said(mine)}; the next free one is "
             f"{self._free_name(at, ())}"
         )
 
@@ -259,11 +285,10 @@ class Ledger:
         return entry
 
     def _change(self, at: Connection, entry: Entry, status: str, now: datetime, why: str) -> Entry:
-        changed = replace(
-            entry, status=status, changed=stamp(max(now, moment(entry.changed))), why=why
-        )
+        changed = replace(entry, status=status, changed=stamp(now), why=why)
         values = {"status": status, "changed": changed.changed, "why": why}
         at.execute(store.ENTRIES.update().where(self._is(entry.participant)).values(values))
+        sums.keep(at, self.plan.study, changed)
         return changed
 
     def _insert(self, at: Connection, entry: Entry) -> None:
@@ -273,6 +298,7 @@ class Ledger:
             "why": entry.why,
         }  # fmt: skip
         at.execute(store.ENTRIES.insert().values(values))
+        sums.keep(at, self.plan.study, entry)
 
     def _is(self, participant: str) -> sql.ColumnElement[bool]:
         c = store.ENTRIES.c
@@ -281,7 +307,10 @@ class Ledger:
     def _check_study(self, at: Connection, now: datetime) -> None:
         """Enter the study, or check that it is the one the ledger began with."""
         plan, c = self.plan, store.STUDIES.c
-        known = [_plan(row) for row in at.execute(store.STUDIES.select())]
+        rows = at.execute(store.STUDIES.select()).all()
+        if any(row.name == plan.study for row in rows):
+            sums.verify(at, plan.study, self.where)
+        known = [_plan(row) for row in rows]
         same = next((p for p in known if p.study == plan.study), None)
         if same is not None and same.digest != plan.digest:
             raise InputError(f"{self.where}: {difference(same, plan)}")
@@ -297,6 +326,7 @@ class Ledger:
                 c.resolved: json.dumps(plan.resolved), c.begun: stamp(now),
             }  # fmt: skip
             at.execute(store.STUDIES.insert().values(values))
+            sums.keep_study(at, plan.study)
 
 
 def study_in(data: Path) -> str:
@@ -311,6 +341,10 @@ def study_in(data: Path) -> str:
 def _where(engine: Engine) -> str:
     url = engine.url
     return str(url.database) if url.get_backend_name() == "sqlite" else store.shown(url)
+
+
+def _said(entry: Entry) -> str:
+    return f"{entry.status} since {entry.changed}" + (f" ({entry.why})" if entry.why else "")
 
 
 def _plan(row: Any) -> Plan:

@@ -25,6 +25,7 @@ from sqlalchemy.engine import Connection, Engine
 
 from experiment import ledger_store as store
 from experiment.errors import InputError
+from experiment.interrupt import check
 from experiment.ledger_slots import stamp
 
 BEAT = 2.0  # s between heartbeats
@@ -194,6 +195,7 @@ def _dead(locks: Locks, participant: str, seen: Holder, say: Callable[[str], Non
         end = awake() + DEAD
         while awake() < end:
             time.sleep(POLL)
+            check()
             now = locks.look(participant)
             if now is None or now.token != seen.token:
                 return

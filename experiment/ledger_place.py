@@ -68,6 +68,11 @@ def noted_study(data: Path) -> str:
     return noted if ("/" not in noted and "\\" not in noted) or Path(noted).is_file() else ""
 
 
+def exists_elsewhere(data: Path, wanted: str = "") -> bool:
+    """Whether the ledger is, or will be, in a database and not in the folder."""
+    return bool(wanted) or (data / POINTER).exists()
+
+
 def settle(data: Path, url: URL, engine: Engine) -> None:
     """Note a database's address in the folder; what its SQLite file holds moves there.
 
@@ -99,7 +104,7 @@ def _move(old: Path, engine: Engine) -> None:
     source = store.connect(store.sqlite_url(old))
     try:
         with store.exclusive(source) as read, store.exclusive(engine) as write:
-            for table in (store.STUDIES, store.ENTRIES):
+            for table in (store.STUDIES, store.ENTRIES, store.SUMS):
                 rows = [dict(row) for row in read.execute(table.select()).mappings()]
                 for row in rows:
                     row.pop("id", None)

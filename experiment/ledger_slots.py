@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
 LIVE, COMPLETE, VOID, SURPLUS = "live", "complete", "void", "surplus"
+STALE = "stale"  # how the reason begins that an entry is void for its slot was given away
 STATUSES = (LIVE, COMPLETE, VOID, SURPLUS)
 
 
@@ -52,10 +53,6 @@ class Held:
         """Slots that are live and were heard of since `stale`."""
         columns = zip(self.slots, self.statuses, self.changed, strict=True)
         return {slot for slot, status, heard in columns if status == LIVE and heard >= stale}
-
-    def not_before(self, now: datetime) -> datetime:
-        """Now, or the latest time here if the clock was set back: a ledger's time never does."""
-        return max(now, moment(max(self.changed))) if self.changed else now
 
 
 def row_of(slot: int, rows: int) -> int:
@@ -96,6 +93,15 @@ def stale_before(now: datetime, after: float) -> str:
     A clock that was set back makes nothing stale.
     """
     return stamp(now - timedelta(seconds=after)) if after else ""
+
+
+def judged(now: datetime, told: Collection[str]) -> datetime:
+    """Now, or the middle of the times that a ledger was told if most of those are later.
+
+    A station whose clock was set back makes nobody stale so, and one whose clock is ahead (a
+    reservation from 2036) moves nothing.
+    """
+    return max(now, moment(sorted(told)[(len(told) - 1) // 2])) if told else now
 
 
 def moment(text: str) -> datetime:

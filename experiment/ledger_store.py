@@ -7,6 +7,7 @@ advisory lock. A unique index besides makes two holders of a slot impossible.
 from __future__ import annotations
 
 import os
+import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,7 +19,11 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 
 from experiment.errors import InputError
 from experiment.ledger_slots import COMPLETE, LIVE
+from experiment.network_drive import network_drive
 
+DAMAGED = (
+    "the ledger is damaged: put back a copy, or move it away and it is made again from the data"
+)
 WAIT = 30.0  # s that a station waits for the others' transactions; each takes milliseconds
 LOCK = 0x5EE7  # PostgreSQL's advisory locks have numbers; this one is ours
 
@@ -58,6 +63,13 @@ LOCKS = sql.Table(
     sql.Column("since", sql.String(32), nullable=False),
     sql.Column("beats", sql.Integer, nullable=False),
     sql.Column("heard", sql.Double, nullable=False),  # s, by the database's clock if it has one
+)
+SUMS = sql.Table(
+    "seethrough_sums",
+    METADATA,
+    sql.Column("study", sql.String(32), primary_key=True),
+    sql.Column("participant", sql.String(32), primary_key=True),  # "" for the study's own row
+    sql.Column("sum", sql.String(64), nullable=False),
 )
 _HELD = ENTRIES.c.status.in_((LIVE, COMPLETE))
 sql.Index(
@@ -103,9 +115,23 @@ def connect(url: URL) -> Engine:
         else:
             wait = {"connect_timeout": int(WAIT)}
             engine = sql.create_engine(url, connect_args=wait, pool_size=1, pool_pre_ping=True)
-    with exclusive(engine) as connection:
-        METADATA.create_all(connection)
+    try:
+        with exclusive(engine) as connection:
+            if url.get_backend_name() == "sqlite":
+                _whole(connection, url)
+            METADATA.create_all(connection)
+    except BaseException:
+        engine.dispose()
+        raise
     return engine
+
+
+def _whole(connection: Connection, url: URL) -> None:
+    """Raises InputError for a damaged file, in SQLite's own words."""
+    found = [str(row[0]) for row in connection.exec_driver_sql("PRAGMA integrity_check")]
+    if found != ["ok"]:
+        words = " ".join(found[0].split())
+        raise InputError(f"{url.database}: {DAMAGED}: {words}")
 
 
 def _sqlite(url: URL) -> Engine:
@@ -113,10 +139,13 @@ def _sqlite(url: URL) -> Engine:
     _make_private(Path(url.database))
     engine = sql.create_engine(url, connect_args={"timeout": WAIT})
 
+    # A write-ahead log needs memory that all stations share: over a network there is none.
+    journal = "DELETE" if network_drive(Path(url.database)) else "WAL"
+
     @sql.event.listens_for(engine, "connect")
     def _(connection: Any, _: Any) -> None:
         connection.isolation_level = None  # the driver begins no transactions of its own
-        for pragma in ("journal_mode=WAL", "synchronous=FULL", "foreign_keys=ON"):
+        for pragma in (f"journal_mode={journal}", "synchronous=FULL", "foreign_keys=ON"):
             connection.execute(f"PRAGMA {pragma}")
 
     @sql.event.listens_for(engine, "begin")
@@ -153,7 +182,7 @@ def errors(url: URL) -> Iterator[None]:
         raise InputError(
             f"{where}: needs the package {error.name}: pip install 'seethrough[stations]'"
         ) from None
-    except SQLAlchemyError as error:
+    except (SQLAlchemyError, sqlite3.Error, UnicodeError) as error:
         reason = error.orig if isinstance(error, DBAPIError) else error
         words = " ".join(str(reason).split()).removeprefix("connection failed: ")
         raise InputError(f"{where}: the ledger cannot be used: {words}") from None

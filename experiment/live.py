@@ -11,8 +11,9 @@ from experiment import refresh
 from experiment.clock import RealClock
 from experiment.config import Study
 from experiment.display import Input
+from experiment.interrupt import check
 from experiment.own_models import keep
-from experiment.provenance import provenance
+from experiment.provenance import changed_since, provenance
 from experiment.recorder import FileRecorder, Who
 from experiment.resume import going_on, starting_point
 from experiment.session import run_session
@@ -53,7 +54,13 @@ def play_in_window(
     if not refresh.fits(window.measured, window.declared):
         print(f"display: {refresh.said(window.measured, window.declared)}", file=sys.stderr)
     try:
+        check()
         described = provenance(study, window.describe(), speed=clock.speed, **(about or {}))
+        if start.made is not None:
+            # The study is the same, or it would be refused; the program need not be.
+            described["changed_since"] = changed_since(start.made, described)
+            for line in described["changed_since"]:
+                print(f"since the session before: {line}", file=sys.stderr, flush=True)
         who = Who(study.study.name, participant, source, start.slot, described, start.session)
         person: Input = window if watched is None else _simulated(watched, window)
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session

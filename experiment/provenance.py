@@ -41,3 +41,14 @@ def provenance(study: Study, display: Mapping[str, str], **more: Any) -> dict[st
         "display": dict(display),
         **more,
     }
+
+
+def changed_since(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    """What of the program is not as in an earlier session: `name: old, now new`."""
+    parts = {"program": "program_sha256", "python": "python"}
+    old = {name: str(before.get(key, "unknown"))[:12] for name, key in parts.items()}
+    new = {name: str(now.get(key, "unknown"))[:12] for name, key in parts.items()}
+    was, is_ = dict(before.get("versions", {})), dict(now.get("versions", {}))
+    for name in sorted(was.keys() | is_.keys()):
+        old[name], new[name] = was.get(name, "not there"), is_.get(name, "not there")
+    return [f"{name}: {old[name]}, now {new[name]}" for name in old if old[name] != new[name]]

@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from analysis.load.chain import LONGEST_CELL
 from experiment.chain import ANSWERS_TABLE
@@ -31,6 +32,7 @@ class Past:
     given: Given
     slot: int
     digest: str
+    made: Mapping[str, Any]  # the latest session's provenance
 
 
 def past(data: Path, source: str, participant: str) -> Past | None:
@@ -55,6 +57,7 @@ def past(data: Path, source: str, participant: str) -> Past | None:
         given=_given(folder),
         slot=int(said[0]["slot"]),
         digest=str(said[0]["provenance"].get("study_sha256", "")),
+        made=max(said, key=lambda s: int(s.get("session", 1)))["provenance"],
     )
 
 
@@ -67,6 +70,7 @@ class Start:
     done: frozenset[int]
     attempts: Mapping[int, int]
     given: Given
+    made: Mapping[str, Any] | None = None  # provenance of the session that it goes on from
 
 
 def starting_point(study: Study, data: Path, source: str, participant: str, slot: int) -> Start:
@@ -90,7 +94,7 @@ def starting_point(study: Study, data: Path, source: str, participant: str, slot
         )
     task_sets = session_for(before.slot, study.design.factors())
     done = already_done(task_sets, before, study.session.resume)
-    return Start(before.sessions + 1, before.slot, done, before.attempts, before.given)
+    return Start(before.sessions + 1, before.slot, done, before.attempts, before.given, before.made)
 
 
 def going_on(study: Study, start: Start) -> str:

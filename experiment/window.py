@@ -21,6 +21,7 @@ from experiment.display import DisplayLost, Leave
 from experiment.driver import describe, samples_for, window_context
 from experiment.event_time import EventTime
 from experiment.form import Form
+from experiment.interrupt import check
 from experiment.key_names import KEY_NAMES
 from experiment.pages import Answers, Page
 from experiment.refresh import rate_of
@@ -221,6 +222,7 @@ class Window(Waits):
 
     def _pump(self) -> float:
         """Dispatch what came in; the time before which nothing is left to come."""
+        check()
         now = self.clock.now()
         self._window.switch_to()
         self._window.settle()

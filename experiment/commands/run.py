@@ -11,6 +11,7 @@ from pathlib import Path
 from experiment.config import Study, find, load, shipped
 from experiment.errors import InputError
 from experiment.folders import check_participant, folder_of, next_free, taken
+from experiment.interrupt import check, deferred
 from experiment.private import make_folder
 
 
@@ -34,6 +35,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the session; 0 when it was completed, 1 when it was left."""
+    with deferred():
+        return _run(arguments)
+
+
+def _run(arguments: argparse.Namespace) -> int:
     study = load(arguments.study)
     data = arguments.data or Path("data") / study.study.name
     if arguments.participant is not None:
@@ -61,13 +67,21 @@ def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
 
 def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
     """A participant's session in the slot that the ledger gives."""
+    from experiment import ledger_place as place
     from experiment.ledger import Ledger  # SQLAlchemy: only where a ledger is needed
     from experiment.ledger_files import reconcile
     from experiment.ledger_lock import playing
     from experiment.ledger_place import note_study
     from experiment.ledger_plan import plan_of
+    from experiment.network_drive import network_drive
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
+    if not place.exists_elsewhere(data, url) and (kind := network_drive(data)):
+        print(
+            f"{data}: a network drive ({kind}): the ledger's locks may not hold between stations; "
+            "expected --ledger postgresql://… where there are several",
+            file=sys.stderr,
+        )
     with Ledger.open(data, url, plan, _now()) as ledger:
         for line in reconcile(ledger, data, _now()):
             print(line, file=sys.stderr)
@@ -78,9 +92,10 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
         locks = ledger.locks()
     # The session takes an hour, in which a connection may be lost: the ledger is opened again.
     try:
+        check()
         with playing(locks, entry.participant) as guard:
             status = _play(study, entry.participant, entry.slot, "human", data, guard)
-    except InputError:
+    except (InputError, KeyboardInterrupt):
         if entry.new and not folder_of(data, "human", entry.participant).exists():
             with Ledger.open(data, url, plan, _now()) as ledger:
                 ledger.cancel(entry.participant)
@@ -107,6 +122,7 @@ def _play(
     from experiment.clock import RealClock
     from experiment.live import play_in_window  # OpenGL and the window: not for --help
 
+    check()
     what = "pilot run, " if source == "pilot" else ""
     print(f"{what}participant {participant}, slot {slot}, data in {data}", file=sys.stderr)
     return play_in_window(study, participant, slot, source, data, RealClock(), guard=guard)

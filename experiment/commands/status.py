@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 
 from analysis.load.ledger import differences
 from analysis.load.whole import examined
+from experiment.commands.withdraw import WITHDRAWN
 from experiment.errors import one_line
-from experiment.folders import taken
+from experiment.folders import folder_of, taken
 from experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
 
 if TYPE_CHECKING:
@@ -36,12 +37,36 @@ def run(arguments: argparse.Namespace) -> int:
         changes = reconcile(ledger, arguments.data, now)
         study = study_words(arguments.data, ledger.plan.study)
         lines = [*(f"mended    {line}" for line in changes), *describe(ledger, now, study)]
-        entries = {entry.participant: entry.status for entry in ledger.entries()}
-    problems = [one_line(line) for line in _changed(arguments.data, entries)]
+        entries = ledger.entries()
+    notes, elsewhere = notes_of(entries, arguments.data)
+    lines[-1:-1] = [f"files     {line}" for line in notes]
+    here = {e.participant: e.status for e in entries if e.participant not in elsewhere}
+    problems = [one_line(line) for line in _changed(arguments.data, here)]
     whole = "as they were written: chains hold, and nobody in the ledger lacks files"
     files = [f"files     {line}" for line in problems or [whole]]
     print("\n".join([*lines[:-1], *files, lines[-1]]))
     return 1 if problems else 0
+
+
+def notes_of(entries: Sequence[Entry], data: Path) -> tuple[list[str], set[str]]:
+    """What the ledger knows and the files here do not, where that may be as it should be; and who
+    was played into another station's folder."""
+    from experiment.ledger_place import POINTER
+
+    notes: list[str] = []
+    elsewhere: set[str] = set()
+    stations = (data / POINTER).exists()  # they may have folders of their own
+    for entry in entries:
+        folder = folder_of(data, "human", entry.participant)
+        status, there = entry.status, any(folder.glob("*_trials_data.json"))
+        if status in (COMPLETE, SURPLUS) and not there and stations:
+            notes.append(f"{entry.participant}: {status} in the ledger, no files here")
+            elsewhere.add(entry.participant)
+        elif status == LIVE and not there:
+            notes.append(f"{entry.participant}: open, no files: never begun, or they were removed")
+        elif status == VOID and entry.why.startswith(WITHDRAWN) and folder.exists():
+            notes.append(f"{entry.participant}: withdrawn, its files are there")
+    return notes, elsewhere
 
 
 def _changed(data: Path, entries: Mapping[str, str]) -> list[str]:

@@ -69,7 +69,8 @@ def _without_slot(arguments: argparse.Namespace, source: str, folder: Path) -> i
 
 def _human(arguments: argparse.Namespace, data: Path, participant: str, folder: Path) -> int:
     from experiment.ledger import Ledger
-    from experiment.ledger_files import reconcile
+    from experiment.ledger_files import mark_withdrawn, reconcile
+    from experiment.ledger_lock import playing
 
     now = datetime.now(UTC)
     with Ledger.existing(data, arguments.ledger) as ledger:
@@ -86,7 +87,9 @@ def _human(arguments: argparse.Namespace, data: Path, participant: str, folder: 
             return 1
         # The mark first: were this to stop halfway, it says what is to be done again.
         why = WITHDRAWN + (f": {arguments.why}" if arguments.why else "")
-        slot = ledger.void(participant, why, now).slot
+        with playing(ledger.locks(), participant):  # refused while a session runs
+            slot = ledger.void(participant, why, now).slot
+            mark_withdrawn(data, participant, slot, now)
     if not arguments.keep_files and files:
         for place in (folder, *aside):
             if place.exists():

@@ -76,6 +76,8 @@ class Script:
         if self.frames <= 12:
             dx, dy = (float(v) for v in self.rng.uniform(-0.05, 0.05, 2))
             events = [PointerMove(now - 0.1, 0.5 + dx, 0.5 + dy, dx, dy, dragging=True)]
+            if self.frames == 1:  # a drag begins with its press; it is none of the buttons
+                events.insert(0, PointerPress(now - 0.15, 0.5, 0.5))
             if self.frames == 3:
                 events.append(KeyPress(now - 0.05, "up"))
             if self.frames == 7:

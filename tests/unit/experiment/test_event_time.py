@@ -43,6 +43,15 @@ def test_a_stall_between_the_readings_of_two_clocks_moves_nothing_later():
     assert when.moment()[0] == pytest.approx(99.0 - OFFSET, abs=1e-9)
 
 
+def test_where_every_reading_is_slow_the_bound_says_so():
+    """A second passes between any two readings of a clock."""
+    seconds = iter(range(100, 200))
+    when = EventTime(lambda: next(seconds) - OFFSET, lambda: next(seconds))
+    when.trusted, when.stamp = True, 90_000
+    time, within = when.moment()
+    assert time <= 90.0 - OFFSET <= time + within and within <= 2 + RESOLUTION + 1e-9
+
+
 def test_within_a_queue_an_event_without_a_stamp_keeps_its_place():
     """A window that loses the focus comes after the keys that came before that."""
     when = EventTime(lambda: 130.0 - OFFSET, lambda: 130.0)

@@ -189,6 +189,41 @@ def test_a_clock_set_back_makes_nobody_stale_and_time_never_runs_back(tmp_path):
         assert times == sorted(times) and times[0] == "2026-01-02T03:04:05.000Z"
 
 
+@pytest.mark.parametrize("wrong", [0, 1, 2])
+def test_a_reservation_from_2036_ends_no_freeing_of_stale_slots(tmp_path, wrong):
+    """Whichever of three was made by a clock ten years ahead; its own slot becomes free as well."""
+    ahead, later = NOW + timedelta(days=3650), NOW + timedelta(seconds=STALE + 10)
+    with opened(tmp_path, plan(rows=3, participants=3)) as ledger:
+        for number, name in enumerate("ABC"):
+            asked = number + 1 if number == wrong else None
+            ledger.reserve(name, ahead if number == wrong else NOW, slot=asked)
+        ledger.upcoming(NOW)  # a clock that is right sees the one that is not
+        taken = {ledger.reserve(name, later).slot for name in "DEF"}
+        assert taken == {1, 2, 3}
+        assert max(e.changed for e in ledger.entries()) < "2027"
+
+
+@pytest.mark.parametrize("why", ["withdrawn: by mail", "time limit"])
+def test_a_void_entry_never_becomes_complete_and_keeps_its_mark(tmp_path, why):
+    with opened(tmp_path) as ledger:
+        ledger.reserve("A", NOW)
+        ledger.void("A", why, NOW)
+        with pytest.raises(InputError, match=rf"participant = A: void since .* \({why}\)"):
+            ledger.complete("A", NOW)
+        (entry,) = ledger.entries()
+        assert (entry.status, entry.why) == ("void", why)
+
+
+def test_who_lost_a_stale_slot_and_completes_is_surplus_and_keeps_the_mark(tmp_path):
+    later = NOW + timedelta(seconds=STALE + 1)
+    with opened(tmp_path, plan(rows=1, participants=1)) as ledger:
+        ledger.reserve("A", NOW)
+        ledger.reserve("B", later)
+        ledger.void("B", "withdrawn", later)  # and the slot is nobody's now
+        mine = ledger.complete("A", later)
+        assert (mine.status, mine.why) == ("surplus", "stale; slot given to B")
+
+
 def test_ids_are_the_next_free_ones_and_case_alone_does_not_tell_them_apart(tmp_path):
     with opened(tmp_path) as ledger:
         assert ledger.reserve(None, NOW, taken={"P01"}).participant == "P02"

@@ -1,11 +1,13 @@
 """run, status and withdraw with a ledger: what the experimenter sees and what is left."""
 
 import json
+import re
+import shutil
 from datetime import UTC, datetime
 
 import pytest
 
-from experiment import cli
+from experiment import cli, ledger_lock
 from experiment.chain import seal_of
 from experiment.commands import withdraw as withdraw_module
 from experiment.config import find, load
@@ -122,6 +124,7 @@ def test_status_says_who_has_what_and_what_is_next(tmp_path, capsys):
     assert cli.main(["status", str(tmp_path)]) == 1
     said = capsys.readouterr().out
     assert "files     A: complete in the ledger, but without files" in said
+    assert "files     C: open, no files: never begun, or they were removed" in said
     assert "study     demo: 4 participants wanted, 4 rows of the design" in said
     assert "slots     1 complete, 1 open (1 stale), 2 free, 1 void entries" in said
     assert "balance   completed rows differ by 1\n          row 1: 1 complete, 0 open" in said
@@ -210,3 +213,59 @@ def test_who_has_no_slot_is_withdrawn_without_a_ledger(tmp_path, capsys):
     left_by(tmp_path, "pilot", "S02")
     assert cli.main([*withdraw, "S02", "--yes"]) == 2 and other.exists()
     assert "--source: expected one of pilot, simulated" in capsys.readouterr().err
+
+
+def test_a_removed_folder_is_missed(sessions, tmp_path, capsys):
+    for _ in range(3):
+        sessions("--next")
+    shutil.rmtree(tmp_path / "data" / "human" / "P02")
+    capsys.readouterr()
+    assert cli.main(["status", str(tmp_path)]) == 1
+    said = capsys.readouterr().out
+    assert (
+        "files     P02: complete in the ledger, but without files: the folder was removed" in said
+    )
+    assert "P01" not in said and "P03" not in said
+
+
+def test_a_ledger_that_says_complete_is_held_against_the_end_on_disk(sessions, tmp_path, capsys):
+    sessions("--next", how="left")
+    with Ledger.existing(tmp_path) as ledger:
+        ledger.complete("P01", NOW)
+    assert cli.main(["status", str(tmp_path)]) == 1
+    assert "files     P01: complete in the ledger, but no end file says so" in (
+        capsys.readouterr().out
+    )
+
+
+def test_a_withdrawn_id_stays_withdrawn_also_where_the_ledger_was_lost(sessions, tmp_path, capsys):
+    sessions("--next", how="left")
+    assert cli.main(["withdraw", str(tmp_path), "--participant", "P01", "--yes"]) == 0
+    for lost in tmp_path.glob("ledger.sqlite*"):
+        lost.unlink()
+    capsys.readouterr()
+    assert sessions("--participant", "P01") == 2
+    said = capsys.readouterr().err
+    assert "P01: withdrawn, not in the ledger: entered as void" in said
+    assert re.search(r"--participant = P01: void since 20\S+Z \(withdrawn\); the next free", said)
+    assert sessions("--next") == 0
+    assert sessions.came[-1] == ("P02", 1, "human")
+
+
+def test_what_is_no_list_of_the_withdrawn_is_one_line(sessions, tmp_path, capsys):
+    (tmp_path / "withdrawn.csv").write_text("participant,slot,withdrawn\nP01,one,today\n")
+    assert sessions("--next") == 2
+    said = capsys.readouterr().err
+    assert "withdrawn.csv: expected participant, slot and date in each row" in said
+    assert said.count("\n") == 1
+
+
+def test_who_is_being_played_is_not_withdrawn(sessions, tmp_path, capsys, monkeypatch):
+    sessions("--next", how="left")
+    monkeypatch.setattr(ledger_lock, "POLL", 0.05)
+    monkeypatch.setattr(ledger_lock, "BEAT", 0.05)
+    with Ledger.existing(tmp_path) as ledger, ledger_lock.playing(ledger.locks(), "P01"):
+        assert cli.main(["withdraw", str(tmp_path), "--participant", "P01", "--yes"]) == 2
+    assert "--participant = P01: being played at" in capsys.readouterr().err
+    assert entries(tmp_path) == [("P01", 1, "live")]
+    assert (tmp_path / "data" / "human" / "P01").exists()

@@ -94,3 +94,34 @@ def test_the_terminal_shows_trial_answer_time_and_missed_frames(capsys):
     first, second = capsys.readouterr().err.splitlines()
     assert first.split() == ("trial 7 dynamic count 12 42.2 s, 3/2500 frames missed".split())
     assert "timed out" in second
+
+
+def test_a_session_that_goes_on_says_and_records_what_of_the_program_changed(
+    tmp_path, monkeypatch, capsys
+):
+    def version(made, **other):
+        versions = {**made["versions"], "numpy": "1.2.3"}
+        return {**made, "versions": versions, "program_sha256": "f" * 64}
+
+    monkeypatch.setattr(live, "run_session", lambda *_: "left")
+    real = live.provenance
+    monkeypatch.setattr(live, "provenance", lambda *a, **k: version(real(*a, **k)))
+    live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
+    monkeypatch.setattr(live, "provenance", real)
+    capsys.readouterr()
+    for _ in range(2):
+        live.play_in_window(STUDY, "P01", 1, "human", tmp_path, RealClock())
+    said = capsys.readouterr().err.splitlines()
+    now = real(STUDY, {})
+    changed = [
+        f"program: {'f' * 12}, now {now['program_sha256'][:12]}",
+        f"numpy: 1.2.3, now {now['versions']['numpy']}",
+    ]
+    found = [x for x in said if x.startswith("since the session before: ")]
+    assert found == [f"since the session before: {line}" for line in changed]  # once, not twice
+    home = tmp_path / "data/human/P01"
+    recorded = [
+        json.loads(path.read_text("utf-8"))["provenance"].get("changed_since")
+        for path in sorted(home.glob("*_trials_data.json"))
+    ]
+    assert recorded == [None, changed, []]

@@ -161,6 +161,19 @@ def test_sus_scores_the_known_extremes_and_the_middle():
     assert score([3, 1, 3, 0, 4, 2, 3, 1, 3, 1]) == 77.5
 
 
+def test_a_score_that_a_power_failure_cut_off_counts_the_answers_that_were_kept():
+    """Of ten statements four were on disk; the page is asked again, and those four stand."""
+    kept = {(f"sus_{n}", "dynamic", ""): "4" if n % 2 else "0" for n in range(1, 5)}
+    study = with_blocks("sus")
+    rows = rows_of(questionnaire.after(study, 4 / 3), Answers(), kept)
+    mine = {r["item"]: r["value"] for r in rows if r["transparency"] == "dynamic"}
+    assert set(mine) == {f"sus_{n}" for n in range(5, 11)} | {"sus"}
+    both = {item: value for (item, *_), value in kept.items()} | mine
+    assert float(mine["sus"]) == blocks.sus_score(both)
+    new = {f"sus_{n}": mine["sus_5"] for n in range(1, 11)}
+    assert float(mine["sus"]) != blocks.sus_score(new)
+
+
 def test_tlx_has_six_scales_of_21_steps_for_each_level():
     rows = rows_of(questionnaire.after(with_blocks("tlx")), Answers())
     assert len(rows) == 12 and {r["value"] for r in rows} == {"20"}
