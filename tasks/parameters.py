@@ -69,8 +69,10 @@ class AbstractParameters:
 class OwnModel:
     """A model of the study's own: a glTF, OBJ, STL or PLY file beside the study's.
 
-    Participants read its `name`. `size`, `up` and `turn` are those of renderer/models/user.py.
-    `sha256` of the file and the `folder` it is in are found out when the study is read.
+    Participants read its `name`. `size`, `up`, `turn` and `detail` are those of
+    renderer/models/user.py. `sha256` of its files, the `folder` they are in and the number of the
+    `reader` that shows them are found out when the study is read; what an older reader showed has
+    its number, so that a study under way cannot go on with other pictures.
     """
 
     name: str
@@ -78,8 +80,10 @@ class OwnModel:
     size: float = 1.5
     up: str = "y"
     turn: float = 0.0
+    detail: int = 20_000
     sha256: str = ""
     folder: str = ""
+    reader: int = 1
 
     def __post_init__(self) -> None:
         if not (self.name.isprintable() and self.name.strip() and len(self.name) <= 32):
@@ -90,6 +94,7 @@ class OwnModel:
             raise ValueError(f"up = {self.up!r}, expected 'y' or 'z'")
         _between("size", self.size, 0.01, 100)
         _between("turn", self.turn, -360, 360)
+        _between("detail", self.detail, 0, 250_000)
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--redraw", action="store_true", help="find the scenes to draw again, and print them"
     )
+    parser.add_argument(
+        "--models", type=Path, metavar="FILE.png", help="where a picture of its own models goes"
+    )
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of the hardest scene")
 
 
@@ -50,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     context = open_context()
     for name, value in describe(context).items():
         print(f"machine     {name}: {value}")
+    _contact_sheet(study, context, arguments)
     measured = _measured(study, context)
     passed = _difficulty(study, measured, context, arguments.redraw)
     if arguments.certificate is not None:
@@ -59,11 +63,23 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _models(study: Study) -> Iterator[str]:
     """What the study brings along: read already, or there would be no study."""
-    from tasks.own_models import mesh_of
-
+    if study.walkthrough.models:
+        from experiment.contact_sheet import described, facts_of
     for own in study.walkthrough.models:
-        count = len(mesh_of(own).triangles)
-        yield f"model       {own.name}: {own.file}, {count} triangles, {own.sha256[:12]}"
+        first, *more = described(own, facts_of(own), study)
+        yield f"model       {own.name}: {own.file}, {first}, {own.sha256[:12]}"
+        for line in more:
+            yield f"            {line}"
+
+
+def _contact_sheet(study: Study, context: Any, arguments: argparse.Namespace) -> None:
+    """The study's own models in a picture, where it has any."""
+    if study.walkthrough.models:
+        from experiment import contact_sheet
+
+        path = arguments.models or contact_sheet.default_path(arguments.study)
+        contact_sheet.write(study, context, path)
+        print(f"models      a picture of each from several sides: {path}")
 
 
 def _design(study: Study) -> Iterator[str]:

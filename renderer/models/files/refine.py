@@ -9,21 +9,21 @@ few steps of 255, or as many triangles were added as may be. What then is still 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.models.files.comparing import BINS, SHOWN, compared, sides_of
 from renderer.models.files.part import Array, to_shown
 from renderer.models.files.surface import Surface
+from renderer.models.files.texture import Texture
 
 TOLERANCE = 4 / 255  # of a colour as shown: less is not seen on a shaded surface
 ROUNDS = 80
 EAGER = 8  # a round takes what is wrong by this part of the worst or more
+TEXELS = 16  # shown for each triangle that may be added: of finer pictures a smaller copy is used
 FINEST = 64  # samples along a side at most
-_AT_ONCE = 1 << 19  # samples
 _NORMAL, _UV, _RGBA = slice(0, 3), slice(3, 5), slice(5, 9)
 
 
@@ -69,14 +69,30 @@ def refined(surface: Surface, normals: Array, detail: int) -> tuple[Surface, Arr
     begun = len(made.triangles)
     if not (made.texture >= 0).any():
         return surface, normals, None
-    limited = _refine(made, surface, begun + detail)
-    colors, left = _colored(made, surface)
+    coarse = replace(surface, textures=_carried_by(made, surface, detail))
+    limited = _refine(made, coarse, begun + detail)
+    colors, left = _colored(made, coarse)
     mean, most, seen = _off(made, surface, colors)
     whole = Surface(
         made.points, made.triangles, colors, made.values[..., _UV], made.texture, made.cutoff, ()
     ).take(seen)
     added = len(made.triangles) - begun
     return whole, made.values[..., _NORMAL][seen], Carried(added, mean, most, limited and left)
+
+
+def _carried_by(made: _Cut, surface: Surface, detail: int) -> tuple[Texture, ...]:
+    """The textures, smaller where the model shows more of their texels than can be carried."""
+    rows = np.flatnonzero(made.texture >= 0)
+    uv = made.values[rows][..., _UV]
+    u, v = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+    sizes = np.array([t.size for t in surface.textures], float)[made.texture[rows]]
+    texels = float((np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2 * sizes.prod(axis=1)).sum())
+    skip = 0
+    while texels > max(TEXELS * detail, 1) * 4**skip:
+        skip += 1
+    return tuple(
+        replace(t, levels=t.levels[min(skip, len(t.levels) - 1) :]) for t in surface.textures
+    )
 
 
 def _refine(made: _Cut, surface: Surface, limit: int) -> bool:
@@ -99,8 +115,8 @@ def _refine(made: _Cut, surface: Surface, limit: int) -> bool:
 
 
 def _unfinished(made: _Cut, surface: Surface) -> NDArray[np.bool_]:
-    """(m,) what is wrong somewhere, and still larger than a texel."""
-    least = np.array([0.25 if t.nearest else 1.0 for t in surface.textures] or [1.0])
+    """(m,) what is wrong somewhere, and still larger than half a texel (a quarter of hard ones)."""
+    least = np.array([0.25 if t.nearest else 0.5 for t in surface.textures] or [1.0])
     large = _texels(made, surface).max(axis=1) > least[made.texture]
     return (made.texture >= 0) & (made.worst > TOLERANCE) & large
 
@@ -113,40 +129,22 @@ def _texels(made: _Cut, surface: Surface) -> Array:
     return np.where((made.texture >= 0)[:, None], lengths, 0.0)
 
 
-@cache
-def _lattice(n: int) -> Array:
-    """(n², 3) barycentric coordinates of the middles of n² equal parts of a triangle."""
-    i, j = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
-    upright, turned = i + j < n, i + j < n - 1
-    third = [np.stack([i[m] + s, j[m] + s], axis=1) for m, s in ((upright, 1 / 3), (turned, 2 / 3))]
-    two = np.concatenate(third) / n
-    return np.column_stack([two, 1 - two.sum(axis=1)])
-
-
-def _samples(
-    made: _Cut, surface: Surface, rows: NDArray[np.int64]
-) -> Iterator[tuple[NDArray[np.int64], Array, Array, NDArray[np.bool_]]]:
-    """Rows (k,), their lattice (s, 3), what the picture shows there (k, s, 3), and whether it
-    shows anything there (k, s)."""
-    longest = _texels(made, surface)[rows].max(axis=1)
-    sides = 2 ** np.ceil(np.log2(np.clip(longest, 2, FINEST))).astype(int)
-    for texture in range(len(surface.textures)):
-        for n in np.unique(sides).tolist():
-            own = rows[(made.texture[rows] == texture) & (sides == n)]
-            lattice = _lattice(n)
-            step = max(_AT_ONCE // len(lattice), 1)
-            for some in (own[k : k + step] for k in range(0, len(own), step)):
-                at = np.einsum("sc,kcv->ksv", lattice, made.values[some][..., 3:])
-                flat = at[..., :2].reshape(-1, 2)
-                rgba = surface.textures[texture].sample(flat) * at[..., 2:].reshape(-1, 4)
-                rgba = rgba.reshape(*at.shape[:2], 4)
-                yield some, lattice, to_shown(rgba[..., :3]), _seen(rgba, made.cutoff[some])
-
-
-def _seen(rgba: Array, cutoff: Array) -> NDArray[np.bool_]:
-    """(k, s) whether alpha lets something be seen."""
-    alpha, least = rgba[..., 3], cutoff[:, None]
-    return (least < 0) | ((alpha > 0) & (alpha >= least))
+def _compare(
+    made: _Cut, surface: Surface, rows: NDArray[np.int64], colors: Array
+) -> tuple[Array, Array]:
+    """(k, 3) mean error, largest error and share that is seen of textured triangles `rows`, whose
+    corners have `colors` (k, 3, 3); the areas by error."""
+    found, bins = np.zeros((len(rows), 3)), np.zeros(BINS)
+    sides = sides_of(_texels(made, surface)[rows].max(axis=1), FINEST)
+    areas = _areas(made, rows)
+    for number, texture in enumerate(surface.textures):
+        own = np.flatnonzero(made.texture[rows] == number)
+        found[own] = compared(
+            np.ascontiguousarray(made.values[rows[own]][..., 3:]), colors[own], sides[own],
+            made.cutoff[rows[own]], areas[own], texture.levels[0], np.array(texture.wrap),
+            texture.nearest, SHOWN, bins,
+        )  # fmt: skip
+    return found, bins
 
 
 def _measure(made: _Cut, surface: Surface) -> None:
@@ -156,16 +154,10 @@ def _measure(made: _Cut, surface: Surface) -> None:
     made.wrong[rows], made.worst[rows] = 0.0, 0.0
     rows = rows[textured]
     corner = _at_corners(made, surface, rows, np.zeros((len(rows), 3), int))
-    place = np.zeros(len(made.triangles), np.int64)
-    place[rows] = np.arange(len(rows))
-    for some, lattice, shown, seen in _samples(made, surface, rows):
-        straight = np.einsum("sc,kcv->ksv", lattice, corner[place[some]])
-        off = np.abs(shown - straight).max(axis=2) * seen
-        share = seen.mean(axis=1)
-        mixed = (share > 0) & (share < 1)
-        hidden = np.minimum(share, 1 - share)
-        made.wrong[some] = (off.mean(axis=1) + hidden) * _areas(made, some)
-        made.worst[some] = np.where(mixed, 2.0, off.max(axis=1))
+    found, _ = _compare(made, surface, rows, corner)
+    mean, worst, share = found.T
+    made.wrong[rows] = (mean + np.minimum(share, 1 - share)) * _areas(made, rows)
+    made.worst[rows] = np.where((share > 0) & (share < 1), 2.0, worst)
 
 
 def _areas(made: _Cut, rows: NDArray[np.int64]) -> Array:
@@ -266,20 +258,13 @@ def _colored(made: _Cut, surface: Surface) -> tuple[Array, bool]:
 
 def _off(made: _Cut, surface: Surface, colors: Array) -> tuple[float, float, NDArray[np.bool_]]:
     """The mean error in steps of 255, what 99 % of the surface keeps to, and (m,) what is seen."""
-    seen_at_all = np.ones(len(made.triangles), bool)
+    seen = np.ones(len(made.triangles), bool)
     rows = np.flatnonzero(made.texture >= 0)
-    bins = np.zeros(256 * 4)
-    total = summed = 0.0
-    for some, lattice, shown, seen in _samples(made, surface, rows):
-        straight = np.einsum("sc,kcv->ksv", lattice, colors[some][..., :3])
-        off = 255 * np.abs(shown - straight).max(axis=2)
-        weight = np.where(seen, (_areas(made, some) / len(lattice))[:, None], 0.0)
-        summed, total = summed + float((off * weight).sum()), total + float(weight.sum())
-        bins += np.bincount(
-            np.minimum(4 * off, len(bins) - 1).astype(int).ravel(), weight.ravel(), len(bins)
-        )
-        seen_at_all[some] = seen.mean(axis=1) >= 0.5
+    found, bins = _compare(made, surface, rows, colors[rows][..., :3])
+    seen[rows] = found[:, 2] >= 0.5
+    areas = _areas(made, rows)
+    total = float((areas * found[:, 2]).sum())
     if total <= 0:
-        return 0.0, 0.0, seen_at_all
+        return 0.0, 0.0, seen
     most = (int(np.searchsorted(np.cumsum(bins), 0.99 * total)) + 1) / 4
-    return summed / total, most, seen_at_all
+    return 255 * float((areas * found[:, 0]).sum()) / total, most, seen
