@@ -105,7 +105,8 @@ def write(study: Study, context: Any, path: Path) -> None:
             sheet.paste(Image.fromarray(picture), (left, top + 20))
             draw.text((left + 4, top + TILE), said, fill=(90, 90, 90), font=font)
         left = MARGIN + (len(VIEWS) + 1) * (TILE + MARGIN)
-        text = "\n".join(_wrapped(described(own, facts_of(own), study)))
+        lines = _wrapped(described(own, facts_of(own), study))
+        text = "\n".join(lines).replace("×", "x")  # which Pillow's own font lacks
         draw.multiline_text((left, top + 22), text, fill="black", font=font, spacing=3)
     marked = PngImagePlugin.PngInfo()
     marked.add_text(*MARK)

@@ -80,7 +80,7 @@ class OwnModel:
     size: float = 1.5
     up: str = "y"
     turn: float = 0.0
-    detail: int = 20_000
+    detail: int = 30_000
     sha256: str = ""
     folder: str = ""
     reader: int = 1

@@ -21,8 +21,8 @@ from renderer.models.shapes import assemble, shade, shape
 
 READERS = {".glb": "gltf", ".gltf": "gltf", ".obj": "obj", ".ply": "ply", ".stl": "stl"}
 KINDS = tuple(READERS)
-DETAIL = 20_000
-"""Triangles that textures may add: as many again as a large model of ours has."""
+DETAIL = 30_000
+"""Triangles that textures may add: a logo of 64 texels on each side of a box takes as many."""
 LARGEST = 1e30
 """Coordinates beyond this overflow in the cubic terms of a volume."""
 

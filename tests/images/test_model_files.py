@@ -17,8 +17,8 @@ CASES = model_cases.CASES + model_cases_gltf.CASES
 PLAIN = 3 / 255
 # What a picture may be off by in the mean, in steps of 255; the logo lost would be 60.
 MEAN = 5.0
-# Our rays meet a thousand places, the measure all: their means differ by chance.
-CHANCE = 1.4
+# Our rays meet a thousand places, the measure all: their means differ by chance. JPEG is off by 1.
+CHANCE, CODED = 1.4, 1.0
 DETAIL = 60_000
 
 
@@ -51,7 +51,8 @@ def test_a_model_looks_as_it_was_made(tmp_path, case):
         assert (there != here).sum() <= (12 if "mask" in case.name else 0)
         off = np.abs(right - ours)[there & here].max(axis=1)
         if textured:
-            assert 255 * off.mean() < CHANCE * facts.carried.mean + 0.5 < MEAN
-            assert (255 * off > facts.carried.most + 1).mean() < 0.03  # 1 % was said
+            assert 255 * off.mean() < CHANCE * facts.carried.mean + CODED
+            assert facts.carried.mean < MEAN
+            assert (255 * off > facts.carried.most + CODED).mean() < 0.03  # 1 % was said
         else:
             assert off.max() < PLAIN

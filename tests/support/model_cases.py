@@ -83,7 +83,7 @@ def _obj_cases():
     sided = [(f"usemtl m{i}", [words(q)]) for i, q in enumerate(QUADS)]
     of_sides = polygons(CUBE, QUADS, SIDES)
     ell, ells = prism(ELL)
-    star = [(x, y, 0.3 * 0) for x, y in STAR]
+    star = [(x, y, 0.0) for x, y in STAR]
     yield Case("grey.obj", plain(CUBE, QUADS), polygons(CUBE, QUADS))
     yield Case("kd.obj", obj(CUBE, sided, "mtllib kd.mtl"), of_sides, {"kd.mtl": mtl(SIDES)})
     yield Case(

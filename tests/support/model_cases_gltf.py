@@ -11,7 +11,6 @@ from model_reference import Face, light, shown
 
 POINTS = np.asarray(CUBE)
 OWN = POINTS[[v for q in QUADS for v in q]]  # each side with corners of its own
-CORNERS = [(4 * i, 4 * i + k, 4 * i + k + 1) for i in range(6) for k in (1, 2)]
 UV = np.tile(SQUARE, (6, 1))
 HALF = shown(0.5)
 
@@ -26,9 +25,9 @@ def pbr(color=None, texture=None, **more):
     return {"pbrMetallicRoughness": made, **more}
 
 
-def simple(color, faces=None, **options):
+def simple(color):
     """Every side in one colour as shown."""
-    return polygons(CUBE, QUADS, [color] * 6) if faces is None else faces
+    return polygons(CUBE, QUADS, [color] * 6)
 
 
 def _plain():
@@ -46,7 +45,7 @@ def _plain():
         g.primitive(POINTS[list(q)], [0, 1, 2, 0, 2, 3], material=pbr(light(SIDES[i])))
     yield "sides.glb", g.binary(), polygons(CUBE, QUADS, SIDES), {}, ""
     g = Gltf()
-    g.primitive(OWN[np.ravel(CORNERS)] if False else POINTS[np.ravel(TRIANGLES)])
+    g.primitive(POINTS[np.ravel(TRIANGLES)])
     yield "no-indices.glb", g.binary(), simple((0.7,) * 3), {}, ""
     old = {"diffuseFactor": [*light(RED), 1.0]}
     g = Gltf()
@@ -95,7 +94,7 @@ def _shapes():
         {"children": [1], "rotation": [0, 0, np.sin(0.3), np.cos(0.3)]}, {"mesh": 0},
     ]  # fmt: skip
     c, s = np.cos(0.6), np.sin(0.6)
-    turned = (POINTS + [1, 2, 0]) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T
+    turned = (POINTS + np.array([1, 2, 0])) @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T
     both = polygons(POINTS * [-1, 1, 0.5], QUADS, [RED] * 6) + polygons(turned, QUADS, [RED] * 6)
     yield "nodes.gltf", g.text(), both, {}, ""
     g = Gltf()
@@ -173,7 +172,8 @@ def _textures():
     moved = {"offset": [0.2, 0.3], "rotation": angle, "scale": [1.5, 0.8]}
     c, s = np.cos(angle), np.sin(angle)
     to = np.asarray(SQUARE) * [1.5, 0.8]
-    to = np.column_stack([c * to[:, 0] + s * to[:, 1], c * to[:, 1] - s * to[:, 0]]) + [0.2, 0.3]
+    to = np.column_stack([c * to[:, 0] + s * to[:, 1], c * to[:, 1] - s * to[:, 0]])
+    to = to + np.array([0.2, 0.3])
     reference = {"extensions": {"KHR_texture_transform": moved}}
     yield *_textured("moved.glb", textured(logo(), to), reference=reference), {}, ""
     wide = UV * 2 - 0.5

@@ -178,8 +178,8 @@ def _nearest(vertices, paints, triangles, origins, way, colors):
             for k, step in enumerate((across, down)):
                 at = np.dot(p - first, step) / np.dot(step, step)
                 low[k], high[k] = min(low[k], at), max(high[k], at)
-        for i in range(max(int(low[1]), 0), min(int(high[1]) + 2, RAYS)):
-            for j in range(max(int(low[0]), 0), min(int(high[0]) + 2, RAYS)):
+        for i in range(max(int(np.ceil(low[1] - 1e-6)), 0), min(int(high[1] + 1e-6) + 1, RAYS)):
+            for j in range(max(int(np.ceil(low[0] - 1e-6)), 0), min(int(high[0] + 1e-6) + 1, RAYS)):
                 r = i * RAYS + j
                 distance = np.dot(a - origins[r], normal) / slope
                 hit = origins[r] + distance * way - a

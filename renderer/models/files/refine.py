@@ -23,6 +23,7 @@ TOLERANCE = 4 / 255  # of a colour as shown: less is not seen on a shaded surfac
 ROUNDS = 80
 EAGER = 8  # a round takes what is wrong by this part of the worst or more
 TEXELS = 16  # shown for each triangle that may be added: of finer pictures a smaller copy is used
+FINEST_SIDES = (1.0, 0.5, 0.25)  # of a texel: first all of them, then what is between them
 FINEST = 64  # samples along a side at most
 _NORMAL, _UV, _RGBA = slice(0, 3), slice(3, 5), slice(5, 9)
 
@@ -70,7 +71,9 @@ def refined(surface: Surface, normals: Array, detail: int) -> tuple[Surface, Arr
     if not (made.texture >= 0).any():
         return surface, normals, None
     coarse = replace(surface, textures=_carried_by(made, surface, detail))
-    limited = _refine(made, coarse, begun + detail)
+    limited = False
+    for part in FINEST_SIDES:
+        limited = limited or _refine(made, coarse, begun + detail, part)
     colors, left = _colored(made, coarse)
     mean, most, seen = _off(made, surface, colors)
     whole = Surface(
@@ -95,11 +98,12 @@ def _carried_by(made: _Cut, surface: Surface, detail: int) -> tuple[Texture, ...
     )
 
 
-def _refine(made: _Cut, surface: Surface, limit: int) -> bool:
-    """Cut until all is right or there are `limit` triangles; whether those were too few."""
+def _refine(made: _Cut, surface: Surface, limit: int, part: float) -> bool:
+    """Cut until all is right, or sides are this part of a texel, or there are `limit` triangles;
+    whether those were too few."""
     for _ in range(ROUNDS):
         _measure(made, surface)
-        active = np.flatnonzero(_unfinished(made, surface))
+        active = np.flatnonzero(_unfinished(made, surface, part))
         if not len(active):
             return False
         room = (limit - len(made.triangles)) // 3
@@ -114,10 +118,9 @@ def _refine(made: _Cut, surface: Surface, limit: int) -> bool:
     return True
 
 
-def _unfinished(made: _Cut, surface: Surface) -> NDArray[np.bool_]:
-    """(m,) what is wrong somewhere, and still larger than half a texel (a quarter of hard ones)."""
-    least = np.array([0.25 if t.nearest else 0.5 for t in surface.textures] or [1.0])
-    large = _texels(made, surface).max(axis=1) > least[made.texture]
+def _unfinished(made: _Cut, surface: Surface, part: float) -> NDArray[np.bool_]:
+    """(m,) what is wrong somewhere, and still larger than this part of a texel."""
+    large = _texels(made, surface).max(axis=1) > part
     return (made.texture >= 0) & (made.worst > TOLERANCE) & large
 
 
@@ -242,7 +245,7 @@ def _colored(made: _Cut, surface: Surface) -> tuple[Array, bool]:
     surroundings, as a viewer's smaller copies of a texture do: single texels would be chance.
     """
     _measure(made, surface)
-    large = _unfinished(made, surface)
+    large = _unfinished(made, surface, 1.0)
     texels = _texels(made, surface)
     about = np.minimum(texels, np.roll(texels, 1, axis=1))  # of the two sides at a corner
     about = np.where(large[:, None], about, 1.0)
