@@ -172,7 +172,7 @@ def _write(measured: list[Difficulty], path: Path) -> None:
 
 def _machine(study: Study, measured: list[Difficulty], context: Any, seconds: float) -> bool:
     """Frame times where they are worst: the scenes with most to see through, in each scenario."""
-    from experiment.machine import frame_times, free_disk
+    from experiment.machine import crossings, frame_times, free_disk
 
     for scenario in study.design.factors().tasks:
         own = [d for d in measured if d.trial.scenario == scenario]
@@ -188,6 +188,8 @@ def _machine(study: Study, measured: list[Difficulty], context: Any, seconds: fl
             f"median {times.median:.1f} ms, 99 % within {times.p99:.1f} ms; "
             f"{100 * times.missed:.1f} % over 1.5 periods of {rate:g} Hz"
         )
+        for line in crossings(study, hardest.trial):
+            print(f"machine     {scenario}, objects that intersect: {line}")
     fit = _refresh(study)
     free = free_disk(Path.cwd())
     print(f"machine     free disk: {free:.1f} GiB" + ("" if free > LEAST_DISK else ": TOO LITTLE"))

@@ -138,6 +138,8 @@ def _obj_cases():
     head, use = "mtllib t.mtl", "usemtl m0"
     maps = mtl([(1, 1, 1)], "map_Kd logo.png")
     file = {"t.mtl": maps, "logo.png": png(logo())}
+    large = {"t.mtl": maps, "logo.png": png(logo(64))}
+    yield Case("logo-64.obj", obj(CUBE, [(use, on)], head, up), textured(logo(64)), large)
     yield Case("logo.obj", obj(CUBE, [(use, on)], head, up), textured(logo()), file)
     windows = {
         "T.MTL": maps.replace(b"logo.png", b"C:\\Users\\me\\LOGO.png"),

@@ -181,9 +181,9 @@ def _textures():
     yield *_textured("wrapped.glb", faces, wide, sampler={"wrapS": 33648, "wrapT": 33071}), {}, ""
     second = {"attributes": lambda g: {"TEXCOORD_0": g.array(UV * 0)}, "reference": {"texCoord": 1}}
     yield *_textured("second.glb", uv_set="TEXCOORD_1", **second), {}, ""
-    clear = np.dstack([logo(), np.zeros((64, 64), np.uint8)])
+    clear = np.dstack([logo(), np.zeros((32, 32), np.uint8)])
     yield *_textured("opaque.glb", textured(logo()), picture=clear), {}, ""
-    y, x = np.mgrid[:64, :64] / 64
+    y, x = np.mgrid[:32, :32] / 32
     hole = np.dstack([logo(), np.where(abs(x - 0.5) + abs(y - 0.5) < 0.3, 0, 255)]).astype("u1")
     faces = textured(hole, cutoff=0.5)
     yield *_textured("mask.glb", faces, picture=hole, alphaMode="MASK"), {}, "open"

@@ -37,7 +37,7 @@ def triangles_of(polygons):
     return [(p[0], p[i], p[i + 1]) for p in polygons for i in range(1, len(p) - 1)]
 
 
-def logo(size=64):
+def logo(size=32):
     """(size, size, 3) bytes: a disc, a bar and a frame, nothing of it symmetric."""
     y, x = np.mgrid[:size, :size] / size
     picture = np.full((size, size, 3), (250, 245, 235), np.uint8)
