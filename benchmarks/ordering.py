@@ -1,9 +1,10 @@
 """Depth orderings side by side: what each costs, and whether its picture is exact.
 
 `seethrough bench ordering --json FILE`, or `python -m benchmarks.ordering --json FILE --figure
-FILE.svg` for the figure of error against time as well. Paper 002's objects
-are lost: ratios and the order of methods on stand-ins are compared, no number is reproduced. Times are processor time, the fastest of several: all orderings run on
-one thread, and other work on the machine does not count.
+FILE.svg` for the figure of error against time as well. Paper 002's objects are lost: ratios and the
+order of methods on stand-ins are compared with its own, no number of it is reproduced. Times are
+processor time, the fastest of several: all orderings run on one thread, and other work on the
+machine does not count.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ def sheaf(count, rng):
 def test_a_cluster_too_dense_to_cut_is_left_to_pixels():
     rng = np.random.default_rng(5)
     both = np.array([0, 1])
-    few, many = sheaf(6, rng), sheaf(80, rng)
+    few, many = sheaf(6, rng), sheaf(240, rng)
     assert not isinstance(clusters.tree_of(few, both), str)
     assert "polygons cut into" in of_cluster(few, both)
     said = of_cluster(many, both)
