@@ -54,6 +54,8 @@ def test_a_model_looks_as_it_was_made(tmp_path, case):
         if textured:
             assert 255 * off.mean() < CHANCE * facts.carried.mean + CODED
             assert facts.carried.mean < MEAN
-            assert (255 * off > facts.carried.most + CODED).mean() < 0.03  # 1 % was said
+            assert (
+                255 * off > facts.carried.most + CODED
+            ).mean() < 0.05  # 1 % was said of all sides, a view meets three
         else:
             assert off.max() < PLAIN
