@@ -2,7 +2,9 @@
 
 Paper 002, tables 6 and 7, compares the time to get the priority list of a closed volume for a new
 view vector, faces that look away culled, from the feudal priority tree and from the BSP tree of
-the baseline (fewest splits of five random candidates). So is it here:
+the baseline (fewest splits of five random candidates). So is it here, on stand-ins for its objects,
+which are lost (decisions/0007): the ratio can be compared, the times cannot.
+
 
 - Both give the same kind of list, of the faces that look towards the eye, back to front, for the
   same random view vectors; as polygons, like the paper's, and as the triangles that are drawn.

@@ -16,7 +16,9 @@ from experiment.driver import samples_for
 from experiment.scenes import StudyScenes
 from experiment.trial import MISSED
 from renderer.camera import Camera
+from renderer.explain import of_cluster
 from renderer.gpu.renderer import Renderer
+from renderer.plan import plan
 from renderer.techniques.standard import Standard
 from renderer.transforms import rotation_y
 from tasks.catalog import TASKS
@@ -53,6 +55,18 @@ def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> Fra
     missed = float((times > MISSED / study.display.refresh).mean())
     median, p99 = np.percentile(times, [50, 99]) * 1000
     return FrameTimes(len(took), float(median), float(p99), missed)
+
+
+def crossings(study: Study, trial: Trial) -> list[str]:
+    """What the trial's first view cuts along one another, where objects intersect and the study
+    orders polygons: how many there are, and of how many pieces."""
+    if study.dynamic.order != "polygons" or trial.transparency != "dynamic":
+        return []
+    size = (study.display.width, study.display.height)
+    task = TASKS[trial.task]
+    view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
+    frame = plan(view.scene, view.camera, study.dynamic, size)
+    return [of_cluster(view.scene, members) for members in frame.clusters]
 
 
 def _turned(camera: Camera, angle: float) -> Camera:

@@ -8,7 +8,7 @@ from pathlib import Path
 from experiment.errors import InputError
 from experiment.model_files import check_files
 from experiment.private import make_folder, write_new
-from tasks.own_models import digest, kept_as, mesh_of, packed
+from tasks.own_models import READER, kept_as, mesh_of, packed, read
 from tasks.parameters import BuildingParameters
 
 FOLDER = "models"
@@ -20,10 +20,10 @@ def beside(parameters: BuildingParameters, path: Path) -> BuildingParameters:
     found = []
     for number, model in enumerate(parameters.models):
         try:
-            model = replace(model, folder=str(path.parent))
+            model = replace(model, folder=str(path.parent), reader=READER)
             check_files(path, model.file)
-            mesh_of(model)
-            found.append(replace(model, sha256=digest(model)))
+            _, facts = read(model)
+            found.append(replace(model, sha256=facts.digest))
         except (ValueError, OSError) as error:
             reason = str(error).removeprefix(f"{path.parent / model.file}: ")
             raise InputError(

@@ -117,6 +117,7 @@ class Viewer:
             f"{self.scene.name}, order {method}",
             f"polygons {stats.inputs} in, {stats.outputs} out, {stats.splits} splits",
             f"relations tested {stats.relations}, nodes {nodes}, depth {stats.depth}",
+            *([stats.dense] if stats.dense else []),
         ]
 
 

@@ -9,16 +9,23 @@ pixel.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.ordering import bsp
+from renderer.ordering.bsp import PreparedBsp
+from renderer.ordering.fragments import TooManyPieces
 from renderer.ordering.polygons import Polygons, triangles_from
-from renderer.scene import Scene
+from renderer.scene import Object, Scene
 
 Indices = NDArray[np.int64]
 MOST = 3000  # triangles of a cluster: a tree of as many is built within a second
+MOST_PIECES = 30_000  # that they may be cut into: where all cross, 100 triangles make 25,000
+_KEPT = 32
+_trees: dict[bytes, tuple[list[Object], PreparedBsp | str]] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,15 +65,17 @@ def unite(
     blended: NDArray[np.bool_],
     fit: NDArray[np.bool_],
     triangles: Indices,
+    small: Callable[[Indices], bool] = lambda members: True,
 ) -> United:
-    """Find the clusters: `fit` blended objects whose order is uncertain (see order.decide)."""
+    """Find the clusters: `fit` blended objects whose order is uncertain (see order.decide), and
+    whose tree stays `small`."""
     if not fit.any():
         return United((), extents, relation, uncertain, blended)
     found: list[Indices] = []
     united = United((), extents.copy(), relation.copy(), uncertain.copy(), blended.copy())
     able = blended & fit
     for members in _connected(uncertain & able & able[:, None]):
-        if triangles[members].sum() <= MOST and _lead(united, members):
+        if triangles[members].sum() <= MOST and small(members) and _lead(united, members):
             found.append(members)
     return United(tuple(found), united.extents, united.relation, united.uncertain, united.blended)
 
@@ -101,6 +110,25 @@ def _lead(united: United, members: Indices) -> bool:
     united.uncertain[np.ix_(members, members)] = False
     united.blended[members[1:]] = False
     return True
+
+
+def tree_of(scene: Scene, members: Indices) -> PreparedBsp | str:
+    """The tree of a cluster, made once; why there is none, where its polygons cross too densely."""
+    things = [scene.objects[i] for i in members.tolist()]
+    key = b"".join(
+        np.array([id(t.mesh), *t.transform.ravel(), *t.color], float).tobytes() for t in things
+    )
+    if key not in _trees:
+        while len(_trees) >= _KEPT:
+            _trees.pop(next(iter(_trees)))
+        try:
+            made: PreparedBsp | str = bsp.prepare(
+                polygons_of(scene, members), halves=False, most=MOST_PIECES
+            )
+        except TooManyPieces as error:
+            made = str(error)
+        _trees[key] = (things, made)  # with the objects, so that no other mesh takes their number
+    return _trees[key][1]
 
 
 def polygons_of(scene: Scene, members: Indices) -> Polygons:

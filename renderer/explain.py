@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
+from renderer import clusters
 from renderer.plan import BLENDED, HARD, OPAQUE, OUTSIDE, SHORTCUTS, FramePlan
 from renderer.scene import Scene
 
@@ -18,6 +20,7 @@ REASONS = {
 def explain(scene: Scene, frame: FramePlan) -> list[str]:
     """Lines for a reader: the frame as a whole, then every object, then every target."""
     lines = _whole(frame)
+    lines += [of_cluster(scene, members) for members in frame.clusters]
     lines += [_of_object(scene, frame, i) for i in range(len(scene.objects))]
     lines += [_of_target(scene, frame, int(t)) for t in np.nonzero(scene.targets)[0]]
     return lines
@@ -46,6 +49,18 @@ def _whole(frame: FramePlan) -> list[str]:
     taken = [s for s in SHORTCUTS if s not in frame.without]
     lines.append(f"shortcuts taken: {', '.join(taken) or 'none'}")
     return lines
+
+
+def of_cluster(scene: Scene, members: NDArray[np.int64]) -> str:
+    """What cutting a cluster's polygons along one another made of them."""
+    tree = clusters.tree_of(scene, members)
+    names = ", ".join(name(scene, i) for i in members.tolist())
+    if isinstance(tree, str):
+        return f"{names}: {tree}"
+    stats = tree.stats
+    return f"{names}: {stats.inputs} polygons cut into {stats.outputs}" + (
+        f"; {stats.dense}" if stats.dense else ""
+    )
 
 
 def _of_object(scene: Scene, frame: FramePlan, i: int) -> str:

@@ -8,8 +8,9 @@ Where no order of objects is right, that part of the picture is sorted pixel by 
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Callable, Set
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -153,7 +154,8 @@ def plan(
         return _held(base, parts, scene.triangle_counts, size)
     what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked)
     counts = scene.triangle_counts
-    return _with_levels(base, what, size, counts, technique.doubt, _fit(scene, technique))
+    small = partial(_has_tree, scene)
+    return _with_levels(base, what, size, counts, technique.doubt, _fit(scene, technique), small)
 
 
 def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-def]
@@ -183,6 +185,11 @@ def _fit(scene: Scene, technique: DynamicTransparency) -> NDArray[np.bool_]:
     if technique.order != "polygons" or technique.min_transmittance > 0:
         return np.zeros(len(scene.objects), dtype=bool)
     return clusters.fitting(scene)
+
+
+def _has_tree(scene: Scene, members: Indices) -> bool:
+    """Whether the polygons of a cluster can be cut along one another; else pixels are sorted."""
+    return not isinstance(clusters.tree_of(scene, members), str)
 
 
 def _reaching(
@@ -232,12 +239,13 @@ def _with_levels(
     triangles: Indices,
     doubt: float,
     fit: NDArray[np.bool_],
+    small: Callable[[Indices], bool],
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right."""
     opaque, masked = ~what.blended, what.masked
-    united = clusters.unite(
-        *(what.extents, what.relation, what.uncertain, what.blended, fit & ~masked, triangles)
-    )
+    relations = (what.extents, what.relation, what.uncertain)
+    able = fit & ~masked
+    united = clusters.unite(*relations, what.blended, able, triangles, small)
     seen = what.seen[united.blended[what.seen] | masked[what.seen]]
     what = Blending(
         *(seen, united.extents, what.reach, united.relation, united.uncertain, united.blended),

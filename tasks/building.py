@@ -114,7 +114,7 @@ def _furnished(
     cells = p.grid // 2 + 0.5
     start = (cells * p.cell - p.side / 2,) * 2
     kinds = _shuffled(rng, [name for name, n in sorted(counts.items()) for _ in range(n)])
-    sizes = {name: _size(library[name](), p) for name in sorted(counts)}
+    sizes = {name: shown_size(library[name](), p) for name in sorted(counts)}
     places = _places(rng, p, floor, start, np.array([sizes[k][1] for k in kinds]))
     things = []
     for kind, (x, z) in zip(kinds, places, strict=True):
@@ -125,7 +125,7 @@ def _furnished(
     return Building(scene, floor, p, asked, start)
 
 
-def _size(mesh: Mesh, p: BuildingParameters) -> tuple[float, float]:
+def shown_size(mesh: Mesh, p: BuildingParameters) -> tuple[float, float]:
     """(scale, radius of the footprint about the mesh's origin), in world units.
 
     Models are scaled alike, but never beyond `object_radius`: a truck must pass for furniture's

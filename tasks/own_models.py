@@ -6,6 +6,7 @@ import hashlib
 import io
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 from zipfile import BadZipFile
 
 import numpy as np
@@ -13,6 +14,11 @@ import numpy as np
 from renderer.geometry import Mesh
 from tasks.parameters import OwnModel
 
+if TYPE_CHECKING:
+    from renderer.models.user import Facts
+
+READER = 2
+"""Changes with what the same file looks like: 1 was trimesh with colours as they came."""
 ARRAYS = ("vertices", "normals", "colors", "triangles")
 
 
@@ -25,23 +31,31 @@ def mesh_of(model: OwnModel) -> Mesh:
     """
     if kept_as(model).is_file():
         return _kept(kept_as(model))
-    from renderer.models.user import load_model  # trimesh: only for those who have models
+    return read(model)[0]
 
+
+def read(model: OwnModel) -> tuple[Mesh, Facts]:
+    """The mesh, and what there is to tell about it, from the model's files. Raises ValueError as
+    `mesh_of` does, and OSError."""
     path = Path(model.folder) / model.file
-    mesh = load_model(path, model.size, model.up, model.turn)
-    if model.sha256 not in ("", digest(model)):
+    mesh, facts = _read(path, model.size, model.up, model.turn, model.detail)
+    if model.sha256 not in ("", facts.digest):
         raise ValueError(f"{path}: is another file now than the study began with")
-    return mesh
+    return mesh, facts
 
 
-def digest(model: OwnModel) -> str:
-    """SHA-256 of the model's file. Raises OSError."""
-    return hashlib.sha256((Path(model.folder) / model.file).read_bytes()).hexdigest()
+@cache
+def _read(path: Path, size: float, up: str, turn: float, detail: int) -> tuple[Mesh, Facts]:
+    from renderer.models.user import read_model  # only for those who have models
+
+    return read_model(path, size, up, turn, detail)
 
 
 def kept_as(model: OwnModel) -> Path:
     """Where a data folder has the mesh: named by what it was made of."""
     made = f"{model.sha256} {model.size!r} {model.up} {model.turn!r}"
+    if model.reader > 1:
+        made += f" {model.detail} {model.reader}"
     return Path(model.folder) / f"{hashlib.sha256(made.encode()).hexdigest()[:24]}.npz"
 
 

@@ -64,8 +64,10 @@ class AbstractParameters:
 class OwnModel:
     """A model of the study's own: a glTF, OBJ, STL or PLY file beside the study's.
 
-    Participants read its `name`. `size`, `up` and `turn` are those of renderer/models/user.py.
-    `sha256` of the file and the `folder` it is in are found out when the study is read.
+    Participants read its `name`. `size`, `up`, `turn` and `detail` are those of
+    renderer/models/user.py. `sha256` of its files, the `folder` they are in and the number of the
+    `reader` that shows them are found out when the study is read; what an older reader showed has
+    its number, so that a study under way cannot go on with other pictures.
     """
 
     name: str = key(..., "what participants read", said="1 to 32 printable characters")
@@ -75,11 +77,15 @@ class OwnModel:
     turn: float = key(
         0.0, "turn to the left, until its front faces away", "degrees", low=-360, high=360
     )
+    detail: int = key(
+        30_000, "most triangles to cut it into for what a texture shows", low=0, high=250_000
+    )
     sha256: str = key(
         "", "its file's SHA-256, found out when the study is read; where it is set, it has to be "
         "that file's", said="64 hexadecimal digits, or empty",
     )  # fmt: skip
     folder: str = ""
+    reader: int = 1
 
     def __post_init__(self) -> None:
         check(self)

@@ -35,6 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--redraw", action="store_true", help="find the scenes to draw again, and print them"
     )
+    parser.add_argument(
+        "--models", type=Path, metavar="FILE.png", help="where a picture of its own models goes"
+    )
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of the hardest scene")
 
 
@@ -56,6 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
     for name, value in describe(context).items():
         software = name == "renderer" and on_the_processor(context)
         said.say("machine", f"{name}: {value}", *([WARNING, NO_CARD] if software else []))
+    _contact_sheet(study, context, arguments, said)
     measured = _measured(study, context)
     _difficulty(study, measured, context, arguments.redraw, said)
     if arguments.certificate is not None:
@@ -66,11 +70,25 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _models(study: Study, said: Verdicts) -> None:
     """What the study brings along: read already, or there would be no study."""
-    from tasks.own_models import mesh_of
-
+    if study.walkthrough.models:
+        from experiment.contact_sheet import described, facts_of
     for own in study.walkthrough.models:
-        count = len(mesh_of(own).triangles)
-        said.say("model", f"{own.name}: {own.file}, {count} triangles, {own.sha256[:12]}")
+        first, *more = described(own, facts_of(own), study)
+        said.say("model", f"{own.name}: {own.file}, {first}, {own.sha256[:12]}")
+        for line in more:
+            print(f"{'':<11} {line}")
+
+
+def _contact_sheet(
+    study: Study, context: Any, arguments: argparse.Namespace, said: Verdicts
+) -> None:
+    """The study's own models in a picture, where it has any."""
+    if study.walkthrough.models:
+        from experiment import contact_sheet
+
+        path = arguments.models or contact_sheet.default_path(arguments.study)
+        contact_sheet.write(study, context, path)
+        said.say("models", f"a picture of each from several sides, in {path}", OK, "look at it")
 
 
 def _design(study: Study, said: Verdicts) -> None:
@@ -175,7 +193,8 @@ def _machine(
     study: Study, measured: list[Difficulty], context: Any, seconds: float, said: Verdicts
 ) -> None:
     """Frame times where they are worst: the scenes with most to see through, in each scenario."""
-    from experiment.machine import frame_times, free_disk
+    from experiment.machine import crossings, frame_times, free_disk
+    from renderer.ordering.prepared import DENSE_CROSSINGS
 
     for scenario in study.design.factors().tasks:
         own = [d for d in measured if d.trial.scenario == scenario]
@@ -192,6 +211,9 @@ def _machine(
             f"{100 * times.missed:.1f} % over 1.5 periods of {rate:g} Hz"
         )
         said.say("machine", text, *smooth(times, rate))
+        for line in crossings(study, hardest.trial):
+            dense = [WARNING, "expected fewer crossings"] if DENSE_CROSSINGS in line else []
+            said.say("machine", f"{scenario}, objects that intersect: {line}", *dense)
     _refresh(study, said)
     free = free_disk(Path.cwd())
     enough = [] if free > LEAST_DISK else [FAILS, f"expected {LEAST_DISK:g} GiB or more"]

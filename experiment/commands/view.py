@@ -7,6 +7,7 @@ from pathlib import Path
 
 from experiment.errors import InputError
 from renderer.models.translucent.scenes import SCENES, scene
+from renderer.ordering.fragments import TooManyPieces
 from renderer.ordering.methods import METHODS, prepare
 
 HELP = "look at a scene of translucent polygons, ordered by a method"
@@ -20,6 +21,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--order", choices=tuple(METHODS), default="bsp", metavar="METHOD", help=", ".join(METHODS)
     )
     parser.add_argument(
+        "--most-pieces", type=int, metavar="N", help="into which an order may cut the polygons"
+    )
+    parser.add_argument(
         "--picture", type=Path, metavar="FILE", help="write the first picture instead of a window"
     )
 
@@ -27,7 +31,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Open the viewer, or write its first picture."""
     made = scene(args.scene)
-    prepared = prepare(args.order, made.polygons)
+    try:
+        prepared = prepare(args.order, made.polygons, args.most_pieces)
+    except TooManyPieces as error:
+        raise InputError(f"{args.scene}: {error}") from None
+    if prepared.stats.dense and args.picture is None:
+        print(f"{args.scene}: {prepared.stats.dense}")
     if args.picture is None:
         from experiment.viewer_window import show
 

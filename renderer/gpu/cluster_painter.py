@@ -8,12 +8,11 @@ import moderngl
 import numpy as np
 
 from renderer.camera import Camera
-from renderer.clusters import Indices, polygons_of
+from renderer.clusters import Indices, tree_of
 from renderer.geometry import Mesh
 from renderer.gpu.meshes import MeshStore
 from renderer.gpu.programs import Shader
 from renderer.gpu.scene_table import SceneTable
-from renderer.ordering import bsp
 from renderer.ordering.bsp import PreparedBsp
 from renderer.scene import Object, Scene
 
@@ -66,7 +65,8 @@ class ClusterPainter:
 
     def _built(self, scene: Scene, members: Indices) -> _Cluster:
         things = [scene.objects[i] for i in members.tolist()]
-        prepared = bsp.prepare(polygons_of(scene, members), halves=False)
+        prepared = tree_of(scene, members)
+        assert isinstance(prepared, PreparedBsp)  # the plan makes no cluster without a tree
         drawn = prepared.drawable
         columns = drawn.polygons.attributes
         mesh = Mesh(drawn.polygons.vertices, columns[:, :3], columns[:, 3:], drawn.triangles)

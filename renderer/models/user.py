@@ -1,134 +1,223 @@
-"""A user's own models: glTF, OBJ, STL and PLY files, read by trimesh.
+"""A user's own models: glTF, OBJ, STL and PLY files as meshes, and what was made of them.
 
 Every way in which a file can be unusable ends in a ValueError of one line that names the file.
 """
 
 from __future__ import annotations
 
-import logging
-import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from renderer.geometry import Mesh
-from renderer.models.shapes import Array, Shape, assemble, join, shade, shape
+from renderer.models.files.part import GREY, MOST_TRIANGLES, Array, Found, to_shown
+from renderer.models.files.refine import Carried, refined
+from renderer.models.files.source import Refused, Source
+from renderer.models.files.surface import Sides, Surface, doubled, joined, shown_from_outside
+from renderer.models.shapes import assemble, shade, shape
 
-if TYPE_CHECKING:
-    import trimesh
+READERS = {".glb": "gltf", ".gltf": "gltf", ".obj": "obj", ".ply": "ply", ".stl": "stl"}
+KINDS = tuple(READERS)
+DETAIL = 30_000
+"""Triangles that textures may add: a logo of 64 texels on each side of a box takes as many."""
+LARGEST = 1e30
+"""Coordinates beyond this overflow in the cubic terms of a volume."""
 
-KINDS = (".glb", ".gltf", ".obj", ".ply", ".stl")
-MOST_TRIANGLES = 250_000
-"""Half of the whole walkthrough: more in one object is a mistake more often than a wish."""
-MOST_BYTES = 256 * 2**20
-GREY = (0.7, 0.7, 0.7)
+__all__ = ["DETAIL", "GREY", "KINDS", "MOST_TRIANGLES", "Facts", "load_model", "read_model"]
 
 
-def load_model(path: Path, size: float = 1.5, up: str = "y", turn: float = 0.0) -> Mesh:
+@dataclass(frozen=True)
+class Facts:
+    """What a file held and what became of it.
+
+    `in_file` triangles; `size` (3,) of the model as it stands, x, y, z in world units; `colors`
+    says where they come from; `sides` how it was made to show from everywhere; `carried` how its
+    textures came through, None without any; `stands` the share of its footprint that touches the
+    ground with "y" and with "z" up; `notes` what is not shown as it is in the file; `digest` of
+    all its files.
+    """
+
+    in_file: int
+    size: tuple[float, float, float]
+    colors: str
+    sides: Sides
+    carried: Carried | None
+    stands: dict[str, float]
+    notes: tuple[str, ...]
+    digest: str
+
+
+def load_model(
+    path: Path, size: float = 1.5, up: str = "y", turn: float = 0.0, detail: int = DETAIL
+) -> Mesh:
     """The file's meshes as one, standing on y = 0, centred, its longest side `size` units.
 
     `up` is the file's upward axis, "y" or "z" (usual in STL files); `turn` degrees to the left
     bring its front to −z. glTF says that models face +z, so those are turned by half a turn
-    first. Vertex colours, material colours and textures become vertex colours. A closed surface
-    that is inside out is turned. Raises ValueError, with a message of one line that names the
-    file, for whatever cannot be shown.
+    first. Colours are those that a viewer of glTF shows; textures become colours of vertices, for
+    which at most `detail` triangles are added. Raises ValueError, with a message of one line that
+    names the file, for whatever cannot be shown.
     """
-    if up not in ("y", "z"):
-        raise ValueError(f"{path}: up = {up!r}: expected 'y' or 'z'")
-    if not (np.isfinite(size) and size > 0):
-        raise ValueError(f"{path}: size = {size}: expected a number > 0")
-    if not np.isfinite(turn):
-        raise ValueError(f"{path}: turn = {turn}: expected an angle in degrees")
-    _check_file(path)
-    whole = join(*(_cleaned(part) for part in _parts(path)))
-    if not len(whole.triangles):
-        raise ValueError(f"{path}: 0 triangles with an area: expected a mesh")
-    if up == "z":
-        whole = whole.turned("x", -90)
-    if path.suffix.lower() in (".glb", ".gltf"):
-        whole = whole.turned("y", 180)
-    return shade(assemble(whole.turned("y", turn), size=size))
+    return read_model(path, size, up, turn, detail)[0]
 
 
-def _check_file(path: Path) -> None:
-    if path.suffix.lower() not in KINDS:
-        raise ValueError(f"{path}: expected a model file, one of {', '.join(KINDS)}")
-    if not path.is_file():
-        raise ValueError(f"{path}: expected a model file, there is none")
-    length = path.stat().st_size
-    if length == 0:
-        raise ValueError(f"{path}: 0 bytes: expected a model, the file is empty")
-    if length > MOST_BYTES:
-        raise ValueError(f"{path}: {length} bytes: expected at most {MOST_BYTES}")
-
-
-def _parts(path: Path) -> list[trimesh.Trimesh]:
-    """The meshes in the file, each where the file's scene puts it, checked."""
-    import trimesh
-
+def read_model(
+    path: Path, size: float = 1.5, up: str = "y", turn: float = 0.0, detail: int = DETAIL
+) -> tuple[Mesh, Facts]:
+    """`load_model`, and what there is to tell about it."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of a broken file's numbers: checked below
-            logging.getLogger("trimesh").setLevel(logging.CRITICAL)
-            found = trimesh.load_scene(path, process=False).dump()
-    except Exception as error:  # a parser may stumble over a broken file in any way
-        reason = " ".join(str(error).split())[:120] or type(error).__name__
-        raise ValueError(
-            f"{path}: expected a {path.suffix[1:].upper()} file, it cannot be read: {reason}"
+        _check(size, up, turn)
+        source = Source(path)
+        found = _found(source)
+        return _made(found, source, size, up, turn, detail)
+    except Refused as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def _check(size: float, up: str, turn: float) -> None:
+    if up not in ("y", "z"):
+        raise Refused(f"up = {up!r}: expected 'y' or 'z'")
+    if not (np.isfinite(size) and size > 0):
+        raise Refused(f"size = {size}: expected a number > 0")
+    if not np.isfinite(turn):
+        raise Refused(f"turn = {turn}: expected an angle in degrees")
+
+
+def _found(source: Source) -> Found:
+    """What the reader for the file's kind makes of it, checked. Raises Refused."""
+    suffix = source.path.suffix.lower()
+    if suffix not in KINDS:
+        raise Refused(f"expected a model file, one of {', '.join(KINDS)}")
+    read: Callable[[Source], Found] = import_module(f"renderer.models.files.{READERS[suffix]}").read
+    try:
+        found = read(source)
+    except (Refused, OSError):
+        raise
+    except Exception as error:  # a broken file may lack or mistake anything that its format has
+        reason = " ".join(str(error).split())[:100]
+        kind = type(error).__name__
+        raise Refused(
+            f"expected a {suffix[1:].upper()} file, it cannot be read: {kind}: {reason}"
         ) from error
-    meshes = [g for g in found if isinstance(g, trimesh.Trimesh) and len(g.faces)]
-    if not meshes:
-        raise ValueError(f"{path}: 0 triangles: expected a mesh")
-    total = sum(len(m.faces) for m in meshes)
-    if total > MOST_TRIANGLES:
-        raise ValueError(f"{path}: {total} triangles: expected at most {MOST_TRIANGLES}")
-    for mesh in meshes:
-        _check_arrays(path, np.asarray(mesh.vertices), np.asarray(mesh.faces))
-    return meshes
+    for part in found.parts:
+        _check_numbers(part.vertices, "vertex", "coordinates", LARGEST)
+        if part.uv is not None:
+            _check_numbers(part.uv.reshape(-1, 2), "corner", "texture coordinates", 1e6)
+    return found
 
 
-def _check_arrays(path: Path, vertices: Array, faces: NDArray[np.int64]) -> None:
-    bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+def _check_numbers(values: Array, what: str, expected: str, most: float) -> None:
+    bad = np.flatnonzero(~(np.abs(values) < most).all(axis=1))  # NaN is not less either
     if len(bad):
-        values = ", ".join(f"{v:g}" for v in vertices[bad[0]])
-        raise ValueError(f"{path}: vertex {bad[0]} = ({values}): expected finite coordinates")
-    if faces.min() < 0 or faces.max() >= len(vertices):
-        raise ValueError(
-            f"{path}: a triangle names vertex {faces.max()} of {len(vertices)}: "
-            "expected vertices the file has"
-        )
+        shown = ", ".join(f"{v:g}" for v in values[bad[0]])
+        finite = "finite" if not np.isfinite(values[bad[0]]).all() else f"smaller than {most:g}"
+        raise Refused(f"{what} {bad[0]} = ({shown}): expected {finite} {expected}")
 
 
-def _cleaned(mesh: trimesh.Trimesh) -> Shape:
-    """Without triangles of no area, vertices at one place made one, the outside out."""
-    vertices, which = np.unique(np.asarray(mesh.vertices, float), axis=0, return_inverse=True)
-    triangles = which.reshape(-1)[np.asarray(mesh.faces, np.int64)].reshape(-1, 3)
+def _made(
+    found: Found, source: Source, size: float, up: str, turn: float, detail: int
+) -> tuple[Mesh, Facts]:
+    surface = _without_hidden(joined(found.parts), found)
+    if not len(surface.triangles):
+        raise Refused("0 triangles with an area: expected a mesh")
+    surface, is_open, turned = shown_from_outside(surface)
+    is_open |= _with_holes(surface)
+    solid = shape(surface.vertices, surface.triangles, (1.0, 1.0, 1.0))
+    standing = solid.turned("x", -90) if up == "z" else solid
+    if source.path.suffix.lower() in (".glb", ".gltf"):
+        standing = standing.turned("y", 180)
+    standing = assemble(standing.turned("y", turn), size=size)
+    plain = shade(standing)
+    normals = _true_normals(plain, standing.vertices[standing.triangles])
+    surface = Surface(
+        standing.vertices, surface.triangles, surface.colors, surface.uv, surface.texture,
+        surface.cutoff, surface.textures,
+    )  # fmt: skip
+    surface, copied = doubled(surface, is_open)
+    normals = np.concatenate([normals, -normals[copied][:, ::-1]])
+    in_file = sum(len(p.triangles) for p in found.parts)
+    sides = Sides(int((~is_open).sum()), turned, len(copied))
+    if surface.textures:
+        surface, normals, carried = refined(surface, normals, detail)
+    else:
+        shown = to_shown(surface.colors)
+        surface, carried = _recolored(surface, shown), None
+    if not len(surface.triangles):
+        raise Refused("0 triangles that can be seen, all are transparent: expected a mesh")
+    mesh = _mesh(surface, normals)
+    extent = np.ptp(mesh.vertices, axis=0)
+    colors = ", ".join(sorted(found.colors))
+    stands = {axis: _standing(solid.vertices, solid.triangles, axis) for axis in ("y", "z")}
+    facts = Facts(
+        in_file, (float(extent[0]), float(extent[1]), float(extent[2])), colors, sides, carried,
+        stands, tuple(found.notes), source.digest(),
+    )  # fmt: skip
+    return mesh, facts
+
+
+def _recolored(surface: Surface, colors: Array) -> Surface:
+    return Surface(
+        surface.vertices, surface.triangles, colors, surface.uv, surface.texture, surface.cutoff, ()
+    )
+
+
+def _without_hidden(surface: Surface, found: Found) -> Surface:
+    """Without triangles that alpha hides; where a texture says so, that is found out later."""
+    alpha = surface.colors[..., 3]
+    hidden = (alpha == 0).all(axis=1) & (surface.cutoff >= 0)
+    hidden |= (alpha.mean(axis=1) < surface.cutoff) & (surface.texture < 0)
+    if hidden.any() and len(surface.triangles):
+        if hidden.all():
+            raise Refused("0 triangles that can be seen, all are transparent: expected a mesh")
+        found.note(f"{int(hidden.sum())} triangles of alpha 0 are not shown")
+    return surface.take(~hidden)
+
+
+def _with_holes(surface: Surface) -> Array:
+    """(m,) triangles whose texture may hide a part of them, so that their backs show."""
+    hiding = np.array([bool((t.levels[0][..., 3] < 1).any()) for t in surface.textures] + [False])
+    return hiding[surface.texture] & (surface.cutoff >= 0)
+
+
+def _true_normals(mesh: Mesh, corners: Array) -> Array:
+    """(m, 3, 3) normals of corners; the triangle's own where those of its surroundings cancel."""
+    normals = mesh.normals[mesh.triangles]
+    a, b, c = np.moveaxis(corners, 1, 0)
+    own = np.cross(b - a, c - a)
+    own = own / np.linalg.norm(own, axis=1, keepdims=True)
+    good = np.isfinite(normals).all(axis=2, keepdims=True)
+    return np.where(good, normals, own[:, None])
+
+
+def _mesh(surface: Surface, normals: Array) -> Mesh:
+    """Corners that agree in place, normal and colour become one vertex."""
+    flat, rgb = normals.reshape(-1, 3), surface.colors[..., :3].reshape(-1, 3)
+    flat = flat / np.linalg.norm(flat, axis=1, keepdims=True)
+    # To the millionth: less is rounding, and colours have 255 steps.
+    whole = np.round(np.concatenate([flat, rgb], axis=1) * 1e6).astype(np.int64)
+    rows = np.ascontiguousarray(np.column_stack([surface.triangles.ravel(), whole]))
+    names = rows.view(np.dtype((np.void, rows.dtype.itemsize * rows.shape[1]))).ravel()
+    _, first, which = np.unique(names, return_index=True, return_inverse=True)
+    return Mesh(
+        vertices=surface.vertices[surface.triangles.ravel()[first]],
+        normals=flat[first],
+        colors=np.clip(rgb[first], 0.0, 1.0),
+        triangles=which.reshape(-1, 3).astype(np.int32),
+    )
+
+
+def _standing(vertices: Array, triangles: Array, axis: str) -> float:
+    """Share of the footprint that touches the ground if `axis` points up: the area of triangles
+    that lie within a fiftieth of its height, seen from below, of the rectangle about it all."""
+    k = "xyz".index(axis)
     a, b, c = np.moveaxis(vertices[triangles], 1, 0)
-    normal = np.cross(b - a, c - a)
-    area = np.linalg.norm(normal, axis=1)
-    # Relative to the extent, so that a model in millimetres is judged like one in kilometres.
-    kept = area > 1e-14 * np.ptp(vertices, axis=0).max() ** 2
-    colors = _colors(mesh)[np.asarray(mesh.faces)]
-    if _closed(triangles[kept]) and np.einsum("ij,ij->", a - vertices[0], normal) < 0:
-        triangles, colors = triangles[:, ::-1], colors[:, ::-1]
-    return shape(vertices, triangles[kept], colors[kept])
-
-
-def _closed(triangles: NDArray[np.int64]) -> bool:
-    """Whether each edge is run as often one way as the other."""
-    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    n = triangles.max(initial=0) + 1
-    return bool((np.sort(start * n + end) == np.sort(end * n + start)).all())
-
-
-def _colors(mesh: trimesh.Trimesh) -> Array:
-    """(n, 3) of the vertices, grey where the file has none."""
-    visual: Any = mesh.visual
-    if visual is None or not visual.defined:
-        return np.tile(GREY, (len(mesh.vertices), 1))
-    if visual.kind == "texture":
-        visual = visual.to_color()
-    colors = np.asarray(visual.vertex_colors, float).reshape(-1, 4)[:, :3] / 255
-    return np.broadcast_to(colors, (len(mesh.vertices), 3))  # a plain material gives one row
+    flat = [i for i in range(3) if i != k]
+    u, v = (b - a)[:, flat], (c - a)[:, flat]
+    area = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+    low, extent = vertices.min(axis=0), np.ptp(vertices, axis=0)
+    ground = np.stack([a, b, c], axis=1)[..., k].max(axis=1) <= low[k] + 0.02 * extent[k]
+    whole = extent[flat].prod()
+    return float(min(area[ground].sum() / whole, 1.0)) if whole > 0 else 0.0

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.ordering.bsp_kernels import choose, deal
-from renderer.ordering.fragments import CUT, Fragments
+from renderer.ordering.fragments import CUT, MOST_PIECES, Fragments
 from renderer.ordering.polygons import Floats, Integers, Polygons
 from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
 from renderer.ordering.tree import AGAINST, ALONG, EITHER, EVERYTHING, Tree, tree
@@ -52,6 +52,7 @@ def prepare(
     tolerance: float = 0.0,
     halves: bool | None = None,
     closed: bool = False,
+    most: int = MOST_PIECES,
 ) -> PreparedBsp:
     """Build the tree.
 
@@ -59,7 +60,9 @@ def prepare(
     (world units) within which a corner counts as on the plane: 0 is exact, 001 uses 10⁻³.
     `halves` cuts triangles into triangles only (001); by default if all polygons are triangles.
     `closed` leaves out the faces that look away from the eye: for opaque closed volumes (002).
-    Raises ValueError for polygons that `polygons.check` refuses and for an unknown splitter.
+    `most` bounds the pieces that cutting may make: where everything crosses everything, 100
+    triangles fall into 25,000. Raises ValueError for polygons that `polygons.check` refuses and
+    for an unknown splitter, TooManyPieces beyond that bound.
     """
     if splitter not in SPLITTERS:
         raise ValueError(f"splitter = {splitter!r}, expected one of {', '.join(SPLITTERS)}")
@@ -67,7 +70,7 @@ def prepare(
         raise ValueError(f"candidates = {candidates}, expected 1 or more")
     if halves is None:
         halves = bool((polygons.counts == 3).all())
-    fragments = Fragments(polygons, tolerance, halves)
+    fragments = Fragments(polygons, tolerance, halves, most)
     rule = _Rule(splitter, candidates, rng or np.random.default_rng(np.random.SeedSequence(3)))
     levels = _grow(fragments, rule)
     return _assemble(fragments, levels, rule.relations, closed)

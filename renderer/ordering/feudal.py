@@ -27,7 +27,7 @@ from renderer.ordering.feudal_list import Program, program
 from renderer.ordering.feudal_lookahead import Lookahead
 from renderer.ordering.feudal_relations import Relations
 from renderer.ordering.feudal_tree import Cheapest, Node, build_dynamic, build_static
-from renderer.ordering.fragments import Fragments
+from renderer.ordering.fragments import MOST_PIECES, Fragments
 from renderer.ordering.polygons import Floats, Integers, Polygons
 from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
 
@@ -63,6 +63,7 @@ def prepare(
     tolerance: float = 0.0,
     balance: float = 0.0,
     lookahead: int = 0,
+    most: int = MOST_PIECES,
 ) -> PreparedFeudal:
     """Build the tree.
 
@@ -76,7 +77,8 @@ def prepare(
     drawn for long.
 
     Raises ValueError for polygons that `polygons.check` refuses, for an unknown version, for a
-    negative balance or lookahead, and for more than 20,000 polygons.
+    negative balance or lookahead, and for more than 20,000 polygons; TooManyPieces where polygons
+    cross so densely that cuts make more than `most`.
     """
     if version not in VERSIONS:
         raise ValueError(f"version = {version!r}, expected one of {', '.join(VERSIONS)}")
@@ -86,7 +88,7 @@ def prepare(
         raise ValueError(f"balance = {balance}, expected a finite number, 0 or larger")
     if lookahead < 0:
         raise ValueError(f"lookahead = {lookahead}, expected 0 candidates or more")
-    fragments = Fragments(polygons, tolerance)
+    fragments = Fragments(polygons, tolerance, most=most)
     relations = Relations(fragments)
     rule = Lookahead(balance, lookahead) if lookahead else Cheapest(balance)
     group = np.flatnonzero(fragments.solid)

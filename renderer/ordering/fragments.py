@@ -18,10 +18,16 @@ from renderer.ordering.predicates import (
 )
 
 COPLANAR, IN_FRONT, BEHIND, CUT = 0, 1, 2, 3
+MOST_PIECES = 2_000_000
+"""Of all polygons together, cut or not: a gibibyte of them, and seconds to make."""
 # Interpolated unit normals shorter than this point nowhere.
 CANCELLED = 1e-6
 
 Indices = NDArray[np.int32]
+
+
+class TooManyPieces(ValueError):
+    """Polygons cross so densely that cutting them up would not end soon."""
 
 
 class Fragments:
@@ -32,8 +38,15 @@ class Fragments:
     are always given as *source* polygons. `halves` cuts four-cornered pieces into triangles.
     """
 
-    def __init__(self, polygons: Polygons, tolerance: float = 0.0, halves: bool = False) -> None:
+    def __init__(
+        self,
+        polygons: Polygons,
+        tolerance: float = 0.0,
+        halves: bool = False,
+        most: int = MOST_PIECES,
+    ) -> None:
         check(polygons)
+        self.most = most
         if not 0.0 <= tolerance < np.inf:
             raise ValueError(f"tolerance = {tolerance}, expected a finite distance, 0 or larger")
         n = len(polygons)
@@ -116,6 +129,11 @@ class Fragments:
             fragments, splitters, self.halves, self.shape, self.rows, self.fresh, self.edge,
             self.along, self.planes, self.sign, self.used, self.parent, self.cutter, out,
         )  # fmt: skip
+        if self.used[1] > self.most:
+            raise TooManyPieces(
+                f"{len(self.inputs)} polygons cross so densely that they fall into more than "
+                f"{self.most} pieces: expected fewer crossings, or an order that cuts nothing"
+            )
         return np.arange(begin, begin + made), out[0, :made].copy(), out[1, :made].copy()
 
     def polygons(self, fragments: Integers) -> Polygons:

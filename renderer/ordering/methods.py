@@ -22,10 +22,19 @@ METHODS: dict[str, tuple[str, dict[str, str]]] = {
 }
 
 
-def prepare(name: str, polygons: Polygons) -> Prepared:
-    """Polygons prepared by a method. Raises ValueError for a name there isn't."""
+CUTTING = ("bsp", "feudal")
+
+
+def prepare(name: str, polygons: Polygons, most: int | None = None) -> Prepared:
+    """Polygons prepared by a method; those that cut make `most` pieces at most.
+
+    Raises ValueError for a name there isn't, and beyond that bound.
+    """
     if name not in METHODS:
         raise ValueError(f"order = {name!r}, expected one of {', '.join(METHODS)}")
     module, options = METHODS[name]
-    prepared: Prepared = import_module(f"renderer.ordering.{module}").prepare(polygons, **options)
+    bound = {} if most is None or module not in CUTTING else {"most": most}
+    prepared: Prepared = import_module(f"renderer.ordering.{module}").prepare(
+        polygons, **options, **bound
+    )
     return prepared

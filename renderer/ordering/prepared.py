@@ -12,6 +12,9 @@ from renderer.ordering.polygons import Floats, Integers, Polygons
 from renderer.ordering.predicates import plane_corners, plane_rows
 from renderer.ordering.triangulation import triangulate
 
+DENSE_CROSSINGS = "DENSE CROSSINGS"  # begins the warning
+DENSE = 8  # times as many out as in: soups of random triangles stay below 5
+
 
 @dataclass(frozen=True, slots=True)
 class Stats:
@@ -28,6 +31,18 @@ class Stats:
     relations: int = 0
     depth: int = 0
     nodes: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def dense(self) -> str:
+        """A warning with figures where polygons cross so densely that cutting them made many more;
+        empty otherwise."""
+        if self.outputs <= DENSE * max(self.inputs, 1):
+            return ""
+        times = self.outputs / max(self.inputs, 1)
+        return (
+            f"{DENSE_CROSSINGS}: {self.inputs} polygons cut into {self.outputs}, "
+            f"{times:.0f} × as many"
+        )
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -68,7 +68,7 @@ OWNERS = {
     "statsmodels": ("analysis/", "experiment/", "benchmarks/"),
     "matplotlib": ("experiment/", "benchmarks/"),
     "vl_convert": ("analysis/page/charts.py",),
-    "PIL": ("experiment/", "analysis/", "benchmarks/"),
+    "PIL": ("experiment/", "analysis/", "benchmarks/", "renderer/models/files/texture.py"),
     "renderer.gpu": ("renderer/gpu/", "experiment/", "benchmarks/"),
 }
 

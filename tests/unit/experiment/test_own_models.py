@@ -162,3 +162,25 @@ def test_what_is_wrong_with_the_entry_is_named(tmp_path, old, new, message):
 def test_check_lists_the_models(tmp_path, capsys):
     assert cli.main(["check", str(written(tmp_path)), "--config-only"]) == 0
     assert "model       wedge of wood: models/wedge.obj, 8 triangles, " in capsys.readouterr().out
+
+
+def test_check_puts_a_picture_of_each_model_into_a_sheet(tmp_path):
+    from PIL import Image
+
+    from experiment.contact_sheet import write
+    from experiment.driver import open_context
+
+    study, sheet = load(str(written(tmp_path))), tmp_path / "own-models.png"
+    context = open_context()
+    write(study, context, sheet)
+    write(study, context, sheet)  # its own is made anew
+    with Image.open(sheet) as picture:
+        seen = np.asarray(picture.convert("RGB"))
+    for column in range(5):  # the wedge, in each view
+        tile = seen[30:270, 10 + 250 * column : 250 + 250 * column]
+        assert 0.1 < (tile < 230).all(axis=2).mean() < 0.8
+    assert (seen[:, 1260:] < 100).any()  # what there is to know
+    sheet.write_bytes(b"somebody's")
+    with pytest.raises(InputError, match=r"exists already and is no contact sheet"):
+        write(study, context, sheet)
+    assert sheet.read_bytes() == b"somebody's"

@@ -1,0 +1,104 @@
+"""Materials of glTF 2.0: base colour, its texture, where that lies, what alpha means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from renderer.models.files.gltf_file import GltfFile
+from renderer.models.files.part import GREY, WHITE, Array, Found, linear_rgba
+from renderer.models.files.source import Refused
+from renderer.models.files.texture import CLAMP, MIRROR, REPEAT, Texture, decoded
+
+_SPECULAR = "KHR_materials_pbrSpecularGlossiness"
+_PLACED = "KHR_texture_transform"
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """color (4,) linear RGBA; `texture` looked up at set `uv_set`, moved by `place` (2, 3);
+    alpha below `cutoff` is not shown, any alpha counts as 1 where `opaque`."""
+
+    color: Array
+    texture: Texture | None = None
+    uv_set: int = 0
+    place: Array | None = None
+    cutoff: float = 0.0
+    opaque: bool = True
+    plain: bool = False
+
+
+class Materials:
+    """The materials of a file by number, made when first asked for."""
+
+    def __init__(self, file: GltfFile, found: Found) -> None:
+        self._file, self._found = file, found
+        self._made: dict[int | None, Material] = {None: Material(linear_rgba(GREY), plain=True)}
+        self._textures: dict[int, Texture] = {}
+
+    def get(self, index: int | None) -> Material:
+        """Raises Refused."""
+        if index not in self._made:
+            self._made[index] = self._material(self._file.row("materials", index))
+        return self._made[index]
+
+    def _material(self, raw: dict[str, Any]) -> Material:
+        extensions = raw.get("extensions", {})
+        pbr = raw.get("pbrMetallicRoughness", {})
+        factor, reference = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
+        if _SPECULAR in extensions:
+            pbr = extensions[_SPECULAR]
+            factor, reference = pbr.get("diffuseFactor"), pbr.get("diffuseTexture")
+        if "KHR_materials_unlit" in extensions:
+            self._found.note("what is unlit there is lit here, like everything else")
+        if any(raw.get("emissiveFactor", ())):
+            self._found.note("light that its materials emit is not shown")
+        color = np.array(WHITE if factor is None else factor, float)
+        if color.shape != (4,) or not np.isfinite(color).all():
+            raise Refused(f"baseColorFactor = {str(factor)[:60]}: expected four finite numbers")
+        texture, uv_set, place = None, 0, None
+        if reference is not None:
+            texture = self._texture(reference["index"])
+            uv_set = reference.get("texCoord", 0)
+            moved = reference.get("extensions", {}).get(_PLACED)
+            if moved is not None:
+                uv_set, place = moved.get("texCoord", uv_set), _place(moved)
+        mode = raw.get("alphaMode", "OPAQUE")
+        if mode not in ("OPAQUE", "MASK", "BLEND"):
+            raise Refused(f"alphaMode = {str(mode)[:40]!r}: expected OPAQUE, MASK or BLEND")
+        cutoff = float(raw.get("alphaCutoff", 0.5)) if mode == "MASK" else 0.0
+        if mode == "BLEND":
+            self._found.note("what blends (alphaMode BLEND) is opaque here, but for alpha 0")
+        return Material(np.clip(color, 0, 1), texture, uv_set, place, cutoff, mode == "OPAQUE")
+
+    def _texture(self, index: Any) -> Texture:
+        if index not in self._textures:
+            raw = self._file.row("textures", index)
+            extensions = raw.get("extensions", {})
+            number = raw.get("source")
+            for name in ("EXT_texture_webp", "EXT_texture_avif"):
+                if name in extensions and number is None:
+                    number = extensions[name].get("source")
+            if number is None:
+                said = ", ".join(extensions) or "none"
+                raise Refused(f"textures[{index}]: no PNG or JPEG picture ({said[:80]})")
+            data, what = self._file.image(number)
+            sampler = self._file.row("samplers", raw["sampler"]) if "sampler" in raw else {}
+            wrap = (sampler.get("wrapS", REPEAT), sampler.get("wrapT", REPEAT))
+            if not set(wrap) <= {REPEAT, CLAMP, MIRROR}:
+                raise Refused(f"{what}: wrap = {wrap}: expected a way that glTF knows")
+            self._textures[index] = decoded(data, what, wrap, sampler.get("magFilter") == 9728)
+        return self._textures[index]
+
+
+def _place(moved: dict[str, Any]) -> Array:
+    """(2, 3) new ← old texture coordinates: scaled, then turned, then moved."""
+    (sx, sy), angle = moved.get("scale", (1, 1)), float(moved.get("rotation", 0.0))
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = moved.get("offset", (0, 0))
+    place = np.array([[c * sx, s * sy, x], [-s * sx, c * sy, y]], float)
+    if not np.isfinite(place).all():
+        raise Refused(f"{_PLACED} = {str(moved)[:60]}: expected finite numbers")
+    return place

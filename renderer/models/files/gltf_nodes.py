@@ -1,0 +1,148 @@
+"""The nodes of a glTF scene: where meshes stand, skins and morphs in the pose of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from renderer.models.files.gltf_file import GltfFile
+from renderer.models.files.part import Array, Found
+from renderer.models.files.source import Refused
+
+_INSTANCED = "EXT_mesh_gpu_instancing"
+_MOST_INSTANCES = 10_000
+
+
+class Node:
+    """A node with a mesh: `joints` (k, 4, 4) of its skin, world ← mesh, None without one."""
+
+    def __init__(self, file: GltfFile, weights: list[float], joints: Array | None) -> None:
+        self._file, self._weights, self.joints = file, weights, joints
+
+    def posed(self, points: Array, primitive: dict[str, Any]) -> Array:
+        """Points (n, 3) moved by the morph targets as the file weights them."""
+        for weight, target in zip(self._weights, primitive.get("targets", []), strict=False):
+            if weight and "POSITION" in target:
+                points = points + weight * self._file.numbers(target["POSITION"])
+        return points
+
+    def skinned(self, points: Array, attributes: dict[str, Any]) -> Array:
+        """Points (n, 3) where the skin's joints hold them, in the world."""
+        assert self.joints is not None
+        moved, total = np.zeros_like(points), np.zeros((len(points), 1))
+        for k in range(8):
+            if f"JOINTS_{k}" not in attributes or f"WEIGHTS_{k}" not in attributes:
+                break
+            joints = self._file.accessor(attributes[f"JOINTS_{k}"]).astype(np.int64)
+            weights = self._file.numbers(attributes[f"WEIGHTS_{k}"])
+            used = weights != 0
+            if joints[used].max(initial=0) >= len(self.joints):
+                raise Refused(
+                    f"joint {joints[used].max()} of {len(self.joints)}: expected one it has"
+                )
+            for i in range(joints.shape[1]):
+                matrix = self.joints[np.where(used[:, i], joints[:, i], 0)]
+                at = np.einsum("nij,nj->ni", matrix[:, :3, :3], points) + matrix[:, :3, 3]
+                moved += weights[:, i : i + 1] * at
+                total += weights[:, i : i + 1]
+        return np.divide(moved, total, out=points.copy(), where=total > 0)
+
+
+class Nodes:
+    """Every node of the scene, with the matrix that leads from it into the world."""
+
+    def __init__(self, file: GltfFile, found: Found) -> None:
+        self._file, self._found = file, found
+        self._world = self._walked()
+
+    def meshes(self) -> Iterator[tuple[int, Node, Array]]:
+        """Mesh number, node and matrix (world ← mesh), as often as the scene has a mesh."""
+        for index, world in self._world.items():
+            raw = self._file.row("nodes", index)
+            if "mesh" not in raw:
+                continue
+            mesh = self._file.row("meshes", raw["mesh"])
+            weights = raw.get("weights", mesh.get("weights", []))
+            joints = None
+            if "skin" in raw:
+                joints = self._joints(raw["skin"])
+                self._found.note("it has joints: shown in the pose of the file")
+            if any(weights):
+                self._found.note("it has shapes to blend: shown as the file weights them")
+            for own in self._instances(raw):
+                yield raw["mesh"], Node(self._file, weights, joints), world @ own
+
+    def _walked(self) -> dict[int, Array]:
+        """World ← node for every node of the scene that is shown."""
+        rows = self._file.rows("nodes")
+        scenes = self._file.rows("scenes")
+        if scenes:
+            roots = self._file.row("scenes", self._file.json.get("scene", 0)).get("nodes", [])
+        else:
+            children = {c for row in rows for c in row.get("children", [])}
+            roots = [i for i in range(len(rows)) if i not in children]
+        if len(scenes) > 1:
+            self._found.note(f"1 of its {len(scenes)} scenes is shown")
+        world: dict[int, Array] = {}
+        waiting = [(index, np.eye(4)) for index in reversed(roots)]
+        while waiting:
+            index, parent = waiting.pop()
+            raw = self._file.row("nodes", index)
+            if index in world:
+                raise Refused(f"nodes[{index}]: is part of the scene twice: expected a tree")
+            world[index] = parent @ _matrix(raw, f"nodes[{index}]")
+            waiting += [(child, world[index]) for child in reversed(raw.get("children", []))]
+        return world
+
+    def _joints(self, index: Any) -> Array:
+        skin = self._file.row("skins", index)
+        names = skin["joints"]
+        missing = [j for j in names if j not in self._world]
+        if missing:
+            raise Refused(f"nodes[{missing[0]}]: a joint that is not in the scene")
+        world = np.array([self._world[j] for j in names]).reshape(-1, 4, 4)
+        if "inverseBindMatrices" not in skin:
+            return world
+        inverse = self._file.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4)
+        if len(inverse) < len(names):
+            raise Refused(f"skins[{index}]: {len(inverse)} matrices of {len(names)} joints")
+        return world @ np.swapaxes(inverse[: len(names)], 1, 2)
+
+    def _instances(self, raw: dict[str, Any]) -> Iterator[Array]:
+        made = raw.get("extensions", {}).get(_INSTANCED)
+        if made is None:
+            yield np.eye(4)
+            return
+        columns = {
+            key.lower(): self._file.numbers(number)
+            for key, number in made["attributes"].items()
+            if key in ("TRANSLATION", "ROTATION", "SCALE")
+        }
+        counts = {len(values) for values in columns.values()}
+        if len(counts) != 1 or max(counts) > _MOST_INSTANCES:
+            raise Refused(f"{_INSTANCED}: {sorted(counts)} entries: expected one number of them")
+        for row in range(counts.pop()):
+            yield _matrix({key: values[row] for key, values in columns.items()}, _INSTANCED)
+
+
+def _matrix(raw: dict[str, Any], what: str) -> Array:
+    """(4, 4) parent ← node."""
+    if "matrix" in raw:
+        matrix = np.array(raw["matrix"], float).reshape(4, 4).T
+    else:
+        x, y, z, w = np.array(raw.get("rotation", (0, 0, 0, 1)), float)
+        length = np.sqrt(x * x + y * y + z * z + w * w)
+        x, y, z, w = (x, y, z, w) / length if length > 0 else (0.0, 0.0, 0.0, 1.0)
+        turn = [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+        matrix = np.eye(4)
+        matrix[:3, :3] = np.array(turn) * np.array(raw.get("scale", (1, 1, 1)), float)
+        matrix[:3, 3] = raw.get("translation", (0, 0, 0))
+    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+        raise Refused(f"{what}: a place that is not finite: expected numbers")
+    return matrix
