@@ -113,7 +113,7 @@ def reach(
     size: tuple[int, int],
 ) -> NDArray[np.float64]:
     """(n, 4) what the masks of objects with these (n, 4) extents can cover, at most."""
-    half = (extents[:, 2:] - extents[:, :2]) / 2
+    half = np.maximum(extents[:, 2:] - extents[:, :2], 0) / 2  # of nothing: −∞
     grow = np.full(len(extents), width + 1.0)
     if technique.mask == "ring":
         cells = len(ring_opacities(technique, size)) + 1.5
