@@ -117,6 +117,7 @@ def interval(seconds: NDArray[np.float64], rng: np.random.Generator) -> tuple[fl
 
 
 def main() -> None:
+    """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("commit")
     parser.add_argument("--turns", type=int, default=TURNS)

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import clusters, contested, levels, masks, order
+from renderer import clusters, levels, masks, order
 from renderer.blending import Blending, merged_parts
 from renderer.camera import Camera
 from renderer.projection import Boxes, screen_boxes
@@ -151,9 +151,11 @@ def plan(
     if technique.per_pixel_only:
         parts = _parts(reach[masked], technique, size, without)
         return _held(base, parts, scene.triangle_counts, size)
-    beside = _beside(scene, camera, technique, boxes, relation, masked)
-    what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked, beside)
-    return _with_levels(base, what, scene, camera, technique, size)
+    # Of two targets that no plane separates one is lost where it lies behind, whoever goes first.
+    lost = uncertain & (blended & masked) & (blended & masked)[:, None]
+    lost |= _beside(scene, camera, technique, boxes, relation, masked)
+    what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked, lost)
+    return _with_levels(base, what, scene, technique, size)
 
 
 def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-def]
@@ -239,7 +241,6 @@ def _with_levels(
     base: FramePlan,
     what: Blending,
     scene: Scene,
-    camera: Camera,
     technique: DynamicTransparency,
     size: tuple[int, int],
 ) -> FramePlan:
@@ -259,9 +260,8 @@ def _with_levels(
     part_by_part = "parts" not in base.without
     doubtful, much = what.doubtful(np.zeros_like(what.uncertain), size, doubt)
     if not (much and part_by_part):
-        what = contested.settled(what, scene, camera, size)
         of_object, of_mask, broken = what.levels()
-        if broken.any() or what.lost.any():
+        if broken.any():
             doubtful, much = what.doubtful(broken, size, doubt)
     if much and part_by_part:
         return _held(base, what.parts(size), triangles, size)
