@@ -5,8 +5,9 @@ three scenes of paper 004 and on scenes built to break each order, with the exac
 GPU (which the tests hold to the float64 reference): the share of pixels that differ by more than
 2/255, the mean, 99.9th percentile and largest difference, the share of pixels with a wrong order,
 FLIP where flip-evaluator is installed, and the frame's time against the standard frame's. Then it
-sweeps what masks are made of (mask_sweep.py) and compares with VTK's depth peeling, where vtk is
-installed (vtk_peeling.py).
+says what the target that loses most keeps, and what jumps along paths (guarantee.py), sweeps what
+masks are made of (mask_sweep.py) and compares with VTK's depth peeling, where vtk is installed
+(vtk_peeling.py).
 
 Wrong order: with a depth buffer, an object drawn after one in front of it is not drawn at all. So
 a pixel is counted where the exact picture shows an object with a share of at least 1/64 that the
@@ -21,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import mask_sweep, vtk_peeling
+from benchmarks import guarantee, mask_sweep, vtk_peeling
 from benchmarks.breaking import BREAKING
 from benchmarks.picture_errors import drawn, errors
 from benchmarks.scenes import SCENES
@@ -54,6 +55,7 @@ def figures() -> Iterator[Figure]:
     for name, make in {**SCENES, **BREAKING}.items():
         scene, cameras = make(SIZE[0] / SIZE[1], VIEWS)
         yield from of_scene(renderer, name, scene, cameras, name in SCENES)
+    yield from guarantee.figures(renderer, WAYS, DEFAULT)
     yield from mask_sweep.figures(renderer)
     yield from vtk_peeling.figures(renderer)
 

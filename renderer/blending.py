@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer import doubt as doubts
-from renderer import order
+from renderer import levels, order
 
 Indices = NDArray[np.int64]
 
@@ -19,7 +19,8 @@ MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of i
 class Blending:
     """What is put in order: objects `seen`, from far to near, of n with `extents` and `reach` of
     masks (n, 4); of each pair the `relation` and whether it is `uncertain` (n, n); which of them
-    are `blended` and `masked` (n,). See order.decide."""
+    are `blended` and `masked` (n,). See order.decide. `lost` (n, n): of which pairs a target may be
+    lost whatever goes first."""
 
     seen: Indices
     extents: NDArray[np.float64]
@@ -28,20 +29,25 @@ class Blending:
     uncertain: NDArray[np.bool_]
     blended: NDArray[np.bool_]
     masked: NDArray[np.bool_]
+    lost: NDArray[np.bool_]
 
     def levels(self) -> tuple[Indices, Indices, NDArray[np.bool_]]:
-        """See order.levels."""
-        return order.levels(
+        """See levels.levels."""
+        return levels.levels(
             *(self.seen, self.extents, self.reach, self.relation, self.blended, self.masked)
         )
 
     def doubtful(
-        self, forced: NDArray[np.bool_], size: tuple[int, int], doubt: float
+        self, broken: NDArray[np.bool_], size: tuple[int, int], doubt: float
     ) -> tuple[NDArray[np.float64], bool]:
-        """The parts to sort by pixel, and whether they are so much that all masks may be."""
+        """The parts to sort by pixel, and whether they are so much that all masks may be.
+
+        Where a target may be lost no doubt is allowed, for the rest see doubt.chosen.
+        """
         every = (self.seen, self.extents, self.reach, self.relation, self.uncertain)
-        found = order.doubtful(*every, self.blended, self.masked, forced, np.array(size, float))
-        chosen = doubts.chosen(found, size, doubt)
+        args = (*every, self.blended, self.masked, broken, self.lost, np.array(size, float))
+        found, lost = order.doubtful(*args)
+        chosen = np.concatenate([found[lost], doubts.chosen(found[~lost], size, doubt)])
         if not len(chosen):
             return chosen, False
         return chosen, doubts.union(chosen) > MOSTLY * _area(self.parts(size))

@@ -121,6 +121,7 @@ def _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens):  #
     for f in range(len(planes)):
         p = planes[f]
         front[f] = p[0] * eye[0] + p[1] * eye[1] + p[2] * eye[2] > p[3]
+    mirrored = np.linalg.det(turn) < 0  # the loops then run the other way round on the screen
     found = np.empty((len(ends), 2), np.int64)
     pixels = np.empty((len(points), 2))
     known = np.zeros(len(points), np.bool_)
@@ -133,8 +134,9 @@ def _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens):  #
         if net == 0:
             continue
         a, b = ends[e, 0], ends[e, 1]
-        if net < 0:
-            a, b, net = b, a, -net
+        if (net < 0) != mirrored:
+            a, b = b, a
+        net = abs(net)
         for v in (a, b):
             if not known[v]:
                 known[v] = True

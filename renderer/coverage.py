@@ -62,8 +62,9 @@ def cover(
     points, corners, spans, numbers, turns, moves, lens, boxes, part, bits
 ):  # type: ignore[no-untyped-def]  # fmt: skip
     """Set in `bits` (h, w), of each block of a part (left, top, right, bottom in pixels), bit
-    `numbers` (k,) of each object whose triangles can touch it; of one that the near plane cuts,
-    wherever its box (k, 4) does.
+    `numbers` (k,) of each object whose triangles can touch it, and its box (k, 4) does; of one that
+    the near plane cuts, wherever its box does. No block beside the boxes, for what lies there was
+    not made empty.
 
     `spans` (k, 2, 2) as in Triangles; `turns` (k, 3, 3) and `moves` (k, 3): camera ← mesh.
     """
@@ -94,7 +95,8 @@ def cover(
                 a, b, c = flat[corners[t, 0]], flat[corners[t, 1]], flat[corners[t, 2]]
                 left, right = min(a[0], b[0], c[0]), max(a[0], b[0], c[0])
                 top, bottom = min(a[1], b[1], c[1]), max(a[1], b[1], c[1])
-            left, top, right, bottom = left - SLACK, top - SLACK, right + SLACK, bottom + SLACK
+                left, top = max(left - SLACK, boxes[k, 0]), max(top - SLACK, boxes[k, 1])
+                right, bottom = min(right + SLACK, boxes[k, 2]), min(bottom + SLACK, boxes[k, 3])
             if right < part[0] or left >= part[2] or bottom < part[1] or top >= part[3]:
                 continue
             low_x = max(int(max(left, 0.0)) // BLOCK, first_column)

@@ -1,9 +1,12 @@
-"""Who is drawn before whom: which box lies before which, and levels that respect it.
+"""Who is drawn before whom: which box lies before which, and where that is in doubt.
 
 Two objects whose boxes (or spheres) a plane separates have an order that holds at every pixel:
 the one on the eye's side is in front. The planes tried are those of the separating-axis test.
-Where none separates them, a plane between their hulls may (separation.py); else their centres
-decide, and the pair is said to be uncertain.
+Where none separates them, a plane between their hulls may (separation.py); else the pair is said to
+be uncertain, and of a target and something else the target counts as behind: what is drawn after it
+is hidden by depth wherever it lies behind, while a target drawn after what is transparent there
+would be lost. So does an impenetrable target beside another. Of other pairs the centres decide, in
+a group its order.
 """
 
 from __future__ import annotations
@@ -13,6 +16,8 @@ from numba import njit
 
 # A box that only touches another, to the accuracy of its coordinates, is separated from it.
 TOUCH = 1e-9
+
+LITTLE = 0.1  # of a target: what may be lost without sorting pixels
 
 BEHIND, NEITHER, IN_FRONT, UNCERTAIN = -1, 0, 1, 2
 
@@ -93,7 +98,7 @@ def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped
 
 @njit(cache=True)
 def decide(
-    order, group, extents, reach, centers, sides, radius, near, far, targets, hard, blend, known,
+    order, extents, reach, centers, sides, radius, near, far, targets, hard, blend, known,
     by_center,
 ):  # type: ignore[no-untyped-def]  # fmt: skip
     """relation (n, n) of each pair that matters, and which objects blend and are masked.
@@ -125,13 +130,14 @@ def decide(
                 elif not (i_over_j or j_over_i):
                     continue
                 found = IN_FRONT
-                if group[i] != group[j] and not by_center:
+                if not by_center:
                     found = compare(centers, sides, radius, near, far, i, j)
                     if found == UNCERTAIN:
                         found = known[i, j]
                 doubt = found == UNCERTAIN
                 if doubt:
-                    found = IN_FRONT
+                    before = targets[i] and (not targets[j] or (hard[i] and not hard[j]))
+                    found = BEHIND if before else IN_FRONT
                     uncertain[i, j] = uncertain[j, i] = True
                 relation[i, j], relation[j, i] = found, -found
                 if not both and i_over_j and (found == IN_FRONT or doubt):
@@ -161,101 +167,20 @@ def overlapped(order, extents, reach, near, far, targets, hard):  # type: ignore
 
 
 @njit(cache=True)
-def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no-untyped-def]
-    """The level of each blended object and of each mask (−2: none), and objects in a cycle.
-
-    An object comes after every mask and blended object behind it that it overlaps; a mask comes
-    with its own target and after everything behind. In a cycle the farthest object goes first.
-    """
-    n, m = len(extents), len(order)
-    of_object, of_mask = np.full(n, -2, np.int64), np.full(n, -2, np.int64)
-    waits = np.zeros((2, n), np.int64)  # for objects, and for masks
-    forced = np.zeros(n, np.bool_)
-    for a in range(m):
-        i = order[a]
-        if masked[i] and blended[i]:
-            waits[1, i] += 1
-        for b in range(m):
-            j = order[b]
-            if not blended[i] or i == j:
-                continue
-            if blended[j] and relation[i, j] == 1 and meet(extents, i, extents, j):
-                waits[0, i] += 1
-            if masked[j] and meet(extents, i, reach, j):
-                if relation[i, j] == 1:
-                    waits[0, i] += 1
-                elif relation[i, j] == -1:
-                    waits[1, j] += 1
-    done = np.zeros((2, n), np.bool_)
-    left = 0
-    for a in range(m):
-        i = order[a]
-        left += blended[i]
-        left += masked[i]
-        of_object[i] = 0 if blended[i] else -2
-        of_mask[i] = -1 if masked[i] else -2
-    while left:
-        moved = False
-        for kind in range(2):
-            for a in range(m):
-                i = order[a]
-                there = blended[i] if kind == 0 else masked[i]
-                if not there or done[kind, i] or waits[kind, i] > 0:
-                    continue
-                done[kind, i] = moved = True
-                left -= 1
-                _release(kind, i, order, extents, reach, relation, blended, masked, waits,
-                         of_object, of_mask)  # fmt: skip
-        if not moved:
-            for a in range(m):
-                i = order[a]
-                if blended[i] and not done[0, i]:
-                    forced[i] = True
-                    waits[0, i] = 0
-                    break
-            else:
-                for a in range(m):
-                    if masked[order[a]] and not done[1, order[a]]:
-                        waits[1, order[a]] = 0
-                        break
-    return of_object, of_mask, forced
-
-
-@njit(cache=True)
-def _release(kind, i, order, extents, reach, relation, blended, masked, waits, of_object, of_mask):  # type: ignore[no-untyped-def]
-    """Object or mask i has its level: those that wait for it come after it."""
-    for b in range(len(order)):
-        j = order[b]
-        if kind == 0:
-            if i == j:
-                if masked[i]:
-                    waits[1, i] -= 1
-                    of_mask[i] = max(of_mask[i], of_object[i])
-                continue
-            if blended[j] and relation[j, i] == 1 and meet(extents, i, extents, j):
-                waits[0, j] -= 1
-                of_object[j] = max(of_object[j], of_object[i] + 1)
-            if masked[j] and relation[i, j] == -1 and meet(extents, i, reach, j):
-                waits[1, j] -= 1
-                of_mask[j] = max(of_mask[j], of_object[i])
-        elif i != j and blended[j] and relation[j, i] == 1 and meet(extents, j, reach, i):
-            waits[0, j] -= 1
-            of_object[j] = max(of_object[j], of_mask[i] + 1)
-
-
-@njit(cache=True)
-def doubtful(order, extents, reach, relation, uncertain, blended, masked, forced, size):  # type: ignore[no-untyped-def]
-    """(k, 4) parts of the picture where the order of two objects is in doubt behind a mask.
+def doubtful(order, extents, reach, relation, uncertain, blended, masked, broken, lost, size):  # type: ignore[no-untyped-def]
+    """(k, 4) parts of the picture where the order of two objects is in doubt behind a mask, and of
+    which of them (k,) a target may be lost: what is `lost` (n, n), and by what is `broken` (n, n),
+    as levels.levels says it.
 
     Only where a mask reaches does the order show at all: elsewhere the depth buffer is exact.
     """
     m = len(order)
-    found = np.empty((m * m // 2 + 1, 4))
+    found, must = np.empty((m * m // 2 + 1, 4)), np.zeros(m * m // 2 + 1, np.bool_)
     count = 0
     for a in range(m):
         for b in range(a):
             i, j = order[a], order[b]
-            doubt = uncertain[i, j] or ((forced[i] or forced[j]) and blended[i] and blended[j])
+            doubt = uncertain[i, j] or broken[i, j] or broken[j, i] or lost[i, j] or lost[j, i]
             if not doubt or not (blended[i] or blended[j]):
                 continue
             low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf
@@ -273,8 +198,21 @@ def doubtful(order, extents, reach, relation, uncertain, blended, masked, forced
             if low_x < high_x:
                 found[count, 0], found[count, 1] = low_x, low_y
                 found[count, 2], found[count, 3] = high_x, high_y
+                must[count] = lost[i, j] or lost[j, i]
+                behind = j if relation[i, j] == IN_FRONT else i
+                if (broken[i, j] or broken[j, i]) and masked[behind]:
+                    must[count] |= _share(extents, i, j, behind) > LITTLE
                 count += 1
-    return found[:count]
+    return found[:count], must[:count]
+
+
+@njit(cache=True)
+def _share(extents, i, j, k):  # type: ignore[no-untyped-def]
+    """How much of object k's box lies where those of i and j overlap."""
+    width = min(extents[i, 2], extents[j, 2]) - max(extents[i, 0], extents[j, 0])
+    height = min(extents[i, 3], extents[j, 3]) - max(extents[i, 1], extents[j, 1])
+    area = (extents[k, 2] - extents[k, 0]) * (extents[k, 3] - extents[k, 1])
+    return max(width, 0.0) * max(height, 0.0) / max(area, 1e-9)
 
 
 @njit(cache=True)
@@ -290,21 +228,6 @@ def _high(extents, reach, i, j, s, k):  # type: ignore[no-untyped-def]
     a = reach[i, k] if i == s else extents[i, k]
     b = reach[j, k] if j == s else extents[j, k]
     return min(a, b)
-
-
-def one_by_one(order, of_object, of_mask):  # type: ignore[no-untyped-def]
-    """The same order with a level for each object, its mask included: the naive painter's."""
-    n = len(of_object)
-    place = np.zeros(n, np.int64)
-    place[order] = np.arange(len(order))
-    objects = np.nonzero(of_object >= 0)[0]
-    rank = np.lexsort((place[objects], of_object[objects]))
-    alone = np.full(n, -2, np.int64)
-    alone[objects[rank]] = np.arange(len(objects))
-    # A mask of level k comes after every object of level k.
-    through = np.cumsum(np.bincount(of_object[objects], minlength=int(of_mask.max(initial=0)) + 1))
-    moved = np.where(of_mask >= 0, through[np.maximum(of_mask, 0)] - 1, of_mask)
-    return alone, moved
 
 
 @njit(cache=True)

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import clusters, masks, order
+from renderer import clusters, levels, masks, order
 from renderer.blending import Blending, merged_parts
 from renderer.camera import Camera
 from renderer.projection import Boxes, screen_boxes
@@ -127,7 +127,7 @@ def plan(
     there[seen] = True
     centers = scene.centers - camera.eye
     geometry = (centers, scene.box_sides, scene.radii, boxes.near, boxes.far)
-    args = (seen, scene.group_of, boxes.extents, reach, *geometry, scene.targets, hard)
+    args = (seen, boxes.extents, reach, *geometry, scene.targets, hard)
     blend = there & ~hard & ("opaque" in without)
     relation, uncertain, blended, masked = _decided(scene, camera, technique, args, blend)
     masked |= there & scene.targets & ("masks" in without)
@@ -152,10 +152,11 @@ def plan(
     if technique.per_pixel_only:
         parts = _parts(reach[masked], technique, size, without)
         return _held(base, parts, scene.triangle_counts, size)
-    what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked)
-    counts = scene.triangle_counts
-    small = partial(_has_tree, scene)
-    return _with_levels(base, what, size, counts, technique.doubt, _fit(scene, technique), small)
+    # Of two targets that no plane separates one is lost where it lies behind, whoever goes first.
+    lost = uncertain & (blended & masked) & (blended & masked)[:, None]
+    lost |= _beside(scene, camera, technique, boxes, relation, masked)
+    what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked, lost)
+    return _with_levels(base, what, scene, technique, size)
 
 
 def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-def]
@@ -166,7 +167,17 @@ def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-
         found = order.decide(*args, blend, planes.relation(camera.eye), by_center)
         new = found[1] & ~planes.tried
         if not new.any() or not planes.learn(np.argwhere(np.triu(new)), scene):
-            return found
+            return found[0], found[1] & ~scene.settled, *found[2:]
+
+
+def _beside(scene, camera, technique, boxes, relation, masked):  # type: ignore[no-untyped-def]
+    """(n, n) which targets lie before a mask, and reach to both sides of the depth that it has
+    beside its own target. Outlines have too little there for that to matter."""
+    if technique.mask in ("outline", "ring"):
+        return np.zeros_like(relation, dtype=bool)
+    depth = camera.depth(scene.centers)
+    across = (boxes.near[:, None] < depth) & (boxes.far[:, None] > depth)
+    return across & scene.targets[:, None] & masked & (relation == order.IN_FRONT)
 
 
 def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
@@ -235,32 +246,34 @@ def _behind(
 def _with_levels(
     base: FramePlan,
     what: Blending,
+    scene: Scene,
+    technique: DynamicTransparency,
     size: tuple[int, int],
-    triangles: Indices,
-    doubt: float,
-    fit: NDArray[np.bool_],
-    small: Callable[[Indices], bool],
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right."""
     opaque, masked = ~what.blended, what.masked
-    relations = (what.extents, what.relation, what.uncertain)
-    able = fit & ~masked
-    united = clusters.unite(*relations, what.blended, able, triangles, small)
+    triangles, doubt = scene.triangle_counts, technique.doubt
+    fit = _fit(scene, technique) & ~masked
+    united = clusters.unite(
+        *(what.extents, what.relation, what.uncertain, what.blended, fit, triangles),
+        partial(_has_tree, scene),
+    )
     seen = what.seen[united.blended[what.seen] | masked[what.seen]]
     what = Blending(
         *(seen, united.extents, what.reach, united.relation, united.uncertain, united.blended),
         masked,
+        what.lost,
     )
     part_by_part = "parts" not in base.without
-    doubtful, much = what.doubtful(np.zeros(len(masked), bool), size, doubt)
+    doubtful, much = what.doubtful(np.zeros_like(what.uncertain), size, doubt)
     if not (much and part_by_part):
-        of_object, of_mask, forced = what.levels()
-        if forced.any():
-            doubtful, much = what.doubtful(forced, size, doubt)
+        of_object, of_mask, broken = what.levels()
+        if broken.any():
+            doubtful, much = what.doubtful(broken, size, doubt)
     if much and part_by_part:
         return _held(base, what.parts(size), triangles, size)
     if "levels" in base.without:
-        of_object, of_mask = order.one_by_one(seen, of_object, of_mask)
+        of_object, of_mask = levels.one_by_one(seen, of_object, of_mask)
     last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
     pairs = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
     parts = merged_parts(doubtful, size)

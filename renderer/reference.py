@@ -23,8 +23,9 @@ from numpy.typing import NDArray
 from renderer import masks
 from renderer.camera import Camera
 from renderer.fragments import Fragments, covered, distances, fragments
-from renderer.plan import Technique, impenetrable
+from renderer.plan import Technique
 from renderer.scene import Scene
+from renderer.techniques.dynamic import DynamicTransparency
 from renderer.techniques.standard import Standard
 
 
@@ -76,6 +77,21 @@ def exact(
         alpha = _limited(seen, alpha, technique.layers)
     beside = camera.depth(scene.centers[scene.targets])
     return _composed(scene, seen, alpha, technique.model == "additive", beside)
+
+
+def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> NDArray[np.bool_]:
+    """(n,) what never turns transparent: that, and what is farther than `penetrable_within` from
+    the eye to the nearest point of its upright box (techniques/dynamic.py)."""
+    hard = []
+    for thing in scene.objects:
+        (x0, y0, z0), (x1, y1, z1) = thing.mesh.bounds
+        local = [(x, y, z, 1.0) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)]
+        corners = [(thing.transform @ corner)[:3] for corner in local]
+        nearest = np.clip(camera.eye, np.min(corners, axis=0), np.max(corners, axis=0))
+        away = float(((nearest - camera.eye) ** 2).sum()) ** 0.5
+        within = technique.penetrable_within
+        hard.append(thing.impenetrable or (within is not None and away > within))
+    return np.array(hard, dtype=bool)
 
 
 def _mask(scene, camera, technique, seen, s, light):  # type: ignore[no-untyped-def]

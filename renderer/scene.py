@@ -28,8 +28,9 @@ class Object:
     `transform` is a 4 × 4 affine matrix (world ← mesh). `color` multiplies the mesh's own colours.
     A `target` carries information for the task; every other object is a distractor, and an
     occluder wherever it lies in front of a target (paper 004 §III-A). An `impenetrable` object
-    never turns transparent (§III-C.3). Objects with the same `group` are drawn together, in
-    their order in the scene (§V-B, nested dolls); `None` makes the object its own group.
+    never turns transparent (§III-C.3). Objects with the same `group` are drawn, where no plane
+    separates them, in their order in the scene, targets before others (§V-B, nested dolls); `None`
+    makes the object its own group.
     """
 
     mesh: Mesh
@@ -97,6 +98,12 @@ class Scene:
         ]
         numbers: dict[tuple[str, int], int] = {}
         return np.array([numbers.setdefault(k, len(numbers)) for k in keys], dtype=np.int64)
+
+    @cached_property
+    def settled(self) -> NDArray[np.bool_]:
+        """(n, n) pairs of one group, whose order in the scene counts; not those of two targets."""
+        both = self.targets & self.targets[:, None]
+        return (self.group_of == self.group_of[:, None]) & ~both
 
     @cached_property
     def group_centers(self) -> NDArray[np.float64]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from renderer.camera import Camera
 from renderer.gpu.polygons import Corners, PolygonPainter
 from renderer.gpu.programs import program
+from renderer.gpu.reused import spoil
 
 
 class WeightedPainter:
@@ -42,6 +43,7 @@ class WeightedPainter:
         """Draw into the painter's frame; `depths` are the scene's nearest and farthest."""
         painter, context = self.painter, self.painter.context
         painter.begin(camera)
+        spoil(self.sums, self.weights)
         for part, through in zip(self._emptied, (1.0, 0.0), strict=True):
             part.clear(0.0, 0.0, 0.0, through)
         context.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
@@ -85,6 +87,7 @@ class PeelingPainter:
         """Draw the nearest `passes` layers over what is opaque, into the painter's frame."""
         painter, context = self.painter, self.painter.context
         painter.begin(camera)
+        spoil(self.layer, self.sum, *self.depths)
         self.total.use()
         self.total.clear(0.0, 0.0, 0.0, 0.0)
         self.layers[1].use()
@@ -138,6 +141,7 @@ class StochasticPainter:
     def paint(self, corners: Corners, camera: Camera, draws: int, first: int = 0) -> None:
         """Draw the mean of draws number `first` and on into the painter's frame."""
         painter, context = self.painter, self.painter.context
+        spoil(self.sum)
         self.total.use()
         self.total.clear(0.0, 0.0, 0.0, 0.0)
         for draw in range(first, first + draws):

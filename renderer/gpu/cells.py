@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from renderer import blocks
 from renderer.blocks import BLOCK
 from renderer.gpu.programs import program
+from renderer.gpu.reused import kept, spoil
 
 WIDTH = 2072  # texels; a row of cells is no wider unless one cell is
 MOST = 64  # of slices or masks: the bits and arrays in shaders/exact.frag
@@ -88,9 +89,9 @@ class Cells:
         width = max(self.whole[0], min(self._limit, WIDTH))
         self._room = (width, min(self._limit, self.whole[1] + self.whole[1] // 4))
         whole = self._room
-        self.color = context.texture(whole, components, dtype=dtype)
-        self.depth = context.depth_texture(whole) if depth else None
-        self.numbers = context.texture(whole, 1, dtype="f4") if numbers else None
+        self.color = kept(context.texture(whole, components, dtype=dtype))
+        self.depth = kept(context.depth_texture(whole)) if depth else None
+        self.numbers = kept(context.texture(whole, 1, dtype="f4")) if numbers else None
         for texture in (self.color, self.depth, self.numbers):
             if texture is not None:
                 texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
@@ -179,6 +180,7 @@ def emptied(
         if old is not None:
             old.release()
         old = Cells(context, size, count, dtype, depth, numbers, components)
+    spoil(old.color, old.depth, old.numbers)  # a frame may fill them more than once
     if wiped is None:
         old.clear()
     else:

@@ -19,6 +19,7 @@ from renderer.camera import Camera
 from renderer.gpu import tiles
 from renderer.gpu.mask_maker import MaskGeometry, outline_segments
 from renderer.gpu.programs import program
+from renderer.gpu.reused import kept
 from renderer.gpu.scene_table import Run, SceneTable
 from renderer.techniques.dynamic import DynamicTransparency
 
@@ -122,7 +123,7 @@ class DistancePainter:
             if name in self._buffers:
                 self._buffers[name].release()
             room = max(2 * data.nbytes, 1 << 14)
-            self._buffers[name] = self._context.buffer(reserve=room, dynamic=True)
+            self._buffers[name] = kept(self._context.buffer(reserve=room, dynamic=True))
             content = [(self._buffers[name], layout, *names)]
             self._arrays[name] = self._context.vertex_array(shader.program, content)
         if data.nbytes:
@@ -137,7 +138,7 @@ class DistancePainter:
                 for thing in self._pictures.pop(name)[::-1]:
                     thing.release()
         if name not in self._pictures:
-            texture = self._context.texture((size[0], size[1] + size[1] // 4), 1, dtype=dtype)
+            texture = kept(self._context.texture((size[0], size[1] + size[1] // 4), 1, dtype=dtype))
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
             self._pictures[name] = (texture, self._context.framebuffer([texture]))
         framebuffer = self._pictures[name][1]

@@ -21,6 +21,7 @@ from renderer.gpu.exact_sorter import Filled, PixelSorter
 from renderer.gpu.few_sorter import too_many
 from renderer.gpu.mask_painter import MaskPainter
 from renderer.gpu.programs import program
+from renderer.gpu.reused import kept
 from renderer.plan import impenetrable
 
 TEXELS = 24_000_000  # of all slices of one part: what is larger is drawn in bands
@@ -229,7 +230,7 @@ class ExactPainter:
         if name not in self._textures or self._textures[name].size != size:
             if name in self._textures:
                 self._textures.pop(name).release()
-            texture = self._context.texture(size, rows.shape[1], dtype="f4")
+            texture = kept(self._context.texture(size, rows.shape[1], dtype="f4"))
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
             self._textures[name] = texture
         self._textures[name].write(rows.astype("f4").tobytes())

@@ -18,6 +18,7 @@ from renderer.gpu.cells import MOST, Cells
 from renderer.gpu.few_sorter import FewSorter
 from renderer.gpu.looked_up import LookedUp
 from renderer.gpu.programs import Shader, program
+from renderer.gpu.reused import kept
 from renderer.techniques.dynamic import DynamicTransparency
 
 # Texture units.
@@ -87,7 +88,7 @@ class PixelSorter:
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._programs: dict[tuple[str, bool, bool], tuple[Shader, moderngl.VertexArray]] = {}
-        self._places = context.buffer(reserve=1 << 14, dynamic=True)
+        self._places = kept(context.buffer(reserve=1 << 14, dynamic=True))
         self._few = FewSorter(context)
         self._filled: Filled | None = None
 
@@ -125,7 +126,7 @@ class PixelSorter:
                 rows["place"], rows["which"] = found[chosen], which[chosen]
                 if rows.nbytes > self._places.size:
                     self._places.release()
-                    self._places = self._context.buffer(reserve=2 * rows.nbytes, dynamic=True)
+                    self._places = kept(self._context.buffer(reserve=2 * rows.nbytes, dynamic=True))
                     self._programs.clear()
                 shader, array = self._bound(filled, part, number, output)
                 self._places.orphan()

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from renderer import blocks
 from renderer.gpu.cells import MOST, Cells
 from renderer.gpu.programs import Shader, program
+from renderer.gpu.reused import kept
 
 if TYPE_CHECKING:
     from renderer.gpu.exact_sorter import Filled
@@ -41,7 +42,7 @@ class FewSorter:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
-        self._places = context.buffer(reserve=1 << 18, dynamic=True)
+        self._places = kept(context.buffer(reserve=1 << 18, dynamic=True))
         self._programs: dict[Key, tuple[Shader, moderngl.VertexArray]] = {}
 
     def draw(
@@ -77,7 +78,7 @@ class FewSorter:
     def _write(self, rows: NDArray[np.uint32]) -> None:
         if rows.nbytes > self._places.size:
             self._places.release()
-            self._places = self._context.buffer(reserve=2 * rows.nbytes, dynamic=True)
+            self._places = kept(self._context.buffer(reserve=2 * rows.nbytes, dynamic=True))
             made = {key: shader for key, (shader, _) in self._programs.items()}
             self._programs = {key: (shader, self._array(shader)) for key, shader in made.items()}
         if len(rows):

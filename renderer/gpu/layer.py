@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from renderer.camera import Camera
+from renderer.gpu import reused
 from renderer.gpu.exact_painter import ExactJob, ExactPainter
 from renderer.gpu.layer_counter import LayerCounter
 from renderer.gpu.mask_painter import MaskPainter
@@ -71,6 +72,7 @@ class Layer:
         """Draw the plan. `scale` shrinks the masks' width; `after_level` follows each level
         and is told its objects, None for the opaque ones."""
         self._passes = self._draws = 0
+        reused.begin(self._context)
         camera = tight(camera, frame)
         size = target.size
         self._matrix = clip_from_offset(camera, size)
@@ -99,6 +101,7 @@ class Layer:
 
     def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
         """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""
+        reused.begin(self._context)
         camera = tight(camera, frame)
         frame = replace(frame, doubtful=frame.doubtful[:0])  # all of the picture
         self._matrix = clip_from_offset(camera, size)

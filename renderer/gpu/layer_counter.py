@@ -5,6 +5,7 @@ from __future__ import annotations
 import moderngl
 
 from renderer.gpu.programs import program
+from renderer.gpu.reused import kept
 from renderer.gpu.scene_table import Run
 
 
@@ -24,9 +25,9 @@ class LayerCounter:
             for thing in (self._marking, self._counting, self.counts, self._depth):
                 thing.release()
         self._size = size
-        self.counts = self._context.texture(size, 4, dtype="f2")
+        self.counts = kept(self._context.texture(size, 4, dtype="f2"))
         self.counts.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self._depth = self._context.depth_renderbuffer(size)
+        self._depth = kept(self._context.depth_renderbuffer(size))
         # Two framebuffers of the same pictures: whether depth is written is part of one.
         self._marking = self._context.framebuffer([self.counts], self._depth)
         self._counting = self._context.framebuffer([self.counts], self._depth)

@@ -13,6 +13,7 @@ from renderer.camera import Camera
 from renderer.gpu.distance_painter import DistancePainter
 from renderer.gpu.mask_maker import MaskGeometry, mask_geometry
 from renderer.gpu.programs import Shader, program
+from renderer.gpu.reused import kept
 from renderer.gpu.scene_table import Run, SceneTable
 from renderer.plan import FramePlan
 from renderer.techniques.dynamic import DynamicTransparency
@@ -33,7 +34,7 @@ class MaskPainter:
     def __init__(self, context: moderngl.Context, defines: Sequence[str] = ()) -> None:
         self._context, self._defines = context, tuple(defines)
         self._distances = DistancePainter(context)
-        self._own = self._vertices = context.buffer(reserve=1 << 16, dynamic=True)
+        self._own = self._vertices = kept(context.buffer(reserve=1 << 16, dynamic=True))
         self._variants: dict[tuple[str, ...], Shader] = {}
         self._arrays: dict[tuple[str, ...], moderngl.VertexArray] = {}
 
@@ -61,7 +62,7 @@ class MaskPainter:
         self._pictured[made.targets[made.pictured :]] = True
         if made.vertices.nbytes > self._own.size:
             self._own.release()
-            self._own = self._context.buffer(reserve=2 * made.vertices.nbytes, dynamic=True)
+            self._own = kept(self._context.buffer(reserve=2 * made.vertices.nbytes, dynamic=True))
         self._draw_from(self._own)
         if len(made.vertices):
             self._vertices.orphan()

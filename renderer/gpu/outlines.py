@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from renderer.gpu.meshes import GpuMesh
 
 
+# Compiled code is kept on disk until this file changes: change it with the kernels of contours.py.
 _CORES = os.cpu_count() or 1
 _WORTH = 30_000  # edges to look at for which a second thread is worth waking
 

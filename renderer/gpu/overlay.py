@@ -9,6 +9,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.gpu.reused import spoil
+
 _VERTEX = """
 #version 330 core
 uniform vec2 u_size;
@@ -120,5 +122,6 @@ class Overlay:
                 [(self._vertices, "2f 2f 4f1", "in_position", "in_uv", "in_color")],
             )
         self._vertices.orphan()
+        spoil(self._vertices)
         self._vertices.write(data)
         self._array.render(moderngl.TRIANGLES, vertices=count)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from renderer.camera import Camera
 from renderer.gpu.programs import Shader, program
+from renderer.gpu.reused import spoil
 from renderer.ordering.polygons import Floats
 
 # Corner columns: r, g, b, opacity, u, v, textured (0 or 1).
@@ -94,8 +95,9 @@ class PolygonPainter:
 
     def begin(self, camera: Camera) -> None:
         """Clear the frame and draw the opaque triangles."""
-        self.frame.use()
         self.frame.depth_mask = True
+        spoil(self.color, self.depth)
+        self.frame.use()
         self.frame.clear(*self.background, 1.0, depth=1.0)
         if self.opaque is not None and len(self.opaque.rows):
             self.context.enable_only(moderngl.DEPTH_TEST)
@@ -191,6 +193,7 @@ class ExactPainter:
     def _gather(self, corners: Corners, camera: Camera) -> int:
         painter = self.painter
         painter.begin(camera)
+        spoil(self.heads, self.entries)
         self.heads.clear()
         self.heads.bind_to_storage_buffer(0)
         self.entries.bind_to_storage_buffer(1)

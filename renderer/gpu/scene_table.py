@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from renderer.camera import Camera
 from renderer.coverage import Triangles, triangles
 from renderer.gpu.meshes import GpuMesh, MeshStore
+from renderer.gpu.reused import kept
 from renderer.scene import Scene
 
 Run = tuple[GpuMesh, int, int]  # a mesh, its first row in the sequence, how many instances
@@ -43,7 +44,7 @@ class SceneTable:
         self.table.write(rows.tobytes())
         self._points: dict[tuple[int, ...], tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
         self._context = context
-        self._sequence = _texture(context, (2, max(n, 1)))
+        self._sequence = kept(_texture(context, (2, max(n, 1))))
 
     @cached_property
     def triangles(self) -> Triangles:
@@ -110,7 +111,7 @@ class SceneTable:
     ) -> None:
         if len(objects) > self._sequence.height:
             self._sequence.release()
-            self._sequence = _texture(self._context, (2, 2 * len(objects)))
+            self._sequence = kept(_texture(self._context, (2, 2 * len(objects))))
         rows = np.zeros((len(objects), 2, 4), dtype="f4")
         rows[:, 0, :3] = self.scene.centers[objects] - camera.eye
         rows[:, 0, 3] = objects

@@ -9,6 +9,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from renderer.gpu.reused import spoil
+
 
 class FrameTarget:
     """A picture of a fixed size. `samples` > 0 antialiases; `ids` adds a picture of objects."""
@@ -43,6 +45,8 @@ class FrameTarget:
 
     def clear(self, background: tuple[float, float, float]) -> None:
         """Bind the picture and fill it with the background, alpha 1 and the farthest depth."""
+        # Not spoiled with all else as a frame begins: another frame's picture may still be shown.
+        spoil(*(t for t in self._owned if not isinstance(t, moderngl.Framebuffer)))
         self.framebuffer.clear(*background, 1.0, depth=1.0)
         if self._ids is not None:
             self._ids.clear()  # the line above filled all pictures with the background

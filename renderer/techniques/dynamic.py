@@ -42,10 +42,12 @@ class DynamicTransparency:
     leave less than this share of the light through. `model` says how transparency adds up along a
     line of sight (§III-A). Objects are drawn in the order that planes between their boxes say, and
     what no plane separates is sorted by pixel if it makes up more than the share `doubt` of the
-    picture, else by its centres. With `order` "polygons", convex objects that reach into one
-    another are cut along each other and drawn polygon by polygon, quicker as long as they stand
-    still. With "centers", everything is drawn by the view depth of the groups' centres, as in the
-    paper (§V-B). With `exact`, every pixel is sorted by itself: slower, no approximation.
+    picture. Else a target goes before what is none, so that nothing transparent hides it; two such
+    targets are sorted by pixel in any case; the rest goes by its centres. With `order` "polygons",
+    convex objects that reach into one another are cut along each other and drawn polygon by
+    polygon, quicker as long as they stand still. With "centers", everything is drawn by the view
+    depth of the groups' centres, as in the paper (§V-B). With `exact`, every pixel is sorted by
+    itself: slower, no approximation.
     """
 
     alpha_target: float = key(

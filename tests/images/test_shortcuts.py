@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from sample_scenes import before_column, column, room
 
+from renderer import transforms
 from renderer.gpu.renderer import Renderer
 from renderer.plan import SHORTCUTS
 from renderer.techniques.dynamic import DynamicTransparency
@@ -77,10 +78,32 @@ def test_nothing_happens_while_nothing_changes(context):
     assert renderer.draw(scene, replace(camera), TECHNIQUE).draws == 0
     np.testing.assert_array_equal(renderer.read(), picture)
     assert renderer.draw(scene, camera, replace(TECHNIQUE, width=3)).draws > 0
-    assert renderer.draw(scene, replace(camera, fov_y=0.6), TECHNIQUE).draws > 0
     assert renderer.draw(replace(scene), camera, TECHNIQUE).draws == first.draws
     renderer.resize((80, 60))
     assert renderer.draw(scene, camera, TECHNIQUE).draws > 0
+
+
+TURNED = transforms.rotation_y(0.02)[:3, :3]
+CHANGES = {
+    "fov_y": {"fov_y": 0.6},
+    "near": {"near": 12.0},
+    "far": {"far": 25.0},
+    "eye": {"eye": before_column(1).eye + np.array([0.1, 0, 0])},
+    "rotation": {"rotation": before_column(1).rotation @ TURNED},
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_every_part_of_a_camera_that_changes_is_drawn(context, name):
+    """Each changes the picture, and is the only one that does."""
+    scene, camera = SCENES["column"]
+    changed = replace(camera, **CHANGES[name])
+    expected, _, _ = drawn(context, scene, changed, frozenset())
+    renderer = Renderer(context, SIZE)
+    renderer.draw(scene, camera, TECHNIQUE)
+    assert (renderer.read() != expected).any()
+    assert renderer.draw(scene, changed, TECHNIQUE).draws > 0
+    np.testing.assert_array_equal(renderer.read(), expected)
 
 
 def test_layers_are_counted_only_where_they_matter(context):

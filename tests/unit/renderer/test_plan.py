@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column, room
 
-from renderer import geometry, transforms
+from renderer import geometry, reference, transforms
 from renderer.blending import merged_parts
 from renderer.camera import look_at
 from renderer.explain import explain
-from renderer.plan import BLENDED, HARD, OUTSIDE, plan
+from renderer.plan import BLENDED, HARD, OUTSIDE, impenetrable, plan
 from renderer.scene import Object, Scene
 from renderer.techniques.dynamic import DynamicTransparency
 from renderer.techniques.standard import Standard
@@ -83,6 +83,19 @@ def test_boxes_that_no_plane_separates_are_sorted_by_pixel():
     lifted = transforms.translation(0, 0, 1) @ transforms.rotation_z(np.pi / 2)
     apart = Scene((Object(bar), Object(bar, lifted), target))
     assert not len(plan(apart, camera, strict, SIZE).exact)
+
+
+def test_things_are_as_far_as_the_nearest_point_of_their_box():
+    """Beside a corner, an edge and a face of a box of 2 × 2 × 2: √3, √2 and 1 from it; 0 inside."""
+    scene = Scene((Object(geometry.box(2, 2, 2), transforms.translation(5, 0, 0)),))
+    for eye, away in (((3, 2, 2), 3**0.5), ((3, 2, 0.5), 2**0.5), ((3, 0, 0.5), 1), ((5, 0, 0), 0)):
+        camera = look_at(np.array(eye, float), np.array([9.0, 0.1, 0]), fov_y=0.8, near=1, far=50)
+        for within, hard in ((away - 1e-6, True), (away + 1e-6, False)):
+            if within < 0:
+                continue
+            technique = replace(TECHNIQUE, penetrable_within=within)
+            assert impenetrable(scene, camera, technique).tolist() == [hard]
+            assert reference.impenetrable(scene, camera, technique).tolist() == [hard]
 
 
 def test_a_standard_frame_needs_nothing():

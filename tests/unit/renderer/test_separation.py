@@ -10,7 +10,7 @@ from scipy.optimize import linprog
 
 from renderer import geometry, transforms
 from renderer.camera import look_at
-from renderer.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN
+from renderer.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN, compare
 from renderer.plan import plan
 from renderer.scene import Object, Scene
 from renderer.separation import separate
@@ -77,3 +77,20 @@ def test_a_plan_is_certain_of_hulls_that_do_not_meet():
     nearer = replace(apart.objects[1], transform=transforms.translation(0.4, 0, 0.3))
     crossing = replace(apart, objects=(apart.objects[0], nearer, target))
     assert len(plan(crossing, camera, technique, (400, 300)).exact)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_boxes_that_touch_are_separated_but_for_rounding(scale):
+    """Sides of a third meet where no float lies: apart, face to face and by less than rounding, but
+    not by a millionth of their size."""
+    half = np.array([1 / 3, 1 / 3, 1 / 3]) * scale
+    sides = np.tile(np.diag(half), (2, 1, 1))
+    far, near = np.full(2, 100.0 * scale), np.full(2, -1.0)  # depths say nothing
+    radii = np.full(2, 10.0 * scale)
+    for turn in (np.eye(3), transforms.rotation_y(0.3)[:3, :3], transforms.rotation_x(1.1)[:3, :3]):
+        for gap, separated in ((0.01, True), (0.0, True), (-1e-12, True), (-1e-6, False)):
+            centers = scale * np.array([[0.1, 0.2, -5.0], [0.1, 0.2, -5.0 - (2 / 3 + gap)]])
+            found = compare(centers @ turn.T, sides @ turn.T, radii, near, far, 0, 1)
+            assert (found != UNCERTAIN) == separated, gap
+            if separated:
+                assert found == IN_FRONT

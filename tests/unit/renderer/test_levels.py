@@ -1,0 +1,110 @@
+"""Levels keep to who lies before whom; in a circle, what gives way is said, and is no target."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from renderer.levels import levels
+from renderer.order import BEHIND, IN_FRONT, decide, doubtful
+
+WIDE = np.tile([0.0, 0, 100, 100], (6, 1))  # every box overlaps every other
+
+
+def drawn(relation, blended, masked, extents=None):
+    n = len(relation)
+    boxes = WIDE[:n] if extents is None else extents
+    reach = boxes + np.array([-10.0, -10, 10, 10])
+    args = (np.arange(n), boxes, reach, relation, blended, masked)
+    return levels(*args), boxes, reach
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_what_is_not_broken_holds(seed):
+    """Of any relation, circles included: who is in front and not said to give way comes later."""
+    rng = np.random.default_rng(seed)
+    n = 6
+    relation = np.triu(rng.choice(np.array([-1, 0, 1], np.int8), (n, n)), 1)
+    relation -= relation.T
+    masked, blended = rng.random(n) < 0.5, rng.random(n) < 0.8
+    (of_object, of_mask, broken), _, _ = drawn(relation, blended, masked)
+    assert (of_object[blended] >= 0).all() and (of_mask[masked] >= -1).all()
+    for i in np.nonzero(blended)[0]:
+        for j in np.nonzero(relation[i] == IN_FRONT)[0]:
+            if not (broken[i, j] or broken[j, i]):
+                assert not blended[j] or of_object[i] > of_object[j]
+                assert not masked[j] or of_object[i] > of_mask[j]
+            assert relation[j, i] == BEHIND
+        assert not masked[i] or of_mask[i] >= of_object[i]
+
+
+def test_of_a_circle_with_a_target_the_target_loses_nothing():
+    """0 before 1 before 2 before 0, each in turn the target: never drawn after what hides it."""
+    relation = np.array([[0, 1, -1], [-1, 0, 1], [1, -1, 0]], np.int8)
+    for target in range(3):
+        masked = np.arange(3) == target
+        (of_object, of_mask, broken), boxes, reach = drawn(relation, np.ones(3, bool), masked)
+        assert broken.any()
+        front = int(np.nonzero(relation[:, target] == IN_FRONT)[0][0])
+        assert of_object[front] > max(of_object[target], of_mask[target])
+        no = np.zeros((3, 3), bool)
+        size = np.array([100.0, 100.0])
+        args = (
+            np.arange(3),
+            boxes,
+            reach,
+            relation,
+            no,
+            np.ones(3, bool),
+            masked,
+            broken,
+            no,
+            size,
+        )
+        found, must = doubtful(*args)
+        assert len(found) and not must.any()
+
+
+def test_a_circle_of_targets_must_be_sorted():
+    """One of three is lost whoever goes first, unless hardly any of it lies where they overlap."""
+    relation = np.array([[0, 1, -1], [-1, 0, 1], [1, -1, 0]], np.int8)
+    yes, no, size = np.ones(3, bool), np.zeros((3, 3), bool), np.array([100.0, 100.0])
+    corners = np.array([[0.0, 0, 50, 50], [48, 48, 98, 98], [47, 0, 97, 49]])
+    for extents, expected in ((WIDE[:3], True), (corners, False)):
+        (_, _, broken), boxes, reach = drawn(relation, yes, yes, extents)
+        args = (np.arange(3), boxes, reach, relation, no, yes, yes, broken, no, size)
+        assert doubtful(*args)[1].any() == expected
+
+
+def decided(targets, hard=(False, False), swapped=False):
+    """Two cubes that reach into one another, the first the nearer one unless `swapped`."""
+    sides = np.tile(np.eye(3), (2, 1, 1))
+    centers = np.array([[0.0, 0, -5.0], [0.3, 0, -5.2]])
+    order = np.array([0, 1]) if swapped else np.array([1, 0])  # from far to near
+    boxes = WIDE[:2]
+    near, far = np.array([4.0, 4.2]), np.array([6.0, 6.2])
+    no = np.zeros(2, bool)
+    known = np.full((2, 2), 2, np.int8)
+    return decide(
+        *(order, boxes, boxes, centers, sides, np.full(2, 1.8), near, far),
+        *(np.array(targets), np.array(hard), no, known, False),
+    )
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_target_in_doubt_counts_as_behind(swapped):
+    """Whichever centre is nearer; and an impenetrable one behind one that is not."""
+    for first, second, hard in (
+        (True, False, (False, False)),
+        (True, True, (True, False)),
+    ):
+        relation, uncertain, _, _ = decided((first, second), hard, swapped)
+        assert uncertain[0, 1]
+        assert relation[0, 1] == BEHIND and relation[1, 0] == IN_FRONT
+        relation = decided((second, first), hard[::-1], swapped)[0]
+        assert relation[1, 0] == BEHIND
+
+
+def test_of_two_targets_the_centres_decide_at_first():
+    assert decided((True, True))[0][0, 1] == IN_FRONT
+    assert decided((True, True), swapped=True)[0][0, 1] == BEHIND
