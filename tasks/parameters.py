@@ -85,7 +85,9 @@ class OwnModel:
         "that file's", said="64 hexadecimal digits, or empty",
     )  # fmt: skip
     folder: str = ""
-    reader: int = 1
+    reader: int = key(
+        1, "which of our readers shows it, found out when the study is read", low=1, high=1000
+    )
 
     def __post_init__(self) -> None:
         check(self)

@@ -35,6 +35,7 @@ OTHERS: dict[type, tuple[Any, ...]] = {
     float: ("0.5", True, [0.5], {"x": 1}, datetime.time(1, 2), "\n"),
     str: (3, 0.5, True, ["a"], {"x": 1}, datetime.datetime(2026, 1, 2, 3, 4)),
     list: (3, 0.5, True, "count", {"x": 1}, [[1]], [{}], [None]),
+    dict: (3, 0.5, True, "none", [1], datetime.date(2026, 1, 2)),  # a table within a table
 }
 
 

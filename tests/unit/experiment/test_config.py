@@ -136,7 +136,7 @@ def test_every_fault_of_a_file_has_its_line():
         "s.toml: abstract.side = -1.0",
         's.toml: abstract.shapes = ["cow"]',
         "s.toml: walkthrough.models[0].colour = 1: unknown key; known: name, file, "
-        "size, up, turn, sha256",
+        "size, up, turn, detail, sha256, reader",
         "s.toml: walkthrough.models[0].file: missing, expected the name of a file beside the study",
         's.toml: walkthrough.models[0].up = "x"',
         "s.toml: walkthrough.models[1] = 3",
