@@ -43,8 +43,9 @@ from analysis.sections.tables import (
 from analysis.stats.undefined import is_defined
 
 RAW = (
-    "Times are skewed: where the two levels' spreads differ, F and the intervals of raw times err "
-    "more often than they say (`seethrough bench statistics`), and the logarithms are what to read."
+    "Times are skewed: where the two levels also differ in spread (s.d. of logarithms .8 and .3, "
+    "8 or 16 people), F of raw times rejects in .12 of studies without a difference, for .05, and "
+    "the intervals hold the truth in .88, for .95: the logarithms are what to read."
 )
 
 

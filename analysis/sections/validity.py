@@ -73,7 +73,9 @@ def _order(context: Context) -> list[Block]:
         rows,
         note="Period: position of the condition in the session. Carry-over: whether the condition "
         "before had dynamic transparency. Sequence: between the orders of conditions. Reported, "
-        "and never used to choose an analysis: a test that chooses one biases it.",
+        "and never used to choose an analysis: a test that chooses one biases it. All take the "
+        "technique's effect to be the same for everybody; where it is not, carry-over is found in "
+        ".07 of studies without any, for .05.",
     )
     found = [t.name for t in tests if is_defined(t.p) and t.p < context.plan.alpha]
     none = [t.name for t in tests if is_defined(t.p) and t.p >= context.plan.alpha]

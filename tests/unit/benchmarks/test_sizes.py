@@ -48,8 +48,8 @@ def test_what_is_known_to_be_off_has_no_bound():
         "Friedman χ², two levels",
         "no worse, shares right",
         "omnibus F, uncorrected",
-        "Mauchly",
         "F of raw times",
+        "carry-over",
         "interval of the difference, raw times",
         "interval of the ratio, raw times (Fieller)",
     }
