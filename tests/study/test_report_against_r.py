@@ -68,3 +68,4 @@ def test_a_column_without_an_oracle_is_found(monkeypatch) -> None:
     assert r_values.differences([], "any") == ["totals: only in one of the two"]
     assert "4, in R 3" in r_values.differences([_table(count=4)], "any")[0]
     assert r_values.differences([_table(count=3, label="words")], "any") == []
+    assert "a number" in r_values.differences([_table(count=3, label=0.5)], "any")[0]

@@ -157,6 +157,9 @@ def _of_table(key: str, mine: Rows, theirs: Rows, closed: float) -> Iterator[str
     given = {c for c in theirs.columns[1:] if not has_none(key, c)}
     yield from (f"{key}.{c}: ours has no value in R, nor a reason" for c in sorted(wanted - given))
     yield from (f"{key}.{c}: only R has it" for c in sorted(given - wanted))
+    for column in (c for c in mine.columns[1:] if c not in wanted):
+        if any(_is_number(row[column]) for row in mine.rows.values()):
+            yield f"{key}.{column}: a number, though it was said to hold none"
     if list(mine.rows) != list(theirs.rows):
         yield f"{key}: rows {list(mine.rows)}, in R {list(theirs.rows)}"
     for row in [r for r in mine.rows if r in theirs.rows]:
@@ -164,6 +167,14 @@ def _of_table(key: str, mine: Rows, theirs: Rows, closed: float) -> Iterator[str
             why = _of_cell(key, column, mine.rows[row], theirs.rows[row], closed)
             if why:
                 yield f"{key} / {row} / {column}: {why}"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _of_cell(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import json
 import os
 import tomllib
 from collections.abc import Iterator, Sequence
@@ -28,8 +29,14 @@ from experiment.world import TrialRecord
 
 NOW = "2026-01-02T03:04:05.000Z"
 KEPT = ("_trials_data.csv", "_questionnaire_data.csv", "certificate.csv")
-UNHELD = ("chain", "events_sha256", "camera_sha256", "events_file", "camera_file", "started")
-"""Columns that hold no number: they may change without R being asked again."""
+READ = frozenset(
+    "row_id participant session source slot trial block task_set trial_in_set attempt transparency "
+    "scenario task scene targets truth correct count_error distance time time_clean timed_out "
+    "frames frames_missed item value text visible hidden occluders clutter path".split()
+)
+"""Columns that R reads: others may come and change without R being asked again."""
+PLAN = ("alpha", "exclude", "too_fast", "margins")
+"""What R reads of a sidecar's plan."""
 
 
 def study_of(case: Case) -> Study:
@@ -191,13 +198,15 @@ def _rows(paths: Sequence[Path] | Iterator[Path]) -> Iterator[dict[str, str]]:
 
 
 def contents(folder: Path) -> str:
-    """SHA-256 of every number of the folder's tables: what R's values belong to."""
+    """SHA-256 of all that R reads in the folder: what its values belong to."""
     digest = hashlib.sha256()
-    files = [p for p in folder.rglob("*.csv") if p.name.endswith(KEPT)]
-    for path in sorted(files):
+    for path in sorted(p for p in folder.rglob("*.csv") if p.name.endswith(KEPT)):
         digest.update(path.relative_to(folder).as_posix().encode())
         for row in _rows([path]):
-            digest.update(repr([(k, v) for k, v in row.items() if k not in UNHELD]).encode())
+            digest.update(repr([(k, row[k]) for k in sorted(READ & row.keys())]).encode())
+    sidecar = json.loads(min(folder.rglob("*_trials_data.json")).read_text(encoding="utf-8"))
+    plan = sidecar["provenance"]["study"]["analysis"]
+    digest.update(json.dumps([plan[name] for name in PLAN], sort_keys=True).encode())
     return digest.hexdigest()
 
 

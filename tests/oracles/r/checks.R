@@ -79,19 +79,19 @@ combined_checks <- function(paper) {
 }
 
 # errors per person (of `trials`), zeros left out, with the printed mean and s.d. of shares right
-errors_that_fit <- function(m, trials) {
+errors_that_fit <- function(m, trials, n = N, printed = fits) {
   found <- list()
   place <- function(left, most, so_far) {
     if (left == 0) {
-      shares <- c(1 - so_far / trials, rep(1, N - length(so_far)))
+      shares <- c(1 - so_far / trials, rep(1, n - length(so_far)))
       if (fits(sd(shares), m$sd)) found[[length(found) + 1]] <<- so_far
       return()
     }
-    if (length(so_far) == N) return()
+    if (length(so_far) == n) return()
     for (e in min(left, most):1) place(left - e, e, c(so_far, e))
   }
-  for (right in 0:(N * trials)) {
-    if (fits(right / (N * trials), m$mean)) place(N * trials - right, trials, c())
+  for (right in 0:(n * trials)) {
+    if (printed(right / (n * trials), m$mean)) place(n * trials - right, trials, c())
   }
   found
 }
@@ -118,8 +118,49 @@ correct_checks <- function(paper) {
     check(
       "grimmer_correct", per %in% both, both, per,
       unlist(lapply(first, function(errors) rbind(errors[[1]], both[1])))
-    )
+    ),
+    rounding_check(paper, both),
+    people_check(paper, per)
   )
+}
+
+# what lies on a half prints so only where that makes the last digit even
+fits_to_even <- function(value, text) {
+  on_half <- abs(abs(value - as.numeric(text)) - half(text)) < 1e-9
+  if (on_half) grepl("[02468]$", text) else fits(value, text)
+}
+
+rounding_check <- function(paper, both) {
+  left <- Filter(function(t) {
+    all(sapply(LEVEL_NAMES, function(l) {
+      length(errors_that_fit(paper$correct_T2[[l]], t, printed = fits_to_even)) > 0
+    }))
+  }, both)
+  lost <- setdiff(both, left)
+  stopifnot(length(lost) > 0, length(left) == 0) # the sentence would be another one
+  m <- paper$correct_T2$standard$mean
+  halves <- unlist(lapply(lost, function(t) {
+    Filter(function(share) fits(share, m), (0:(N * t)) / (N * t))
+  }))
+  halves <- unique(halves)
+  check("grimmer_correct_rounding", FALSE, lost, halves, m, 12)
+}
+
+# fewer people, with the trials that are stated
+people_check <- function(paper, per) {
+  found <- c()
+  whole <- c()
+  for (n in (N - 1):2) {
+    right <- lapply(LEVEL_NAMES, function(l) {
+      which(fits((0:(n * per)) / (n * per), paper$correct_T2[[l]]$mean)) - 1
+    })
+    if (any(lengths(right) == 0)) next
+    found <- c(found, n, per, max(right[[1]]), n * per)
+    ok <- sapply(LEVEL_NAMES, function(l) length(errors_that_fit(paper$correct_T2[[l]], per, n)) > 0)
+    if (all(ok)) whole <- c(whole, n)
+  }
+  said <- if (is.null(found)) TRUE else if (is.null(whole)) "the means, not the SD" else "they would"
+  check("grim_correct_people", said, found, whole)
 }
 
 # sums and sums of squares that n whole numbers from 0 to `most` can have: a logical matrix
