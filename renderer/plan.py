@@ -8,7 +8,7 @@ Where no order of objects is right, that part of the picture is sorted pixel by 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Set
+from collections.abc import Set
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import pairwise
