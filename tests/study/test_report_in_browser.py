@@ -89,9 +89,13 @@ def rounds(value: str, text: str) -> bool:
         number = float(value)
     except ValueError:
         # a reason is given once in a row, then the word alone
-        return shown == value or (shown == "undefined" and value.startswith("undefined: "))
+        words = {"true": "yes", "false": "no"}
+        plain = words.get(value, value)
+        return shown == plain or (shown == "undefined" and value.startswith("undefined: "))
     if shown.startswith("<"):
         return number < float(shown[1:])
+    if shown.startswith(">"):
+        return number > float(shown[1:])
     raised = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
     mantissa, _, power = shown.partition(" × 10")
     scale = 10.0 ** int(power.translate(raised)) if power else 1.0

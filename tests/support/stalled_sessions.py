@@ -53,7 +53,7 @@ target_share = [0.3, 0.4]
 questionnaire = []
 """
 SLACK = 0.003  # s: X11 counts whole milliseconds, and two processes read two clocks after another
-PART = (300, 3, 200, 300)  # pixels of the view that no text is drawn on: x, y, width, height
+PART = (300, 3, 200, 240)  # pixels of the view that no text is drawn on: x, y, width, height
 PAPER, NOTHING = bytes((250, 247, 247)), bytes(3)  # of a page, and where there is no window
 SHORTEST, LONGEST = 0.1, 5.0  # s of a stall
 GAP = 0.03, 0.15  # s between keys

@@ -154,7 +154,7 @@ def test_sources_are_never_mixed_and_nothing_is_overwritten(data, tmp_path, caps
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("false,60,", "maybe,60,", r"row 2: timed_out = 'maybe': expected boolean"),
+        ("false,0,60,", "maybe,0,60,", r"row 2: timed_out = 'maybe': expected boolean"),
         (",60,1,", ",60.5,1,", r"row 2: frames = '60.5': expected integer"),
         ("row_id,", "row,", r"header: expected \d+ columns; not so: \['row', 'row_id'\]"),
         (",P01,", ",P01,P01,", r"row 2: \d+ of \d+ values: expected a whole row"),

@@ -277,7 +277,9 @@ def test_where_the_ledger_is_does_not_change_the_study():
     assert moved.digest() == load("demo").digest()
     assert "postgresql" not in str(moved.resolved())
     secret = {**table, "session": {**table["session"], "ledger": "postgresql://u:pw@h/d"}}
-    with pytest.raises(InputError, match=r"session\.ledger = .*: expected text that matches"):
+    with pytest.raises(
+        InputError, match=r"session\.ledger = .*: expected postgresql://USER@HOST/DATABASE"
+    ):
         parse(secret, "x")
 
 

@@ -29,6 +29,9 @@ class NoWindow:
     def describe(self):
         return {"window": "no"}
 
+    def waiting(self, work):
+        return work()
+
     def close(self):
         pass
 

@@ -5,9 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiment import refresh, window
+from experiment import refresh, system_window, window
 from experiment.commands import check
 from experiment.config import load
+from experiment.verdicts import Verdicts
 
 RATES = [59.94, 60.0, 74.97, 120.0, 143.98, 240.0]
 STUDY = load("published")
@@ -68,22 +69,27 @@ class Measured:
         pass
 
 
+WRONG = "FAILS, write the measured one into [display]"
+
+
 @pytest.mark.parametrize(
     ("rate", "said", "fit"),
     [
-        (59.94, "59.9 Hz measured, 60 declared: as declared", True),
-        (143.98, "144.0 Hz measured, 60 declared: NOT AS DECLARED", False),
-        (30.0, "30.0 Hz measured, 60 declared: NOT AS DECLARED", False),
-        (None, "the display does not wait; frames are paced by a timer", True),
+        (59.94, "59.9 Hz measured, 60 declared: as declared: ok", True),
+        (143.98, f"144.0 Hz measured, 60 declared: NOT AS DECLARED: {WRONG}", False),
+        (30.0, f"30.0 Hz measured, 60 declared: NOT AS DECLARED: {WRONG}", False),
+        (None, "the display does not wait; frames are paced by a timer: ok", True),
     ],
 )
 def test_the_check_compares_the_measured_rate_with_the_declared_one(
     rate, said, fit, monkeypatch, capsys
 ):
-    monkeypatch.setattr(window, "available", lambda: True)
+    monkeypatch.setattr(system_window, "available", lambda: True)
     monkeypatch.setattr(window, "Window", type("Fixed", (Measured,), {"rate": rate}))
-    assert check._refresh(STUDY) is fit
+    verdicts = Verdicts()
+    check._refresh(STUDY, verdicts)
     assert capsys.readouterr().out == f"machine     refresh: {said}\n"
+    assert verdicts.sum_up() == (0 if fit else 1)
 
 
 def test_a_window_measures_by_flips_of_its_own_without_the_first_ones(monkeypatch):
