@@ -9,7 +9,8 @@ from dataclasses import dataclass
 class Column:
     """A column: its type ("text", "integer", "number" or "boolean"), unit, meaning and levels.
 
-    In the file, booleans are `true` and `false`, and what does not apply is empty.
+    In the file, booleans are `true` and `false`, and what does not apply is empty. Tables that
+    were recorded before a column was `added` lack it, and are read with empty cells.
     """
 
     name: str
@@ -17,6 +18,7 @@ class Column:
     description: str
     unit: str = ""
     levels: tuple[str, ...] = ()
+    added: bool = False
 
 
 _WHO = (
@@ -69,6 +71,7 @@ TRIALS = (
         "how much longer than `time` it may have been: the first frame's flip and the last event "
         "are known no better",
         "s",
+        added=True,
     ),
     Column("time_clean", "number", "time, less what passed while the window had no focus", "s"),
     Column("timed_out", "boolean", "whether the trial ended at its time limit"),
@@ -76,6 +79,7 @@ TRIALS = (
         "early",
         "integer",
         "keys and buttons pressed before a frame could answer them: not taken",
+        added=True,
     ),
     Column("frames", "integer", "frames shown", "frames"),
     Column(

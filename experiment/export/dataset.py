@@ -131,6 +131,9 @@ def _rows(path: Path, data: bytes, columns: tuple[Column, ...]) -> list[Row]:
         header, *lines = read_rows(data.decode("utf-8")) or [[]]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: not readable as a table: {error}") from None
+    empty = dict.fromkeys((column.name for column in columns), "")
+    if header == [column.name for column in columns if not column.added]:
+        columns = tuple(column for column in columns if not column.added)
     names = [column.name for column in columns]
     if header != names:
         odd = sorted(set(header) ^ set(names))
@@ -147,7 +150,7 @@ def _rows(path: Path, data: bytes, columns: tuple[Column, ...]) -> list[Row]:
                 )
         if not PARTICIPANT.fullmatch(line[names.index("participant")]):
             raise InputError(f"{path}: row {number}: participant: expected a participant's id")
-    return [dict(zip(names, line, strict=True)) for line in lines]
+    return [empty | dict(zip(names, line, strict=True)) for line in lines]
 
 
 def fits(text: str, kind: str) -> bool:

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 
-from experiment.columns import TABLES
+from experiment.columns import TABLES, Column
 from experiment.errors import InputError
 from experiment.export.dataset import Dataset
 from experiment.private import FILE, make_folder
 
 TYPES = {"text": "VARCHAR", "integer": "BIGINT", "number": "DOUBLE", "boolean": "BOOLEAN"}
 INSTALL = "pip install 'seethrough[parquet]'"
-COPY = """
-COPY (SELECT * FROM read_csv({files}, header = true, delim = ',', quote = '"', escape = '"',
-      nullstr = '', parallel = false, auto_detect = false, columns = {columns}))
-TO {out} (FORMAT parquet, COMPRESSION zstd)
+READ = """
+SELECT {selected} FROM read_csv({files}, header = true, delim = ',', quote = '"', escape = '"',
+      nullstr = '', parallel = false, auto_detect = false, columns = {columns})
 """
+COPY = "COPY ({rows}) TO {out} (FORMAT parquet, COMPRESSION zstd)"
 
 
 def parquet(data: Dataset, out: Path) -> None:
@@ -49,14 +51,36 @@ class ParquetWriter:
 
     def write(self, table: str, paths: Sequence[Path], target: Path) -> None:
         """One file of all rows of these files of a table. Raises InputError."""
-        columns = ", ".join(f"{_text(c.name)}: {_text(TYPES[c.type])}" for c in TABLES[table])
-        files = "[" + ", ".join(_text(str(path)) for path in paths) + "]"
-        query = COPY.format(files=files, columns="{" + columns + "}", out=_text(str(target)))
+        # Those from before a column was added (experiment/columns.py) lie in a run of their own.
+        runs = [
+            _read(TABLES[table], [path for path, _ in run], old)
+            for old, run in groupby(((p, _is_old(TABLES[table], p)) for p in paths), itemgetter(1))
+        ]
+        query = COPY.format(rows=" UNION ALL ".join(runs), out=_text(str(target)))
         try:
             self._database.execute(query)
         except self._error as error:
             raise InputError(f"{target}: {' '.join(str(error).split())[:300]}") from None
         os.chmod(target, FILE)
+
+
+def _is_old(columns: Sequence[Column], path: Path) -> bool:
+    """Whether a file's table was recorded before a column was added."""
+    with open(path, encoding="utf-8") as file:
+        header = file.readline().rstrip("\n")
+    return header == ",".join(c.name for c in columns if not c.added)
+
+
+def _read(columns: Sequence[Column], paths: Sequence[Path], old: bool) -> str:
+    """A query for the rows of files that have the same columns."""
+    there = [c for c in columns if not (old and c.added)]
+    typed = ", ".join(f"{_text(c.name)}: {_text(TYPES[c.type])}" for c in there)
+    selected = ", ".join(
+        f'"{c.name}"' if c in there else f'CAST(NULL AS {TYPES[c.type]}) AS "{c.name}"'
+        for c in columns
+    )
+    files = "[" + ", ".join(_text(str(path)) for path in paths) + "]"
+    return READ.format(selected=selected, files=files, columns="{" + typed + "}")
 
 
 def _text(value: str) -> str:

@@ -16,6 +16,7 @@ from experiment import cli
 from experiment.columns import TABLES, TRIALS
 from experiment.errors import InputError
 from experiment.export.dataset import _rows, harmless
+from experiment.export.parquet import ParquetWriter
 
 
 @pytest.fixture(scope="module")
@@ -172,6 +173,32 @@ def test_a_broken_table_is_named(tmp_path, capsys, old, new, message):
         assert cli.main(words) == 2
         assert "session-1_trials_data.csv: " in capsys.readouterr().err
         assert not (tmp_path / "out").exists()
+
+
+def test_a_table_from_before_a_column_was_added_is_read_with_empty_cells(tmp_path):
+    record(tmp_path / "data", "P01", 1)
+    (path,) = tmp_path.rglob("*_trials_data.csv")
+    new = pd.read_csv(path, dtype=str, keep_default_na=False)
+    old = new.drop(columns=["time_within", "early"]).to_csv(index=False).encode()
+    rows = _rows(path, old, TRIALS)
+    assert [list(row) for row in rows] == [list(new)] * len(new)
+    assert {(row["time_within"], row["early"]) for row in rows} == {("", "")}
+    assert [row["time"] for row in rows] == list(new["time"])
+    with pytest.raises(InputError, match=r"not so: \['early'\]"):  # one of them alone never was
+        _rows(path, new.drop(columns="early").to_csv(index=False).encode(), TRIALS)
+
+
+def test_parquet_joins_tables_from_before_and_after_a_column_was_added(tmp_path):
+    record(tmp_path / "data", "P01", 1)
+    (path,) = tmp_path.rglob("*_trials_data.csv")
+    new = pd.read_csv(path, dtype=str, keep_default_na=False)
+    new.drop(columns=["time_within", "early"]).to_csv(tmp_path / "old.csv", index=False)
+    with ParquetWriter() as writer:
+        writer.write("trials", [tmp_path / "old.csv", path], tmp_path / "both.parquet")
+    both = fastparquet.ParquetFile(tmp_path / "both.parquet").to_pandas()
+    assert list(both) == list(new) and list(both["row_id"]) == 2 * list(new["row_id"])
+    assert list(both["early"].isna()) == [True] * len(new) + list(new["early"] == "")
+    assert list(both["time"]) == pytest.approx(2 * list(new["time"].astype(float)))
 
 
 @pytest.mark.parametrize(
