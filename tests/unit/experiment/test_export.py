@@ -195,7 +195,8 @@ def test_parquet_joins_tables_from_before_and_after_a_column_was_added(tmp_path)
     new.drop(columns=["time_within", "early"]).to_csv(tmp_path / "old.csv", index=False)
     with ParquetWriter() as writer:
         writer.write("trials", [tmp_path / "old.csv", path], tmp_path / "both.parquet")
-    both = fastparquet.ParquetFile(tmp_path / "both.parquet").to_pandas()
+    with open(tmp_path / "both.parquet", "rb") as file:
+        both = fastparquet.ParquetFile(file).to_pandas()
     assert list(both) == list(new) and list(both["row_id"]) == 2 * list(new["row_id"])
     assert list(both["early"].isna()) == [True] * len(new) + list(new["early"] == "")
     assert list(both["time"]) == pytest.approx(2 * list(new["time"].astype(float)))
