@@ -93,6 +93,12 @@ class Trace:
             self._file: int | None = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, FILE)
         except OSError as error:
             raise refused(error, path) from None
+        try:
+            guard()  # once more: this may have stood still since it was asked, and been taken over
+        except BaseException:
+            os.close(self._file)
+            path.unlink()
+            raise
 
     def line(self, text: str) -> None:
         """One line more."""

@@ -6,7 +6,8 @@ import io
 import pytest
 
 from experiment.columns import NOTES, QUESTIONNAIRE
-from experiment.record_files import Table, csv_line, mend, whole_rows
+from experiment.errors import InputError
+from experiment.record_files import Table, Trace, csv_line, mend, whole_rows
 
 TEXTS = ("one\ntwo", "one\r\ntwo", "\r", "\n", 'a "quoted"\nline', "comma, and\nbreak", "plain")
 
@@ -50,3 +51,15 @@ def test_rows_at_once_are_all_there_or_none(tmp_path):
     table.close()
     assert path.stat().st_size == size
     assert path.read_text().count("\n") == 3
+
+
+def test_a_trace_that_was_begun_after_somebody_took_over_is_not_left(tmp_path):
+    """A station may stand still between asking whether it still plays and making the file."""
+
+    def taken_over():
+        raise InputError("taken over")
+
+    path = tmp_path / "session-1_trial-002_events.csv"
+    with pytest.raises(InputError, match="taken over"):
+        Trace(path, "time", taken_over)
+    assert not list(tmp_path.iterdir())
