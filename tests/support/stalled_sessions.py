@@ -203,11 +203,23 @@ class Hand:
         self.last = before
 
 
+def half_copied(screens, number):
+    """Whether a screen was seen while one picture took another's place: rows of both, no others."""
+    if not 0 < number < len(screens) - 1:
+        return False
+    width = len(screens[number].picture) // PART[3]
+    rows = (
+        [s.picture[k : k + width] for k in range(0, len(s.picture), width)]
+        for s in screens[number - 1 : number + 2]
+    )
+    return all(own in (before, after) for before, own, after in zip(*rows, strict=True))
+
+
 def views(screens):
     """The screens of each trial in turn: a page may lie over it for a while."""
     found = []
-    for screen in screens:
-        if screen.page:
+    for number, screen in enumerate(screens):
+        if screen.page or half_copied(screens, number):
             continue
         if not found or found[-1][0].picture != screen.picture:
             found.append([])
