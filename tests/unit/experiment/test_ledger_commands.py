@@ -115,6 +115,14 @@ def test_a_session_whose_end_the_ledger_missed_is_completed(sessions, tmp_path, 
     assert entries(tmp_path) == [("P01", 1, "complete")]
 
 
+def test_free_slots_are_those_that_nobody_holds(tmp_path, capsys):
+    with Ledger.open(tmp_path, "", plan_of(STUDY), NOW) as ledger:
+        ledger.reserve("A", NOW)
+    assert cli.main(["status", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"slots     0 complete, 1 open( \(1 stale\))?, 3 free, 0 void entries", said)
+
+
 def test_status_says_who_has_what_and_what_is_next(tmp_path, capsys):
     with Ledger.open(tmp_path, "", plan_of(STUDY), NOW) as ledger:
         for name in ("A", "B", "C"):
