@@ -73,7 +73,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except SystemExit:  # --help, or arguments that are wrong
         _let_go()
         raise
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, SystemError) as error:
+        if not _is_interrupt(error):
+            raise
         kept = "; every completed trial is saved" if {*words} & SAVING else ""
         return _failed([f"interrupted{kept}"], 130)
     except OSError as error:
@@ -83,6 +85,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         if error.errno in FULL:
             return _failed([f"output: {error.strerror}"], 2)
         raise
+
+
+def _is_interrupt(error: BaseException | None) -> bool:
+    """Whether Ctrl-C is at the bottom of it: in compiled code it becomes a SystemError."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def _run(words: Sequence[str]) -> int:
