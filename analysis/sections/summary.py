@@ -12,7 +12,7 @@ from analysis.plan import Plan
 from analysis.sections.accuracy import measured
 from analysis.sections.context import Context
 from analysis.sections.participants import reach, reach_sentence
-from analysis.sections.tables import INTERACTION
+from analysis.sections.tables import INTERACTION, cited_f
 from analysis.stats.undefined import is_defined
 
 PLANNING = " (simulated participants)"
@@ -90,16 +90,9 @@ def _interaction(anova: Sequence[Table], alpha: float) -> list[str | Cited]:
     row = table.row(effect)
     if not is_defined(row["p_gg"]) or row["p_gg"] >= alpha:
         return []
-    p = table.cite(effect, "p_gg")
     return [
-        " The ratio differs between tasks (F(",
-        table.cite(effect, "df1"),
-        ",\u00a0",
-        table.cite(effect, "df2"),
-        ") = ",
-        table.cite(effect, "F"),
-        ", p " if p.text.startswith(("<", ">")) else ", p = ",
-        p,
+        " The ratio differs between tasks (",
+        *cited_f(table, effect),
         "), so the one over all tasks is a mean of unlike effects, and the tasks' own are what "
         "to read.",
     ]

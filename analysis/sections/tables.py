@@ -116,8 +116,19 @@ def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: flo
     if not is_defined(row["F"]):
         return say("{}: {}.", what[1], table.cite(effect, "F"))
     words = what[0] if row["p_gg"] < alpha else what[1]
+    runs = cited_f(table, effect)
+    if row["df1"] > 1:
+        runs += [" (Greenhouse–Geisser, ε = ", table.cite(effect, "eps", "bound2"), ")"]
+    runs += [", η²G = ", table.cite(effect, "ges")]
+    if row["p_gg"] >= alpha:
+        runs += ["; ", *not_found(table, effect, alpha)]
+    return say("{}, {}.", words, runs)
+
+
+def cited_f(table: Table, effect: str) -> list[str | Cited]:
+    """`F(3, 45) = 2.10, p = .113` of an effect, its p with Greenhouse–Geisser's correction."""
     p = table.cite(effect, "p_gg")
-    runs: list[str | Cited] = [
+    return [
         "F(",
         table.cite(effect, "df1"),
         ",\u00a0",
@@ -127,12 +138,6 @@ def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: flo
         ", p " if p.text.startswith(("<", ">")) else ", p = ",
         p,
     ]
-    if row["df1"] > 1:
-        runs += [" (Greenhouse–Geisser, ε = ", table.cite(effect, "eps", "bound2"), ")"]
-    runs += [", η²G = ", table.cite(effect, "ges")]
-    if row["p_gg"] >= alpha:
-        runs += ["; ", *not_found(table, effect, alpha)]
-    return say("{}, {}.", words, runs)
 
 
 def negligible(f: Number, df1: int, df2: int) -> Number:
