@@ -8,14 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from analysis import equivalence
-from analysis.cells import Array, Cells
-from analysis.page.blocks import Cited, Column, Table
-from analysis.stats.anova import repeated_measures
-from analysis.stats.distributions import holm
-from analysis.stats.paired import paired, ratio_of_means, within_halfwidths
-from analysis.stats.ties import is_constant
-from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined, no_interval
+from seethrough.analysis import equivalence
+from seethrough.analysis.cells import Array, Cells
+from seethrough.analysis.page.blocks import Cited, Column, Table
+from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.stats.paired import paired, ratio_of_means, within_halfwidths
+from seethrough.analysis.stats.ties import is_constant
+from seethrough.analysis.stats.undefined import (
+    ONE_PARTICIPANT,
+    Number,
+    Undefined,
+    is_defined,
+    no_interval,
+)
 
 NO_RATIO = "differences of z scores have no ratio"
 

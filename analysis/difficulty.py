@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, means
-from analysis.comparison import Measure, measure
-from analysis.load.schema import CERTIFICATE
-from analysis.measures import design
-from analysis.stats.ties import is_constant
-from analysis.stats.undefined import Number, Undefined
+from seethrough.analysis.cells import Array, means
+from seethrough.analysis.comparison import Measure, measure
+from seethrough.analysis.load.schema import CERTIFICATE
+from seethrough.analysis.measures import design
+from seethrough.analysis.stats.ties import is_constant
+from seethrough.analysis.stats.undefined import Number, Undefined
 
 QUANTITIES: Mapping[str, str] = {
     "targets": "targets",

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from analysis.cells import Array
-from analysis.page.blocks import Cited, Column, Table, say
-from analysis.stats.paired import Equivalence, ratio_within, tost
-from analysis.stats.undefined import Undefined, is_defined
+from seethrough.analysis.cells import Array
+from seethrough.analysis.page.blocks import Cited, Column, Table, say
+from seethrough.analysis.stats.paired import Equivalence, ratio_within, tost
+from seethrough.analysis.stats.undefined import Undefined, is_defined
 
 MARGINS = ("time", "count_error", "correct", "distance")
 """What a study may declare a margin of."""

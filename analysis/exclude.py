@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from analysis.errors import DataError
-from analysis.stats.ties import difference_signs
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.stats.ties import difference_signs
 
 MISSED_ONE_IN = 20
 """More than one in so many frames missed, that is 5 %; in whole numbers, so exactly 5 % is not."""

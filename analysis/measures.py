@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, Cells, means, sums, table_of
-from analysis.load.schema import SCENARIO, TASKS, TRANSPARENCY
+from seethrough.analysis.cells import Array, Cells, means, sums, table_of
+from seethrough.analysis.load.schema import SCENARIO, TASKS, TRANSPARENCY
 
 COUNTING = ("count", "count_in_building")
 RATINGS = ("efficiency", "ease", "enjoy")

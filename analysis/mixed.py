@@ -14,12 +14,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from analysis.load.schema import TRANSPARENCY
-from analysis.measures import design
-from analysis.stats import reml
-from analysis.stats.distributions import t_quantile, t_two_sided
-from analysis.stats.ties import is_constant
-from analysis.stats.undefined import Interval, Number, Undefined, no_interval
+from seethrough.analysis.load.schema import TRANSPARENCY
+from seethrough.analysis.measures import design
+from seethrough.analysis.stats import reml
+from seethrough.analysis.stats.distributions import t_quantile, t_two_sided
+from seethrough.analysis.stats.ties import is_constant
+from seethrough.analysis.stats.undefined import Interval, Number, Undefined, no_interval
 
 MOST_PARTICIPANTS = 400
 SLOPES = "(1 + transparency | participant)"

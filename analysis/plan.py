@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from analysis.equivalence import MARGINS, RATIOS
-from analysis.errors import DataError
-from analysis.exclude import TOO_FAST
-from analysis.load.study import Study
+from seethrough.analysis.equivalence import MARGINS, RATIOS
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.exclude import TOO_FAST
+from seethrough.analysis.load.study import Study
 
 TESTS = ("time", "accuracy", "ratings", "tradeoff", "validity", "mixed")
 

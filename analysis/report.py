@@ -7,26 +7,26 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
-from analysis.exclude import apply_rules
-from analysis.load.study import Study, load_study
-from analysis.page import folder
-from analysis.page.blocks import Figure, Report, Section, Table, walk
-from analysis.page.html import as_html
-from analysis.page.markdown import as_markdown
-from analysis.page.pdf import find_browser, print_pdf
-from analysis.page.tables_csv import as_csv
-from analysis.plan import TESTS, config_of, make_plan
-from analysis.sections.accuracy import accuracy_section
-from analysis.sections.context import Context
-from analysis.sections.participants import participants_section
-from analysis.sections.provenance import provenance_section
-from analysis.sections.ratings import ratings_section
-from analysis.sections.sensitivity import sensitivity_section
-from analysis.sections.summary import summary_section
-from analysis.sections.time import time_section
-from analysis.sections.tradeoff import tradeoff_section
-from analysis.sections.validity import validity_section
-from analysis.written import FILE, half_of, own_folder, write_over
+from seethrough.analysis.exclude import apply_rules
+from seethrough.analysis.load.study import Study, load_study
+from seethrough.analysis.page import folder
+from seethrough.analysis.page.blocks import Figure, Report, Section, Table, walk
+from seethrough.analysis.page.html import as_html
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.page.pdf import find_browser, print_pdf
+from seethrough.analysis.page.tables_csv import as_csv
+from seethrough.analysis.plan import TESTS, config_of, make_plan
+from seethrough.analysis.sections.accuracy import accuracy_section
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.participants import participants_section
+from seethrough.analysis.sections.provenance import provenance_section
+from seethrough.analysis.sections.ratings import ratings_section
+from seethrough.analysis.sections.sensitivity import sensitivity_section
+from seethrough.analysis.sections.summary import summary_section
+from seethrough.analysis.sections.time import time_section
+from seethrough.analysis.sections.tradeoff import tradeoff_section
+from seethrough.analysis.sections.validity import validity_section
+from seethrough.analysis.written import FILE, half_of, own_folder, write_over
 
 SIMULATED = "Simulated participants: for planning only, never evidence about people."
 UNCHAINED = "Tables without hash chains: whether they were changed cannot be known."
@@ -96,7 +96,7 @@ def figures_of(sections: Iterable[Section | None]) -> list[Figure]:
 
 def make_published() -> Report:
     """The report on the paper's own printed numbers."""
-    from analysis.published.report import published_report
+    from seethrough.analysis.published.report import published_report
 
     return published_report()
 
@@ -108,7 +108,10 @@ def write(
 
     report.html, report.md, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if asked for.
     """
-    from analysis.page.charts import library, write_files  # V8 starts only where charts are drawn
+    from seethrough.analysis.page.charts import (
+        library,
+        write_files,
+    )  # V8 starts only where charts are drawn
 
     old = folder.earlier(out, replace)
     browser = find_browser() if "pdf" in formats else ""

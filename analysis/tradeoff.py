@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, Cells, level_codes, sums
-from analysis.load.schema import TRANSPARENCY
-from analysis.measures import (
+from seethrough.analysis.cells import Array, Cells, level_codes, sums
+from seethrough.analysis.load.schema import TRANSPARENCY
+from seethrough.analysis.measures import (
     design,
     distance,
     log_time_by_task,
@@ -17,9 +17,9 @@ from analysis.measures import (
     share_wrong,
     time_by_task,
 )
-from analysis.stats.distributions import t_two_sided
-from analysis.stats.ties import is_constant
-from analysis.stats.undefined import Interval, Number, Undefined, no_interval
+from seethrough.analysis.stats.distributions import t_two_sided
+from seethrough.analysis.stats.ties import is_constant
+from seethrough.analysis.stats.undefined import Interval, Number, Undefined, no_interval
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Array, level_codes, means, sums, table_of
-from analysis.comparison import Measure, measure
-from analysis.exclude import focus_lost
-from analysis.load.schema import TRANSPARENCY
-from analysis.measures import design
-from analysis.stats.within import TermTest, dummies, one_way, term_tests
+from seethrough.analysis.cells import Array, level_codes, means, sums, table_of
+from seethrough.analysis.comparison import Measure, measure
+from seethrough.analysis.exclude import focus_lost
+from seethrough.analysis.load.schema import TRANSPARENCY
+from seethrough.analysis.measures import design
+from seethrough.analysis.stats.within import TermTest, dummies, one_way, term_tests
 
 
 def condition_means(trials: pd.DataFrame) -> pd.DataFrame:

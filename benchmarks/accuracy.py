@@ -22,17 +22,17 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import guarantee, mask_sweep, vtk_peeling
-from benchmarks.breaking import BREAKING
-from benchmarks.picture_errors import drawn, errors
-from benchmarks.scenes import SCENES
-from benchmarks.speed import Figure, row, times
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from renderer.plan import plan
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
-from renderer.visibility import SEEN
+from seethrough.benchmarks import guarantee, mask_sweep, vtk_peeling
+from seethrough.benchmarks.breaking import BREAKING
+from seethrough.benchmarks.picture_errors import drawn, errors
+from seethrough.benchmarks.scenes import SCENES
+from seethrough.benchmarks.speed import Figure, row, times
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.plan import plan
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.visibility import SEEN
 
 SIZE, LOOK = (800, 600), (400, 300)
 VIEWS = 4

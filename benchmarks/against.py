@@ -1,10 +1,10 @@
 """What a change costs: frames of this code and of an older commit, one after the other.
 
-`python -m benchmarks.against COMMIT [--turns N]`, in a clone with that commit. Both draw the same
-views in one process and one OpenGL context, in turns, so that whatever else the machine does meets
-both alike. For each scene and technique it prints the ratio of their times, this code's over the
-commit's, each the sum over all views of the median over the turns, and a 95 % interval from turns
-drawn again (percentile bootstrap).
+`python -m seethrough.benchmarks.against COMMIT [--turns N]`, in a clone with that commit. Both draw
+the same views in one process and one OpenGL context, in turns, so that whatever else the machine
+does meets both alike. For each scene and technique it prints the ratio of their times, this code's
+over the commit's, each the sum over all views of the median over the turns, and a 95 % interval
+from turns drawn again (percentile bootstrap).
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -25,16 +26,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-PACKAGES = ("renderer", "tasks", "experiment", "analysis", "benchmarks")
+PACKAGES = ("seethrough", "renderer", "tasks", "experiment", "analysis", "benchmarks")
 SIZE, VIEWS, TURNS, DRAWN_AGAIN = (800, 600), 6, 24, 2000
 SCENES, SEEDS = ("abstract", "walkthrough", "jeep"), range(1, 9)
 
 
 class Tree:
-    """The packages of one folder: what they import, while they are `active`, are their own."""
+    """The packages of one folder: what they import, while they are `active`, are their own.
+
+    Commits from before decisions/0013 have the rooms at the top, without `seethrough.`.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder, self._modules = str(folder), dict[str, ModuleType]()
+        self._prefix = "seethrough." if (folder / "seethrough").is_dir() else ""
 
     @contextmanager
     def active(self) -> Iterator[None]:
@@ -44,6 +49,8 @@ class Tree:
         sys.modules.update(self._modules)
         sys.path.insert(0, self.folder)
         try:
+            if self._prefix:  # the rooms lie beside the package, in the same folder
+                import_module("seethrough").__path__.append(self.folder)
             yield
         finally:
             sys.path.remove(self.folder)
@@ -54,19 +61,18 @@ class Tree:
     def draws(self, context: Any) -> dict[str, list[Callable[[], None]]]:
         """What draws each view of each scene and technique with this folder's code."""
         with self.active():
-            from benchmarks.scenes import SCENES as made
-            from renderer.gpu.renderer import Renderer
-            from renderer.techniques.dynamic import DynamicTransparency
-            from tasks.abstract_scene import abstract_scene
-            from tasks.controls import orbit
-            from tasks.parameters import AbstractParameters
-
-            renderer = Renderer(context, SIZE, without=frozenset({"still"}))
+            made = self._get("benchmarks.scenes", "SCENES")
+            dynamic = self._get("renderer.techniques.dynamic", "DynamicTransparency")
+            abstract_scene = self._get("tasks.abstract_scene", "abstract_scene")
+            orbit = self._get("tasks.controls", "orbit")
+            parameters = self._get("tasks.parameters", "AbstractParameters")()
+            renderer = self._get("renderer.gpu.renderer", "Renderer")(
+                context, SIZE, without=frozenset({"still"})
+            )
             views: dict[str, list[tuple[Any, Any]]] = {}
             for name in SCENES:
                 scene, cameras = made[name](SIZE[0] / SIZE[1], VIEWS)
                 views[name] = [(scene, camera) for camera in cameras]
-            parameters = AbstractParameters()
             views["abstract worlds"] = [
                 (
                     abstract_scene(np.random.default_rng(seed), parameters),
@@ -75,14 +81,17 @@ class Tree:
                 for seed in SEEDS
             ]
             techniques = {
-                "default": DynamicTransparency(),
-                "exact": DynamicTransparency(exact=True),
+                "default": dynamic(),
+                "exact": dynamic(exact=True),
             }
         return {
             f"{name}, {way}": [self._draw(renderer, *view, technique) for view in found]
             for name, found in views.items()
             for way, technique in techniques.items()
         }
+
+    def _get(self, module: str, name: str) -> Any:
+        return getattr(import_module(self._prefix + module), name)
 
     def _draw(self, renderer: Any, scene: Any, camera: Any, technique: Any) -> Callable[[], None]:
         return lambda: renderer.draw(scene, camera, technique)
@@ -130,9 +139,7 @@ def main() -> None:
         tarfile.open(fileobj=io.BytesIO(found.stdout)).extractall(folder, filter="data")
         trees = (Tree(Path(folder)), Tree(here))
         with trees[1].active():
-            from renderer.gpu.context import standalone
-
-            context = standalone()
+            context = import_module("seethrough.renderer.gpu.context").standalone()
         both = [tree.draws(context) for tree in trees]
         for name in both[0]:
             seconds = spent(trees, [draws[name] for draws in both], context, args.turns)

@@ -1,8 +1,9 @@
 """Objects that reach into one another before a target: sorted by pixel, or by polygon?
 
-`python -m benchmarks.clusters` prints, for clusters of several kinds, error and time of a frame
-where what no plane separates is sorted by pixel (`pixels`: order "planes"), where the polygons of
-convex objects are put in order by a BSP tree (`polygons`), and where centres decide (`centers`).
+`python -m seethrough.benchmarks.clusters` prints, for clusters of several kinds, error and time of
+a frame where what no plane separates is sorted by pixel (`pixels`: order "planes"), where the
+polygons of convex objects are put in order by a BSP tree (`polygons`), and where centres decide
+(`centers`).
 """
 
 from __future__ import annotations
@@ -13,17 +14,17 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.speed import times
-from renderer import geometry, transforms
-from renderer.camera import Camera, look_at
-from renderer.clusters import polygons_of
-from renderer.geometry import Mesh
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from renderer.ordering import bsp
-from renderer.reference import exact
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.benchmarks.speed import times
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.clusters import polygons_of
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.ordering import bsp
+from seethrough.renderer.reference import exact
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 SIZE, SMALL = (800, 600), (200, 150)
 VIEWS = 4

@@ -1,8 +1,8 @@
 """What each effect of a simulated participant does: when it applies, and what its absence costs.
 
 `seethrough bench effects` plays the published study with and without each effect, the same people
-on the same trials; `python -m benchmarks.effects --tables FILE --participants N` does it from
-tables that are kept and prints the table of the guide.
+on the same trials; `python -m seethrough.benchmarks.effects --tables FILE --participants N` does it
+from tables that are kept and prints the table of the guide.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.rows import Row, row
-from experiment.config import load
-from experiment.design import SIMULATED, generator, session_for
-from experiment.participants.data_mode import play_trial
-from experiment.participants.effects import EFFECTS, plan_effects
-from experiment.participants.looks import KeptLooks
-from experiment.participants.participant import STRATEGIES, SimulatedParticipant
-from experiment.participants.pool import Pool, drawing
-from experiment.participants.profile import Profile
-from experiment.participants.profile_file import find
+from seethrough.benchmarks.rows import Row, row
+from seethrough.experiment.config import load
+from seethrough.experiment.design import SIMULATED, generator, session_for
+from seethrough.experiment.participants.data_mode import play_trial
+from seethrough.experiment.participants.effects import EFFECTS, plan_effects
+from seethrough.experiment.participants.looks import KeptLooks
+from seethrough.experiment.participants.participant import STRATEGIES, SimulatedParticipant
+from seethrough.experiment.participants.pool import Pool, drawing
+from seethrough.experiment.participants.profile import Profile
+from seethrough.experiment.participants.profile_file import find
 
 STUDY, POOL, PEOPLE, SEED = "published", 40, 16, 1
 PROFILE = "calibrated"

@@ -1,9 +1,9 @@
 """What a simulated participant's eyes cost in time, and what coarser eyes cost in accuracy.
 
-`python -m benchmarks.eyes --json FILE --figure FILE.svg`: the same people at the same trials with
-id pictures of several heights, with more and fewer looks while on the move, and from the tables'
-lattice, against the finest eyes. Errors are those of the task measures: geometric mean of the
-completion times, and mean absolute count error; each with the standard error of the pairs.
+`python -m seethrough.benchmarks.eyes --json FILE --figure FILE.svg`: the same people at the same
+trials with id pictures of several heights, with more and fewer looks while on the move, and from
+the tables' lattice, against the finest eyes. Errors are those of the task measures: geometric mean
+of the completion times, and mean absolute count error; each with the standard error of the pairs.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.config import Study, load
-from experiment.design import SIMULATED, Trial, generator, session_for
-from experiment.driver import open_context
-from experiment.pages import Page, Paragraph
-from experiment.participants.data_mode import play_trial
-from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.pool import Pool, drawing
-from experiment.participants.profile import AVERAGE
-from experiment.world import TrialRecord
-from renderer.gpu.renderer import Renderer
-from renderer.models.simple import simplified
-from renderer.techniques.standard import Standard
-from renderer.visibility import Visibility
-from tasks.base import View
-from tasks.events import Event, KeyPress, KeyRelease, Tick
+from seethrough.experiment.config import Study, load
+from seethrough.experiment.design import SIMULATED, Trial, generator, session_for
+from seethrough.experiment.driver import open_context
+from seethrough.experiment.pages import Page, Paragraph
+from seethrough.experiment.participants.data_mode import play_trial
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.participants.pool import Pool, drawing
+from seethrough.experiment.participants.profile import AVERAGE
+from seethrough.experiment.world import TrialRecord
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.models.simple import simplified
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event, KeyPress, KeyRelease, Tick
 
 ASPECT = 4 / 3
 TRIALS = 384  # of the published study: what a way to look costs there is drawn

@@ -17,18 +17,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.rows import Row, row
-from renderer.camera import Camera
-from renderer.geometry import Mesh
-from renderer.gpu.renderer import Renderer
-from renderer.plan import plan
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.visibility import SEEN
-from tasks.abstract_scene import abstract_scene
-from tasks.building import unique_building
-from tasks.controls import orbit, walk
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.benchmarks.rows import Row, row
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.plan import plan
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.visibility import SEEN
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.building import unique_building
+from seethrough.tasks.controls import orbit, walk
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 EXACT = DynamicTransparency(exact=True)
 MANY = 5  # pixels of a target that count as a view of it

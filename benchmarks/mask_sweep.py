@@ -18,12 +18,12 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.picture_errors import drawn, errors
-from benchmarks.scenes import SCENES
-from benchmarks.speed import Figure, row, times
-from renderer.gpu.renderer import Renderer
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.benchmarks.picture_errors import drawn, errors
+from seethrough.benchmarks.scenes import SCENES
+from seethrough.benchmarks.speed import Figure, row, times
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 VIEWS = 4
 DEFAULT = DynamicTransparency()

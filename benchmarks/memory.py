@@ -17,7 +17,7 @@ from threading import Event, Thread
 PROC = Path("/proc")
 _TELL = """
 import os
-from benchmarks.memory import peak
+from seethrough.benchmarks.memory import peak
 print()
 print(peak(), sum(os.times()[:4]))
 """

@@ -1,10 +1,10 @@
 """Depth orderings side by side: what each costs, and whether its picture is exact.
 
-`seethrough bench ordering --json FILE`, or `python -m benchmarks.ordering --json FILE --figure
-FILE.svg` for the figure of error against time as well. Paper 002's objects are lost: ratios and the
-order of methods on stand-ins are compared with its own, no number of it is reproduced. Times are
-processor time, the fastest of several: all orderings run on one thread, and other work on the
-machine does not count.
+`seethrough bench ordering --json FILE`, or `python -m seethrough.benchmarks.ordering --json FILE
+--figure FILE.svg` for the figure of error against time as well. Paper 002's objects are lost:
+ratios and the order of methods on stand-ins are compared with its own, no number of it is
+reproduced. Times are processor time, the fastest of several: all orderings run on one thread, and
+other work on the machine does not count.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.memory import used_by
-from benchmarks.postprocessing import VIEWS, microseconds
-from benchmarks.rows import Row, row
-from renderer.models.translucent.scenes import TranslucentScene, scene
-from renderer.ordering import boxes, bsp, feudal
-from renderer.ordering.polygons import Polygons, polygons_from
+from seethrough.benchmarks.memory import used_by
+from seethrough.benchmarks.postprocessing import VIEWS, microseconds
+from seethrough.benchmarks.rows import Row, row
+from seethrough.renderer.models.translucent.scenes import TranslucentScene, scene
+from seethrough.renderer.ordering import boxes, bsp, feudal
+from seethrough.renderer.ordering.polygons import Polygons, polygons_from
 
 HELP = "depth orderings: splits, relations, times, memory and image error"
 SEEDS = 100  # of the BSP baseline: the mean of 20, as in paper 002, still moves by 3 %
@@ -42,10 +42,10 @@ IMAGE_SCENES = (
 PICTURE = (320, 240)
 
 MEMORY = """
-from renderer.models.translucent.scenes import scene
-from renderer.ordering import bsp
+from seethrough.renderer.models.translucent.scenes import scene
+from seethrough.renderer.ordering import bsp
 import numpy as np
-from benchmarks.ordering import bare
+from seethrough.benchmarks.ordering import bare
 polygons = scene("soup100000").polygons
 prepared = bsp.prepare({polygons})
 prepared.order(eye=np.array([3.0, 2.0, 1.0]))
@@ -53,8 +53,8 @@ prepared.order(eye=np.array([3.0, 2.0, 1.0]))
 COLD = """
 import time
 import numpy as np
-from renderer.models.translucent.scenes import scene
-from renderer.ordering import boxes, bsp, feudal
+from seethrough.renderer.models.translucent.scenes import scene
+from seethrough.renderer.ordering import boxes, bsp, feudal
 polygons = scene("fence").polygons
 start = time.process_time()
 for method in (bsp, feudal, boxes):
@@ -208,7 +208,7 @@ def dense() -> Iterator[Row]:
 
 def image_errors() -> Iterator[Row]:
     """Pixels more than 1/255 off the exact picture, in the worst of many random eyes."""
-    from benchmarks.ordering_accuracy import Bench
+    from seethrough.benchmarks.ordering_accuracy import Bench
 
     for name in IMAGE_SCENES:
         made = scene(name)
@@ -255,7 +255,7 @@ def main() -> None:
     if chosen.json:
         chosen.json.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", "utf-8")
     if chosen.figure:
-        from benchmarks.ordering_accuracy import draw_figure, measure_all
+        from seethrough.benchmarks.ordering_accuracy import draw_figure, measure_all
 
         draw_figure(measure_all(), chosen.figure)
 

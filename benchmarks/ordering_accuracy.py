@@ -18,14 +18,18 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import ordering_exactness
-from benchmarks.painted_scene import PaintedScene as Bench
-from benchmarks.rows import Row, row
-from renderer.gpu.approximations import PeelingPainter, StochasticPainter, WeightedPainter
-from renderer.models.translucent.scenes import scene
-from renderer.ordering import axis_tree, boxes, bsp, distance, feudal
-from renderer.ordering.polygons import Floats
-from renderer.ordering.prepared import Prepared
+from seethrough.benchmarks import ordering_exactness
+from seethrough.benchmarks.painted_scene import PaintedScene as Bench
+from seethrough.benchmarks.rows import Row, row
+from seethrough.renderer.gpu.approximations import (
+    PeelingPainter,
+    StochasticPainter,
+    WeightedPainter,
+)
+from seethrough.renderer.models.translucent.scenes import scene
+from seethrough.renderer.ordering import axis_tree, boxes, bsp, distance, feudal
+from seethrough.renderer.ordering.polygons import Floats
+from seethrough.renderer.ordering.prepared import Prepared
 
 SCENES = ("panels100", "boxes", "leaves", "cow", "house", "soup1000")
 SIZE = (400, 300)
@@ -157,7 +161,7 @@ def results_of(table: list[dict[str, Any]]) -> list[Result]:
 
 def summary(table: list[dict[str, Any]]) -> str:
     """Which way to pick when, from the rows of `figures`."""
-    from benchmarks.ordering_advice import advice
+    from seethrough.benchmarks.ordering_advice import advice
 
     return advice(results_of(table))
 
@@ -169,7 +173,7 @@ def chart(table: list[dict[str, Any]], path: Path) -> None:
 
 def draw_figure(results: list[Result], path: Path) -> None:
     """Error against time of a frame, one panel for each scene."""
-    from benchmarks.ordering_figures import error_against_time
+    from seethrough.benchmarks.ordering_figures import error_against_time
 
     error_against_time(results, path)
 
@@ -181,7 +185,7 @@ def main() -> None:
     parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="paper 000's figures 4–6")
     chosen = parser.parse_args()
     if chosen.pictures:
-        from benchmarks.paper_figures import draw_pictures
+        from seethrough.benchmarks.paper_figures import draw_pictures
 
         for line in draw_pictures(chosen.pictures):
             print(line, flush=True)

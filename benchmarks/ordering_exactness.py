@@ -13,12 +13,12 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.painted_scene import PaintedScene
-from benchmarks.rows import Row, row
-from renderer.camera import Camera
-from renderer.models.translucent.scenes import SCENES, scene
-from renderer.ordering.methods import prepare
-from renderer.ordering.polygons import Floats, Polygons
+from seethrough.benchmarks.painted_scene import PaintedScene
+from seethrough.benchmarks.rows import Row, row
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.models.translucent.scenes import SCENES, scene
+from seethrough.renderer.ordering.methods import prepare
+from seethrough.renderer.ordering.polygons import Floats, Polygons
 
 METHODS = ("bsp", "feudal", "feudal_dynamic")
 # Feudal priority compares all pairs: two thousand polygons are what it serves.

@@ -1,7 +1,7 @@
 """Paper 000's figures 4 to 6: what a missing order looks like, and what its order costs.
 
-`python -m benchmarks.ordering_accuracy --pictures FOLDER` draws them. Unblended: nothing shows
-through. Unsorted: blended in the order the polygons happen to be stored. Sorted: by `boxes`.
+`python -m seethrough.benchmarks.ordering_accuracy --pictures FOLDER` draws them. Unblended: nothing
+shows through. Unsorted: blended in the order the polygons happen to be stored. Sorted: by `boxes`.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.painted_scene import PaintedScene, Picture
-from renderer.models.translucent.scenes import TranslucentScene, panels, scene
-from renderer.ordering import boxes
-from renderer.ordering.polygons import Floats
+from seethrough.benchmarks.painted_scene import PaintedScene, Picture
+from seethrough.renderer.models.translucent.scenes import TranslucentScene, panels, scene
+from seethrough.renderer.ordering import boxes
+from seethrough.renderer.ordering.polygons import Floats
 
 SIZE = (480, 360)
 # Where the scenes are seen from: a direction, and a distance in radii.
@@ -94,7 +94,7 @@ def draw_rates(rates: dict[int, dict[str, float]], path: Path) -> None:
     """Figure 6: frame rate against the number of panels."""
     from matplotlib.figure import Figure
 
-    from benchmarks.ordering_figures import INK, PAPER, plain, save
+    from seethrough.benchmarks.ordering_figures import INK, PAPER, plain, save
 
     figure = Figure(figsize=(6.4, 3.6), layout="constrained", facecolor=PAPER)
     axes = figure.subplots()

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.speed import Figure, row
-from renderer.gpu.renderer import Renderer
+from seethrough.benchmarks.speed import Figure, row
+from seethrough.renderer.gpu.renderer import Renderer
 
 
 def flip(truth: np.ndarray, picture: np.ndarray) -> float | None:

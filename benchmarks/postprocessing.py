@@ -26,13 +26,13 @@ from collections.abc import Callable
 import numba
 import numpy as np
 
-from renderer.ordering.bsp import PreparedBsp
-from renderer.ordering.feudal import PreparedFeudal
-from renderer.ordering.feudal_stretches import BLOCK, Stretches
-from renderer.ordering.feudal_stretches import emit as emit_stretches
-from renderer.ordering.polygons import Floats
-from renderer.ordering.tree import EITHER, Tree
-from renderer.ordering.tree import emit as emit_tree
+from seethrough.renderer.ordering.bsp import PreparedBsp
+from seethrough.renderer.ordering.feudal import PreparedFeudal
+from seethrough.renderer.ordering.feudal_stretches import BLOCK, Stretches
+from seethrough.renderer.ordering.feudal_stretches import emit as emit_stretches
+from seethrough.renderer.ordering.polygons import Floats
+from seethrough.renderer.ordering.tree import EITHER, Tree
+from seethrough.renderer.ordering.tree import emit as emit_tree
 
 VIEWS, TURNS = 500, 40
 

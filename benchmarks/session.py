@@ -16,28 +16,28 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.rows import Row, row
-from experiment.clock import SimulatedClock
-from experiment.config import Study, load
-from experiment.design import SIMULATED, generator, session_for
-from experiment.looking import Looking
-from experiment.recorder import FileRecorder, Who
-from experiment.replay import find_trial, replay
-from experiment.world import TrialRecord
-from renderer.gpu.context import standalone
-from tasks.base import Outcome, View
-from tasks.catalog import TASKS
-from tasks.events import PointerMove, Tick
+from seethrough.benchmarks.rows import Row, row
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.config import Study, load
+from seethrough.experiment.design import SIMULATED, generator, session_for
+from seethrough.experiment.looking import Looking
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.replay import find_trial, replay
+from seethrough.experiment.world import TrialRecord
+from seethrough.renderer.gpu.context import standalone
+from seethrough.tasks.base import Outcome, View
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import PointerMove, Tick
 
 FRAMES = 3600  # a minute at 60 Hz
 DRAGGED = 10.0  # s
 FIRST_FRAME = """
 import sys, time
-from experiment.config import load
-from experiment.clock import RealClock
-from experiment.pages import Page, Paragraph
-from experiment.texts import Texts
-from experiment.window import Window
+from seethrough.experiment.config import load
+from seethrough.experiment.clock import RealClock
+from seethrough.experiment.pages import Page, Paragraph
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.window import Window
 study = load("published")
 window = Window(study.display, Texts("en"), RealClock(), "bench")
 def shown():
@@ -67,7 +67,7 @@ def figures() -> Iterator[Row]:
 
 
 def _first_view(study: Study) -> tuple[Any, View]:
-    from experiment.scenes import StudyScenes
+    from seethrough.experiment.scenes import StudyScenes
 
     trial = session_for(1, study.design.factors())[0].trials[0]
     task = TASKS[trial.task]
@@ -100,12 +100,12 @@ def _recording(folder: Path) -> tuple[float, float]:
 
 def _replay(folder: Path) -> float:
     """How many times faster than real time a simulated demo session is replayed and looked at."""
-    from experiment.offscreen import OffscreenDisplay
-    from experiment.participants.participant import SimulatedParticipant
-    from experiment.provenance import provenance
-    from experiment.session import run_session
-    from experiment.simulated_input import SimulatedInput
-    from experiment.world import World
+    from seethrough.experiment.offscreen import OffscreenDisplay
+    from seethrough.experiment.participants.participant import SimulatedParticipant
+    from seethrough.experiment.provenance import provenance
+    from seethrough.experiment.session import run_session
+    from seethrough.experiment.simulated_input import SimulatedInput
+    from seethrough.experiment.world import World
 
     study, clock, context = load("demo"), SimulatedClock(), standalone()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
@@ -152,7 +152,7 @@ def _screen() -> Iterator[dict[str, str] | None]:
 
 def _dragged(level: str, screen: dict[str, str]) -> dict[str, float]:
     """Ten seconds of a session in a window of a process of its own (window_frames.py)."""
-    words = [sys.executable, "-m", "benchmarks.window_frames", level, str(DRAGGED)]
+    words = [sys.executable, "-m", "seethrough.benchmarks.window_frames", level, str(DRAGGED)]
     done = subprocess.run(
         words, capture_output=True, text=True, check=True, timeout=300, env=screen
     )

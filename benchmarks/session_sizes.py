@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 from numpy.random import Generator
 
-from analysis.measures import log_time_by_task, over_tasks
-from analysis.mixed import mixed_model
-from analysis.stats.paired import one_sample
-from analysis.stats.undefined import is_defined
-from analysis.validity import learning_slopes, order_tests
+from seethrough.analysis.measures import log_time_by_task, over_tasks
+from seethrough.analysis.mixed import mixed_model
+from seethrough.analysis.stats.paired import one_sample
+from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.validity import learning_slopes, order_tests
 
 ORDERS = ((0, 1, 3, 2), (1, 2, 0, 3), (2, 3, 1, 0), (3, 0, 2, 1))  # a Williams square
 CONDITIONS = tuple((t, s) for t in ("standard", "dynamic") for s in ("abstract", "walkthrough"))

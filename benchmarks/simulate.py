@@ -1,8 +1,8 @@
 """What simulating a study costs, and how near simulated people come to the published ones.
 
 `seethrough bench simulate` prints the whole table; `--only data,many` parts of it. Visibility
-tables are made first, in a folder of their own, and timed apart; `python -m benchmarks.simulate
---tables FILE` keeps them for the next time.
+tables are made first, in a folder of their own, and timed apart; `python -m
+seethrough.benchmarks.simulate --tables FILE` keeps them for the next time.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from benchmarks import eyes
-from benchmarks.memory import Watch
-from benchmarks.rows import Row, row
-from experiment.config import load
-from experiment.participants import batch, data_run
-from experiment.participants.calibration import FITTED, HELD_OUT, measured, published
-from experiment.participants.fitting import Crowd
-from experiment.participants.looks import KeptLooks
-from experiment.participants.pool import drawing
-from experiment.participants.profile import Profile
-from experiment.participants.profile_file import find
+from seethrough.benchmarks import eyes
+from seethrough.benchmarks.memory import Watch
+from seethrough.benchmarks.rows import Row, row
+from seethrough.experiment.config import load
+from seethrough.experiment.participants import batch, data_run
+from seethrough.experiment.participants.calibration import FITTED, HELD_OUT, measured, published
+from seethrough.experiment.participants.fitting import Crowd
+from seethrough.experiment.participants.looks import KeptLooks
+from seethrough.experiment.participants.pool import drawing
+from seethrough.experiment.participants.profile import Profile
+from seethrough.experiment.participants.profile_file import find
 
 STUDY = "published"
 PROFILE = "calibrated"
@@ -63,7 +63,7 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
 
 def visual() -> Iterator[Row]:
     """The published study through the real session, on this machine."""
-    from experiment.commands.simulate import simulate
+    from seethrough.experiment.commands.simulate import simulate
 
     study = load(STUDY)
     with tempfile.TemporaryDirectory() as folder:
@@ -136,7 +136,7 @@ def many(job: batch.Batch, count: int = MANY) -> Iterator[Row]:
     words = ["simulate", job.study, "--mode", "data", "--seed", job.seed, "--pool", job.pool,
              "--participants", count, "--workers", WORKERS, "--tables", job.tables]  # fmt: skip
     with tempfile.TemporaryDirectory() as folder, Watch(own=False) as watch:
-        command = [sys.executable, "-m", "experiment", *map(str, words), "--out", f"{folder}/data"]
+        command = [sys.executable, "-m", "seethrough", *map(str, words), "--out", f"{folder}/data"]
         before = sum(os.times()[2:4])
         seconds, _ = timed(lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL))
         processor = sum(os.times()[2:4]) - before
@@ -214,7 +214,7 @@ def _say(what: str) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Parts of the benchmark from tables that are kept."""
-    from experiment.commands.bench import line
+    from seethrough.experiment.commands.bench import line
 
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--tables", type=Path, required=True, help="made if it is not there")

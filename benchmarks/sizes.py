@@ -14,14 +14,20 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from analysis.equivalence import equivalence, log_equivalence
-from analysis.stats.anova import repeated_measures
-from analysis.stats.distributions import holm, negligible_p
-from analysis.stats.paired import one_sample, paired, ratio_of_means, within_halfwidths
-from analysis.stats.ranks import friedman, post_hoc, share_interval, sign_test, signed_rank
-from analysis.stats.undefined import Interval, Number, is_defined
-from analysis.tradeoff import correlation
-from benchmarks.rows import Row, row
+from seethrough.analysis.equivalence import equivalence, log_equivalence
+from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.distributions import holm, negligible_p
+from seethrough.analysis.stats.paired import one_sample, paired, ratio_of_means, within_halfwidths
+from seethrough.analysis.stats.ranks import (
+    friedman,
+    post_hoc,
+    share_interval,
+    sign_test,
+    signed_rank,
+)
+from seethrough.analysis.stats.undefined import Interval, Number, is_defined
+from seethrough.analysis.tradeoff import correlation
+from seethrough.benchmarks.rows import Row, row
 
 Array = NDArray[np.float64]
 ALPHA = 0.05
@@ -249,7 +255,7 @@ def skewed(n: int) -> Callable[[Generator], Found]:
 
 def kinds() -> list[Studies]:
     """Every kind of study, and what of it is known not to hold."""
-    from benchmarks.session_sizes import mixed_sessions, sessions
+    from seethrough.benchmarks.session_sizes import mixed_sessions, sessions
 
     half = {"interval of the difference": 0.95}
     raw = ("F of raw times", "interval of the difference, raw times",

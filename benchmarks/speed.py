@@ -14,19 +14,19 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.memory import used_by
-from benchmarks.paper_way import PaperWay
-from benchmarks.rows import Row as Figure
-from benchmarks.rows import row
-from benchmarks.scenes import SCENES
-from experiment.looking import HEIGHT
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from renderer.models.simple import simplified
-from renderer.plan import plan
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.benchmarks.memory import used_by
+from seethrough.benchmarks.paper_way import PaperWay
+from seethrough.benchmarks.rows import Row as Figure
+from seethrough.benchmarks.rows import row
+from seethrough.benchmarks.scenes import SCENES
+from seethrough.experiment.looking import HEIGHT
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.models.simple import simplified
+from seethrough.renderer.plan import plan
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 SIZES = ((800, 600), (1280, 1024))
 VIEWS, TURNS = 6, 4
@@ -190,10 +190,10 @@ def _of_looks(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
 
 
 _MEMORY = """
-from benchmarks.scenes import walkthrough
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.benchmarks.scenes import walkthrough
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 scene, cameras = walkthrough(4 / 3, 4)
 renderer = Renderer(standalone(), (800, 600))
 for camera in cameras:

@@ -20,12 +20,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from analysis.load.schema import QUESTIONNAIRE, TRIALS
-from analysis.stats.anova import repeated_measures
-from analysis.stats.undefined import is_defined
-from benchmarks.memory import used_by
-from benchmarks.rows import Row, row
-from benchmarks.sizes import sizes
+from seethrough.analysis.load.schema import QUESTIONNAIRE, TRIALS
+from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.undefined import is_defined
+from seethrough.benchmarks.memory import used_by
+from seethrough.benchmarks.rows import Row, row
+from seethrough.benchmarks.sizes import sizes
 
 Array = NDArray[np.float64]
 OFFSETS = (0.0, 1e6, 1e9, 1e12, 1e15)
@@ -33,7 +33,7 @@ REPORTS = ((16, 10.0, None), (10_000, 40.0, 1.5))
 """Participants of 24 trials, the most seconds, the most GiB."""
 REPORT = """
 import sys
-from experiment.cli import main
+from seethrough.experiment.cli import main
 if main(sys.argv[1:]):
     raise SystemExit(2)
 """

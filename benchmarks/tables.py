@@ -11,14 +11,14 @@ import os
 import platform
 from pathlib import Path
 
-from benchmarks.rows import Row
+from seethrough.benchmarks.rows import Row
 
 
 def machine() -> str:
     """The machine and the driver, in a line."""
     text = f"{os.cpu_count()} cores ({platform.machine()}), Python {platform.python_version()}"
     try:
-        from renderer.gpu.context import standalone
+        from seethrough.renderer.gpu.context import standalone
 
         info = standalone().info
     except RuntimeError:

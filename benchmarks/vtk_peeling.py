@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.scenes import SCENES
-from benchmarks.speed import Figure, row, times
-from renderer.camera import Camera
-from renderer.gpu.renderer import Renderer
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.benchmarks.scenes import SCENES
+from seethrough.benchmarks.speed import Figure, row, times
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 VIEWS, PEELS = 2, 100
 EXACT = DynamicTransparency(exact=True)
@@ -139,7 +139,7 @@ def figures(renderer: Renderer) -> Iterator[Figure]:
         print(LEFT_OUT, file=sys.stderr)
         return
     # A process of its own: two libraries cannot share the thread's current OpenGL context.
-    code = f"from benchmarks.vtk_peeling import main; main({renderer.size})"
+    code = f"from seethrough.benchmarks.vtk_peeling import main; main({renderer.size})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     theirs = json.loads(done.stdout.splitlines()[-1])
     for name, make in SCENES.items():

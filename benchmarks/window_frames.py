@@ -1,6 +1,6 @@
 """Frames of a session in a real window while somebody drags the abstract scene.
 
-    python -m benchmarks.window_frames standard|dynamic [SECONDS]
+    python -m seethrough.benchmarks.window_frames standard|dynamic [SECONDS]
 
 Prints {frames, missed, worst, cpu, drawing} as JSON: the share of frames that took over 1.5
 periods; the worst frame; and the processor time of a frame, of all threads, for the whole of the
@@ -16,16 +16,16 @@ import time
 from pathlib import Path
 from typing import Any
 
-from experiment.clock import RealClock
-from experiment.config import load
-from experiment.design import session_for
-from experiment.recorder import FileRecorder, Who
-from experiment.texts import Texts
-from experiment.trial import TrialRun
-from experiment.window import _KEYS, Window
-from experiment.world import World
-from tasks.base import View
-from tasks.catalog import TASKS
+from seethrough.experiment.clock import RealClock
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.trial import TrialRun
+from seethrough.experiment.window import _KEYS, Window
+from seethrough.experiment.world import World
+from seethrough.tasks.base import View
+from seethrough.tasks.catalog import TASKS
 
 LEFT = 1  # pyglet's number of the left button
 AGAIN = 300  # views that the renderer draws again alone

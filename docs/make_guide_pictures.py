@@ -13,22 +13,22 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from experiment import blocks
-from experiment.config import load
-from experiment.design import Trial, session_for
-from experiment.form import Form
-from experiment.pages import Page
-from experiment.questionnaire import after, asked, before
-from experiment.session import _feedback, _instruction, _page
-from experiment.stage import Stage
-from experiment.texts import Texts
-from experiment.trial import LEAVE, MENU, TrialRun
-from experiment.world import TrialRecord
-from renderer.gpu.context import standalone
-from tasks.base import Outcome
-from tasks.catalog import TASKS
-from tasks.events import KeyPress
-from tasks.hud import practice_mark
+from seethrough.experiment import blocks
+from seethrough.experiment.config import load
+from seethrough.experiment.design import Trial, session_for
+from seethrough.experiment.form import Form
+from seethrough.experiment.pages import Page
+from seethrough.experiment.questionnaire import after, asked, before
+from seethrough.experiment.session import _feedback, _instruction, _page
+from seethrough.experiment.stage import Stage
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.trial import LEAVE, MENU, TrialRun
+from seethrough.experiment.world import TrialRecord
+from seethrough.renderer.gpu.context import standalone
+from seethrough.tasks.base import Outcome
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import KeyPress
+from seethrough.tasks.hud import practice_mark
 
 SIZE = (800, 600)
 ENTER = KeyPress(0.0, "enter")

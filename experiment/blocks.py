@@ -3,7 +3,7 @@ public domain); SUS (Brooke 1996, free to use with its name)."""
 
 from __future__ import annotations
 
-from experiment.pages import Choice, Page, Scale, TextField
+from seethrough.experiment.pages import Choice, Page, Scale, TextField
 
 RATINGS = ("efficiency", "ease", "enjoy")
 TLX = ("mental", "physical", "temporal", "performance", "effort", "frustration")

@@ -14,17 +14,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.config import Study
-from experiment.design import Trial, session_for
-from experiment.looking import Looking
-from experiment.scenes import StudyScenes
-from renderer.camera import Camera, look_at
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
-from tasks.base import View
-from tasks.building import Building
-from tasks.catalog import TASKS
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import Trial, session_for
+from seethrough.experiment.looking import Looking
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.base import View
+from seethrough.tasks.building import Building
+from seethrough.tasks.catalog import TASKS
 
 ABSTRACT_VIEWS = 6
 HEADINGS = 4

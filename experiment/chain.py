@@ -19,8 +19,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from analysis.load.files import read_json
-from analysis.load.person import Folder
+from seethrough.analysis.load.files import read_json
+from seethrough.analysis.load.person import Folder
 
 TRIALS_TABLE, SIDECAR, END = "_trials_data.csv", "_trials_data.json", "_end.json"
 ANSWERS_TABLE = "_questionnaire_data.csv"

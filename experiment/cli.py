@@ -9,9 +9,9 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from analysis.errors import DataError
-from experiment import streams
-from experiment.errors import InputError, one_line, unknown
+from seethrough.analysis.errors import DataError
+from seethrough.experiment import streams
+from seethrough.experiment.errors import InputError, one_line, unknown
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
@@ -55,7 +55,7 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     for name, summary in COMMANDS.items():
         sub = commands.add_parser(name, help=summary, description=summary)
         if name == chosen:
-            module = importlib.import_module(f"experiment.commands.{name}")
+            module = importlib.import_module(f"seethrough.experiment.commands.{name}")
             module.add_arguments(sub)
             sub.set_defaults(run=module.run)
     return parser

@@ -12,12 +12,12 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, ValidationError
 
-from experiment.errors import MOST, InputError, gathered, short, shown
-from experiment.own_models import beside
-from experiment.parameter_tables import Fault, faulty, from_table
-from experiment.study_errors import study_error
-from experiment.study_files import LARGEST_TEXT, read_beside
-from experiment.study_tables import (
+from seethrough.experiment.errors import MOST, InputError, gathered, short, shown
+from seethrough.experiment.own_models import beside
+from seethrough.experiment.parameter_tables import Fault, faulty, from_table
+from seethrough.experiment.study_errors import study_error
+from seethrough.experiment.study_files import LARGEST_TEXT, read_beside
+from seethrough.experiment.study_tables import (
     AnalysisTable,
     DesignTable,
     DisplayTable,
@@ -25,10 +25,10 @@ from experiment.study_tables import (
     StudyTable,
     Table,
 )
-from experiment.texts import Texts
-from experiment.toml_file import read_toml
-from renderer.techniques.dynamic import DynamicTransparency
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.toml_file import read_toml
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 
 def _known_models(parameters: BuildingParameters) -> BuildingParameters:
@@ -36,7 +36,7 @@ def _known_models(parameters: BuildingParameters) -> BuildingParameters:
     types, own = parameters.types, [model.name for model in parameters.models]
     if not types and not own:
         return parameters
-    from renderer.models import MODELS
+    from seethrough.renderer.models import MODELS
 
     found = [
         Fault(f"models[{number}].name", name, "a name that no other model has")
@@ -87,7 +87,7 @@ class Study(Table):
 
 def shipped() -> dict[str, Path]:
     """Name → file of the studies that ship in configs/."""
-    folder = Path(str(resources.files("configs")))
+    folder = Path(str(resources.files("seethrough.configs")))
     return {p.stem: p for p in sorted(folder.glob("*.toml"))}
 
 

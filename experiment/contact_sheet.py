@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.config import Study
-from experiment.errors import InputError
-from renderer.camera import look_at
-from renderer.gpu.renderer import Renderer
-from renderer.models.user import Facts
-from renderer.scene import Object, Scene
-from renderer.techniques.standard import Standard
-from renderer.transforms import rotation_x, scaling
-from tasks.building import shown_size
-from tasks.own_models import mesh_of, read
-from tasks.parameters import OwnModel
+from seethrough.experiment.config import Study
+from seethrough.experiment.errors import InputError
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.models.user import Facts
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.transforms import rotation_x, scaling
+from seethrough.tasks.building import shown_size
+from seethrough.tasks.own_models import mesh_of, read
+from seethrough.tasks.parameters import OwnModel
 
 METRE = 2.0  # world units
 TILE, TEXT, MARGIN = 240, 300, 10

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from experiment.columns import TABLES, Column
-from experiment.errors import InputError
-from experiment.private import make_folder, write_new
+from seethrough.experiment.columns import TABLES, Column
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.private import make_folder, write_new
 
 FILE = "dataset_description.json"
 

@@ -9,15 +9,15 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.config import Study
-from experiment.design import STUDY_SCENES, generator
-from experiment.pages import PICTURE_ASPECT, Choice, Page, Picture
-from renderer.camera import Camera
-from renderer.scene import Object
-from renderer.transforms import rotation_y
-from tasks.base import View
-from tasks.catalog import TASKS
-from tasks.parameters import BuildingParameters
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import STUDY_SCENES, generator
+from seethrough.experiment.pages import PICTURE_ASPECT, Choice, Page, Picture
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Object
+from seethrough.renderer.transforms import rotation_y
+from seethrough.tasks.base import View
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.parameters import BuildingParameters
 
 PAIRS = 3
 RATIO = 1.2  # the farther of a pair is at least this much farther: ours

@@ -5,10 +5,13 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from experiment.columns import TABLES, Column
+from seethrough.experiment.columns import TABLES, Column
 
 README = Path(__file__).resolve().parents[1] / "data" / "README.md"
-BEGIN = "<!-- made by `python -m experiment.dictionary`: change experiment/columns.py, not this -->"
+BEGIN = (
+    "<!-- made by `python -m seethrough.experiment.dictionary`: "
+    "change experiment/columns.py, not this -->"
+)
 END = "<!-- end of what is made -->"
 
 

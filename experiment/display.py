@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from experiment.errors import InputError
-from experiment.pages import Answers, Page
-from tasks.base import View
-from tasks.events import Event
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.pages import Answers, Page
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event
 
 
 class Leave(Exception):

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from experiment.errors import InputError
+from seethrough.experiment.errors import InputError
 
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software")  # rasterisers on the processor
 INSTEAD = "`seethrough simulate` plays a study, `seethrough render` draws"
@@ -40,7 +40,9 @@ def on_the_processor(context: Any) -> bool:
 
 def open_context() -> Any:
     """A context without a window. Raises InputError, one line, where there is no OpenGL."""
-    from renderer.gpu.context import standalone  # here: who only names drivers needs no OpenGL
+    from seethrough.renderer.gpu.context import (
+        standalone,
+    )  # here: who only names drivers needs no OpenGL
 
     try:
         return standalone()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from experiment.errors import InputError
+from seethrough.experiment.errors import InputError
 
 PARTICIPANT = re.compile(r"[A-Za-z0-9_-]{1,32}")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from itertools import count
 
-from experiment.pages import Answers, Page, TextField
+from seethrough.experiment.pages import Answers, Page, TextField
 
 Setting = tuple[float, float]  # sizes of a page's text and of the gaps about it, 1 as a rule
 

@@ -7,17 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from experiment import gallery_hard
-from experiment.gallery_plates import DYNAMIC, LARGE, Plate, Section
-from renderer import geometry, transforms
-from renderer.camera import Camera, look_at
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import GRANULARITIES, MASKS
-from renderer.techniques.standard import Standard
-from tasks.abstract_scene import abstract_scene
-from tasks.building import unique_building
-from tasks.controls import orbit, walk
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.experiment import gallery_hard
+from seethrough.experiment.gallery_plates import DYNAMIC, LARGE, Plate, Section
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import GRANULARITIES, MASKS
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.building import unique_building
+from seethrough.tasks.controls import orbit, walk
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 BUILDING = 3  # the seed of one whose first room has models behind its walls
 
@@ -35,8 +35,8 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
 
 def _scenes(aspect: float, seed: int) -> Iterator[Plate]:
     """Paper 004's scenes, each drawn both ways, and the contact sheet of the models."""
-    from renderer.models.jeep import jeep_scene
-    from renderer.models.sheet import contact_sheet_scene
+    from seethrough.renderer.models.jeep import jeep_scene
+    from seethrough.renderer.models.sheet import contact_sheet_scene
 
     parameters = AbstractParameters()
     world = abstract_scene(np.random.default_rng(seed), parameters)
@@ -62,7 +62,7 @@ def _scenes(aspect: float, seed: int) -> Iterator[Plate]:
 
 def stage() -> tuple[Scene, Camera]:
     """A horse, a chair and a torus behind a fence of three groups of planks, a ball before it."""
-    from renderer.models import MODELS
+    from seethrough.renderer.models import MODELS
 
     rng = np.random.default_rng(4)
     objects = []

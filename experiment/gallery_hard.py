@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from experiment.gallery_plates import DYNAMIC, Plate, Section
-from renderer import geometry, transforms
-from renderer.camera import Camera, look_at
-from renderer.plan import Technique
-from renderer.scene import Object, Scene
-from tasks.abstract_scene import abstract_scene
-from tasks.parameters import AbstractParameters
+from seethrough.experiment.gallery_plates import DYNAMIC, Plate, Section
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.plan import Technique
+from seethrough.renderer.scene import Object, Scene
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.parameters import AbstractParameters
 
 RED, BLUE, GOLD, GREEN = (0.9, 0.15, 0.1), (0.2, 0.4, 0.9), (0.9, 0.7, 0.2), (0.3, 0.8, 0.4)
 FRONT = look_at(np.array([0.0, 1.5, 9.0]), np.zeros(3), fov_y=0.7, near=0.2, far=80)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from renderer.camera import Camera
-from renderer.plan import Technique
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.plan import Technique
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 DYNAMIC = DynamicTransparency()
 SIZE, LARGE = (400, 300), (800, 600)

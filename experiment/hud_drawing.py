@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from experiment.interface import Interface
-from experiment.texts import Texts
-from tasks.hud import Button, Element, Entry, FloorPlan, Inset, Label, Rect
+from seethrough.experiment.interface import Interface
+from seethrough.experiment.texts import Texts
+from seethrough.tasks.hud import Button, Element, Entry, FloorPlan, Inset, Label, Rect
 
 
 def rgba(red: float, green: float, blue: float, alpha: float = 1.0) -> int:

@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from renderer.gpu.overlay import STRIDE, Batch, Overlay
+from seethrough.renderer.gpu.overlay import STRIDE, Batch, Overlay
 
 FONTS = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"
 INSET_TEXTURES = 1 << 20  # names from here on are pictures of ours, below are ImGui's

@@ -1,6 +1,6 @@
 """The keys of a study file as they are declared: for messages, and the reference docs/keys.md.
 
-`python -m experiment.keys` writes the reference anew.
+`python -m seethrough.experiment.keys` writes the reference anew.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel
 
-from experiment.errors import shown
-from experiment.study_tables import (
+from seethrough.experiment.errors import shown
+from seethrough.experiment.study_tables import (
     AnalysisTable,
     DesignTable,
     DisplayTable,
@@ -23,9 +23,9 @@ from experiment.study_tables import (
     SessionTable,
     StudyTable,
 )
-from renderer.declared import Key, allowed, declared
-from renderer.techniques.dynamic import DynamicTransparency
-from tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
+from seethrough.renderer.declared import Key, allowed, declared
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
 
 REFERENCE = Path(__file__).resolve().parents[1] / "docs" / "keys.md"
 REQUIRED = object()
@@ -151,9 +151,9 @@ def _default(value: Any) -> str:
 
 _HEAD = """# The keys of a study file
 
-Made by `python -m experiment.keys` from what the code declares: change the declaration, not this
-page. A study file is TOML, in UTF-8; `seethrough check FILE --config-only` reads it and names every
-fault. What is not set has its default, which is that of the published study."""
+Made by `python -m seethrough.experiment.keys` from what the code declares: change the declaration,
+not this page. A study file is TOML, in UTF-8; `seethrough check FILE --config-only` reads it and
+names every fault. What is not set has its default, which is that of the published study."""
 
 _TAIL = """## `[texts]`
 

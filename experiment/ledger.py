@@ -19,14 +19,14 @@ from typing import Any
 import sqlalchemy as sql
 from sqlalchemy.engine import Connection, Engine
 
-from experiment import ledger_place as place
-from experiment import ledger_store as store
-from experiment import ledger_sums as sums
-from experiment.errors import InputError
-from experiment.folders import check_participant
-from experiment.ledger_lock import Locks
-from experiment.ledger_plan import Plan, difference
-from experiment.ledger_slots import (
+from seethrough.experiment import ledger_place as place
+from seethrough.experiment import ledger_store as store
+from seethrough.experiment import ledger_sums as sums
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.folders import check_participant
+from seethrough.experiment.ledger_lock import Locks
+from seethrough.experiment.ledger_plan import Plan, difference
+from seethrough.experiment.ledger_slots import (
     COMPLETE,
     LIVE,
     STALE,
@@ -40,7 +40,7 @@ from experiment.ledger_slots import (
     stale_before,
     stamp,
 )
-from experiment.private import make_folder
+from seethrough.experiment.private import make_folder
 
 
 class Ledger:

@@ -9,11 +9,11 @@ from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
-from experiment.errors import InputError
-from experiment.folders import PARTICIPANT, check_participant, folder_of, taken
-from experiment.ledger import Ledger
-from experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, moment, stamp
-from experiment.private import write, write_new
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.folders import PARTICIPANT, check_participant, folder_of, taken
+from seethrough.experiment.ledger import Ledger
+from seethrough.experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, moment, stamp
+from seethrough.experiment.private import write, write_new
 
 SOURCE = "human"
 WITHDRAWN = "withdrawn.csv"

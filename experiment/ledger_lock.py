@@ -23,10 +23,10 @@ from pathlib import Path
 import sqlalchemy as sql
 from sqlalchemy.engine import Connection, Engine
 
-from experiment import ledger_store as store
-from experiment.errors import InputError
-from experiment.interrupt import check
-from experiment.ledger_slots import stamp
+from seethrough.experiment import ledger_store as store
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.interrupt import check
+from seethrough.experiment.ledger_slots import stamp
 
 BEAT = 2.0  # s between heartbeats
 LEASE = 6.0  # s after its last heartbeat that a session writes without asking

@@ -12,9 +12,9 @@ from pathlib import Path
 from sqlalchemy.engine import URL, Engine
 from sqlalchemy.exc import DBAPIError
 
-from experiment import ledger_store as store
-from experiment.errors import InputError
-from experiment.private import make_folder, write_new
+from seethrough.experiment import ledger_store as store
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.private import make_folder, write_new
 
 FILE = "ledger.sqlite"
 LOCKS = "locks.sqlite"  # of sessions without a ledger: pilots

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from experiment.config import Study
+    from seethrough.experiment.config import Study
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class Plan:
 def plan_of(study: Study) -> Plan:
     """The plan of a study's config."""
     # Not above: a station that has its plan needs neither numpy nor the config.
-    from experiment.design import williams_rows
+    from seethrough.experiment.design import williams_rows
 
     rows = len(williams_rows(len(study.design.factors().conditions)))
     table, stale_after = study.study, study.session.stale_after

@@ -17,9 +17,9 @@ import sqlalchemy as sql
 from sqlalchemy.engine import URL, Connection, Engine, make_url
 from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 
-from experiment.errors import InputError
-from experiment.ledger_slots import COMPLETE, LIVE
-from experiment.network_drive import network_drive
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.ledger_slots import COMPLETE, LIVE
+from seethrough.experiment.network_drive import network_drive
 
 DAMAGED = (
     "the ledger is damaged: put back a copy, or move it away and it is made again from the data"

@@ -11,9 +11,9 @@ from typing import Any
 import sqlalchemy as sql
 from sqlalchemy.engine import Connection
 
-from experiment import ledger_store as store
-from experiment.errors import InputError
-from experiment.ledger_slots import Entry
+from seethrough.experiment import ledger_store as store
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.ledger_slots import Entry
 
 STUDY = ""  # stands for the study's own row: no participant has this id
 

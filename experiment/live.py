@@ -7,23 +7,23 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from experiment import refresh
-from experiment.clock import RealClock
-from experiment.config import Study
-from experiment.display import Input
-from experiment.interrupt import check
-from experiment.own_models import keep
-from experiment.provenance import changed_since, provenance
-from experiment.recorder import FileRecorder, Who
-from experiment.resume import going_on, starting_point
-from experiment.session import run_session
-from experiment.texts import Texts
-from experiment.window import Window
-from experiment.world import TrialRecord, World
-from tasks.catalog import TASKS
+from seethrough.experiment import refresh
+from seethrough.experiment.clock import RealClock
+from seethrough.experiment.config import Study
+from seethrough.experiment.display import Input
+from seethrough.experiment.interrupt import check
+from seethrough.experiment.own_models import keep
+from seethrough.experiment.provenance import changed_since, provenance
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.resume import going_on, starting_point
+from seethrough.experiment.session import run_session
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.window import Window
+from seethrough.experiment.world import TrialRecord, World
+from seethrough.tasks.catalog import TASKS
 
 if TYPE_CHECKING:
-    from experiment.participants.participant import SimulatedParticipant
+    from seethrough.experiment.participants.participant import SimulatedParticipant
 
 
 def play_in_window(
@@ -82,8 +82,8 @@ def play_in_window(
 
 
 def _simulated(participant: SimulatedParticipant, window: Window) -> Input:
-    from experiment.looking import Looking
-    from experiment.watched_input import WatchedInput
+    from seethrough.experiment.looking import Looking
+    from seethrough.experiment.watched_input import WatchedInput
 
     looking = Looking(window.context, window.size, simple=True)
     return WatchedInput(participant, window, looking)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from renderer.gpu.renderer import Renderer
-from renderer.models.simple import simplified
-from renderer.visibility import Visibility
-from tasks.base import View
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.models.simple import simplified
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import View
 
 HEIGHT = 150  # pixels of the id picture
 

@@ -10,18 +10,18 @@ from typing import Any
 
 import numpy as np
 
-from experiment.config import Study
-from experiment.design import Trial
-from experiment.driver import samples_for
-from experiment.scenes import StudyScenes
-from experiment.trial import MISSED
-from renderer.camera import Camera
-from renderer.explain import of_cluster
-from renderer.gpu.renderer import Renderer
-from renderer.plan import plan
-from renderer.techniques.standard import Standard
-from renderer.transforms import rotation_y
-from tasks.catalog import TASKS
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import Trial
+from seethrough.experiment.driver import samples_for
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.experiment.trial import MISSED
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.explain import of_cluster
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.plan import plan
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.transforms import rotation_y
+from seethrough.tasks.catalog import TASKS
 
 TURN = 0.5  # rad/s of the view while frames are timed: every frame is another picture
 

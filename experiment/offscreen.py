@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from experiment.clock import Clock
-from experiment.driver import describe
-from experiment.looking import Looking
-from renderer.visibility import Visibility
-from tasks.base import View
+from seethrough.experiment.clock import Clock
+from seethrough.experiment.driver import describe
+from seethrough.experiment.looking import Looking
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import View
 
 
 class OffscreenDisplay:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from experiment.errors import InputError
-from experiment.model_files import check_files
-from experiment.private import make_folder, write_new
-from tasks.own_models import READER, kept_as, mesh_of, packed, read
-from tasks.parameters import BuildingParameters
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.model_files import check_files
+from seethrough.experiment.private import make_folder, write_new
+from seethrough.tasks.own_models import READER, kept_as, mesh_of, packed, read
+from seethrough.tasks.parameters import BuildingParameters
 
 FOLDER = "models"
 

@@ -6,10 +6,18 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from experiment.form import Form
-from experiment.hud_drawing import ACCENT, INK, PAPER, draw_mark, draw_place, draw_plan, rgba
-from experiment.interface import Interface
-from experiment.pages import (
+from seethrough.experiment.form import Form
+from seethrough.experiment.hud_drawing import (
+    ACCENT,
+    INK,
+    PAPER,
+    draw_mark,
+    draw_place,
+    draw_plan,
+    rgba,
+)
+from seethrough.experiment.interface import Interface
+from seethrough.experiment.pages import (
     PICTURE_ASPECT,
     Choice,
     Paragraph,
@@ -19,9 +27,9 @@ from experiment.pages import (
     Scale,
     TextField,
 )
-from experiment.plates import Plate
-from experiment.texts import Texts
-from tasks.hud import Inset
+from seethrough.experiment.plates import Plate
+from seethrough.experiment.texts import Texts
+from seethrough.tasks.hud import Inset
 
 MOST_RADIOS = 10  # a scale of more steps is a slider
 COLORS = {

@@ -10,12 +10,12 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from experiment.form import Form, Setting
-from experiment.interface import SCREENS, Interface
-from experiment.page_blocks import COLORS, Blocks
-from experiment.pages import Picture
-from experiment.texts import Texts
-from tasks.hud import Inset
+from seethrough.experiment.form import Form, Setting
+from seethrough.experiment.interface import SCREENS, Interface
+from seethrough.experiment.page_blocks import COLORS, Blocks
+from seethrough.experiment.pages import Picture
+from seethrough.experiment.texts import Texts
+from seethrough.tasks.hud import Inset
 
 COLUMN = 1.05  # widest text column, in heights of the screen
 MARGIN = 0.06  # above and below, in heights of the screen

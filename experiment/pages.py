@@ -9,10 +9,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
-from experiment.plates import Plate
-from renderer.techniques.standard import Standard
-from tasks.base import View
-from tasks.hud import FloorPlan
+from seethrough.experiment.plates import Plate
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.base import View
+from seethrough.tasks.hud import FloorPlan
 
 Answers = dict[str, str]
 Values = tuple[tuple[str, str | float], ...]  # a placeholder's name, and what to put there

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 from pydantic import BeforeValidator, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
 
-from renderer.declared import Key, allowed, declared, problems
+from seethrough.renderer.declared import Key, allowed, declared, problems
 
 
 class Fault(NamedTuple):

@@ -16,9 +16,9 @@ from numpy.random import Generator, SeedSequence
 from numpy.typing import NDArray
 from scipy import special
 
-from analysis.stats.anova import contrast_scores
-from analysis.stats.distributions import t_quantile
-from analysis.stats.ranks import share_interval
+from seethrough.analysis.stats.anova import contrast_scores
+from seethrough.analysis.stats.distributions import t_quantile
+from seethrough.analysis.stats.ranks import share_interval
 
 Array = NDArray[np.float64]
 ANALYSIS = 3  # first word of the streams (CONVENTIONS.md)

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
-from analysis import measures
-from analysis.cells import Cells
-from analysis.errors import DataError
-from analysis.load.study import load_study
-from experiment.errors import InputError
-from experiment.power import SampledEffect
-from experiment.power_ranks import RankEffect
+from seethrough.analysis import measures
+from seethrough.analysis.cells import Cells
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.study import load_study
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.power import SampledEffect
+from seethrough.experiment.power_ranks import RankEffect
 
 LEVELS = ("standard", "dynamic")
 

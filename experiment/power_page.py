@@ -6,7 +6,7 @@ import io
 from collections.abc import Mapping, Sequence
 from html import escape
 
-from experiment.power import ENOUGH, Power
+from seethrough.experiment.power import ENOUGH, Power
 
 COLUMNS = 5  # of the table, at most
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;

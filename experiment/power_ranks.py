@@ -15,9 +15,9 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy import special
 
-from analysis.stats.ranks import sign_test
-from analysis.stats.ties import difference_signs
-from experiment.power import NormalEffect, SampledEffect
+from seethrough.analysis.stats.ranks import sign_test
+from seethrough.analysis.stats.ties import difference_signs
+from seethrough.experiment.power import NormalEffect, SampledEffect
 
 Array = NDArray[np.float64]
 

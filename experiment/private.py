@@ -9,8 +9,8 @@ import errno
 import os
 from pathlib import Path
 
-from analysis.written import FILE, FOLDER, half_of
-from experiment.errors import InputError
+from seethrough.analysis.written import FILE, FOLDER, half_of
+from seethrough.experiment.errors import InputError
 
 NO_LINKS = (errno.EPERM, errno.ENOTSUP, errno.EMLINK, errno.ENOSYS)
 

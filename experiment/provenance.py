@@ -10,7 +10,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from experiment.config import Study
+from seethrough.experiment.config import Study
 
 PACKAGES = ("seethrough", "moderngl", "pyglet", "numpy", "imgui-bundle", "pydantic")
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from experiment import blocks
-from experiment.config import Study
-from experiment.depth_test import PAIRS, depth_test
-from experiment.design import PARTICIPANT, generator
-from experiment.display import Input, Leave
-from experiment.pages import Choice, Page, Paragraph, PlatePicture, TextField
-from experiment.plates import DIGITS, Plate, plates
+from seethrough.experiment import blocks
+from seethrough.experiment.config import Study
+from seethrough.experiment.depth_test import PAIRS, depth_test
+from seethrough.experiment.design import PARTICIPANT, generator
+from seethrough.experiment.display import Input, Leave
+from seethrough.experiment.pages import Choice, Page, Paragraph, PlatePicture, TextField
+from seethrough.experiment.plates import DIGITS, Plate, plates
 
 Row = Mapping[str, str]
 Item = tuple[str, str, str]  # item, transparency, scenario; the last two empty where none applies

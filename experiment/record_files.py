@@ -18,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from experiment.chain import link
-from experiment.columns import Column
-from experiment.private import FILE, refused, sync_folder, write, write_new
-from tasks.base import View
-from tasks.events import Event, Tick
+from seethrough.experiment.chain import link
+from seethrough.experiment.columns import Column
+from seethrough.experiment.private import FILE, refused, sync_folder, write, write_new
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event, Tick
 
 EVENTS = "time,event,x,y,dx,dy,dragging,key,within"
 CHUNK = 1 << 16  # bytes of traces that are kept before they are written

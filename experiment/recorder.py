@@ -16,8 +16,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from analysis.load.person import Folder
-from experiment.chain import (
+from seethrough.analysis.load.person import Folder
+from seethrough.experiment.chain import (
     END,
     TRIALS_TABLE,
     end_of,
@@ -26,16 +26,16 @@ from experiment.chain import (
     seal_of,
     start_of,
 )
-from experiment.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
-from experiment.dataset import describe_dataset
-from experiment.design import Trial
-from experiment.errors import InputError
-from experiment.folders import folder_of, next_free, plain, stem_of, taken
-from experiment.private import make_folder, refused, write_new
-from experiment.record_files import Table, Traces, header_of, mend
-from experiment.world import TrialRecord
-from tasks.base import View
-from tasks.events import Event
+from seethrough.experiment.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
+from seethrough.experiment.dataset import describe_dataset
+from seethrough.experiment.design import Trial
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.folders import folder_of, next_free, plain, stem_of, taken
+from seethrough.experiment.private import make_folder, refused, write_new
+from seethrough.experiment.record_files import Table, Traces, header_of, mend
+from seethrough.experiment.world import TrialRecord
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from experiment.chain import END, SIDECAR, TRIALS_TABLE
-from experiment.errors import InputError
-from experiment.folders import folder_of
-from experiment.private import make_folder, sync_folder, write_new
+from seethrough.experiment.chain import END, SIDECAR, TRIALS_TABLE
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.folders import folder_of
+from seethrough.experiment.private import make_folder, sync_folder, write_new
 
 ASIDE = "aside"  # beside `data`: what no report and no export reads
 MARK = "_repair.json"

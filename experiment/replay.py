@@ -13,21 +13,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from analysis.load.chain import read_rows
-from analysis.load.files import Source
-from analysis.load.person import CHUNK, Session
-from analysis.load.schema import SOURCES
-from analysis.load.whole import verified_person
-from experiment.config import Study, parse
-from experiment.design import Trial, session_for
-from experiment.errors import InputError
-from experiment.folders import check_participant, folder_of
-from experiment.own_models import kept
-from experiment.scenes import StudyScenes
-from renderer.techniques.standard import Standard
-from tasks import events as ev
-from tasks.base import Outcome, View
-from tasks.catalog import TASKS
+from seethrough.analysis.load.chain import read_rows
+from seethrough.analysis.load.files import Source
+from seethrough.analysis.load.person import CHUNK, Session
+from seethrough.analysis.load.schema import SOURCES
+from seethrough.analysis.load.whole import verified_person
+from seethrough.experiment.config import Study, parse
+from seethrough.experiment.design import Trial, session_for
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.folders import check_participant, folder_of
+from seethrough.experiment.own_models import kept
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks import events as ev
+from seethrough.tasks.base import Outcome, View
+from seethrough.tasks.catalog import TASKS
 
 KINDS = {c.__name__: c for c in (ev.PointerMove, ev.PointerPress, ev.PointerRelease)}
 CAMERA = ("eye_x", "eye_y", "eye_z", "forward_x", "forward_y", "forward_z")

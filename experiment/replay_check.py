@@ -6,11 +6,11 @@ import csv
 from collections.abc import Iterator
 from dataclasses import asdict
 
-from experiment.driver import open_context
-from experiment.record_files import cell
-from experiment.replay import Frame, Recorded
-from experiment.stage import Stage
-from experiment.texts import Texts
+from seethrough.experiment.driver import open_context
+from seethrough.experiment.record_files import cell
+from seethrough.experiment.replay import Frame, Recorded
+from seethrough.experiment.stage import Stage
+from seethrough.experiment.texts import Texts
 
 
 def has_pictures(recorded: Recorded) -> bool:

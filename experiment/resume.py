@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from analysis.load.chain import LONGEST_CELL
-from experiment.chain import ANSWERS_TABLE
-from experiment.config import Study
-from experiment.design import TaskSet, session_for
-from experiment.errors import InputError
-from experiment.folders import folder_of, next_free
-from experiment.questionnaire import Given, Item, item_of
-from experiment.record_files import whole_rows
+from seethrough.analysis.load.chain import LONGEST_CELL
+from seethrough.experiment.chain import ANSWERS_TABLE
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import TaskSet, session_for
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.folders import folder_of, next_free
+from seethrough.experiment.questionnaire import Given, Item, item_of
+from seethrough.experiment.record_files import whole_rows
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from experiment.config import Study
-from experiment.design import TRAINING_TRIAL, Trial, generator
-from tasks.base import Task
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import TRAINING_TRIAL, Trial, generator
+from seethrough.tasks.base import Task
 
 
 class StudyScenes:

@@ -10,15 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from experiment import questionnaire
-from experiment.config import Study
-from experiment.design import TaskSet, Trial, session_for
-from experiment.display import DisplayLost, Leave
-from experiment.pages import Page, Paragraph, Picture, PlanPicture, Values
-from experiment.questionnaire import Given, Step
-from experiment.trial import TrialRun
-from experiment.world import TrialRecord, World
-from tasks.parameters import METRES
+from seethrough.experiment import questionnaire
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import TaskSet, Trial, session_for
+from seethrough.experiment.display import DisplayLost, Leave
+from seethrough.experiment.pages import Page, Paragraph, Picture, PlanPicture, Values
+from seethrough.experiment.questionnaire import Given, Step
+from seethrough.experiment.trial import TrialRun
+from seethrough.experiment.world import TrialRecord, World
+from seethrough.tasks.parameters import METRES
 
 
 class TimeIsUp(Leave):

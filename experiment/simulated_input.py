@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from experiment.clock import SimulatedClock
-from experiment.pages import Answers, Page
-from experiment.participants.participant import SimulatedParticipant
-from renderer.visibility import Visibility
-from tasks.base import View
-from tasks.events import Event, Tick
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.pages import Answers, Page
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event, Tick
 
 
 class Looks(Protocol):

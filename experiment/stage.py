@@ -8,16 +8,16 @@ from typing import Any
 
 import moderngl
 
-from experiment.form import Form
-from experiment.hud_drawing import HudDrawing, draw_progress
-from experiment.interface import INSET_TEXTURES, Interface
-from experiment.page_drawing import PageDrawing
-from experiment.pages import Picture
-from experiment.texts import Texts
-from renderer.gpu.renderer import Renderer
-from renderer.techniques.standard import Standard
-from tasks.base import View
-from tasks.hud import Inset, Label
+from seethrough.experiment.form import Form
+from seethrough.experiment.hud_drawing import HudDrawing, draw_progress
+from seethrough.experiment.interface import INSET_TEXTURES, Interface
+from seethrough.experiment.page_drawing import PageDrawing
+from seethrough.experiment.pages import Picture
+from seethrough.experiment.texts import Texts
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.base import View
+from seethrough.tasks.hud import Inset, Label
 
 
 class Stage:

@@ -9,9 +9,9 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from experiment.errors import MOST, InputError, gathered, short, shown, unknown
-from experiment.keys import TABLES, keys_of
-from experiment.parameter_tables import MISSING, Fault
+from seethrough.experiment.errors import MOST, InputError, gathered, short, shown, unknown
+from seethrough.experiment.keys import TABLES, keys_of
+from seethrough.experiment.parameter_tables import MISSING, Fault
 
 SECTIONS = (*(t for t in TABLES if "." not in t), "texts")
 

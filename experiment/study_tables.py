@@ -12,8 +12,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator
 
-from experiment.design import Factors
-from experiment.folders import PARTICIPANT
+from seethrough.experiment.design import Factors
+from seethrough.experiment.folders import PARTICIPANT
 
 TaskName = Literal["count", "pattern", "unique", "count_in_building"]
 TASK_SCENARIO: Mapping[str, str] = {
@@ -35,7 +35,7 @@ LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
 def languages() -> tuple[str, ...]:
     """The languages that there are texts in."""
-    folder = resources.files("experiment").joinpath("languages")
+    folder = resources.files("seethrough.experiment").joinpath("languages")
     return tuple(sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml")))
 
 

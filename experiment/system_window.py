@@ -18,9 +18,9 @@ import pyglet
 pyglet.options.shadow_window = False
 import pyglet.window
 
-from experiment.driver import no_window
-from experiment.event_time import EventTime, x11_stamp
-from experiment.study_tables import DisplayTable
+from seethrough.experiment.driver import no_window
+from seethrough.experiment.event_time import EventTime, x11_stamp
+from seethrough.experiment.study_tables import DisplayTable
 
 ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
 ASKED, PROMPT = 5, 0.02  # how often the server is asked the time until it says so within so many s

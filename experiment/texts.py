@@ -7,15 +7,15 @@ from collections.abc import Iterable, Mapping
 from importlib import resources
 from typing import Any
 
-from experiment.errors import InputError, short, shown, unknown
-from experiment.study_tables import languages
+from seethrough.experiment.errors import InputError, short, shown, unknown
+from seethrough.experiment.study_tables import languages
 
 
 class Texts:
     """All texts of a session, in one language. Lookup of an unknown key raises KeyError."""
 
     def __init__(self, language: str, replaced: Mapping[str, str] | None = None) -> None:
-        file = resources.files("experiment").joinpath("languages", f"{language}.toml")
+        file = resources.files("seethrough.experiment").joinpath("languages", f"{language}.toml")
         if not file.is_file():
             raise InputError(
                 f"study.language = {shown(language)}: expected one of {', '.join(languages())}"

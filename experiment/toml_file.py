@@ -11,8 +11,8 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from experiment.errors import InputError, short
-from experiment.study_files import LARGEST_STUDY, read_regular
+from seethrough.experiment.errors import InputError, short
+from seethrough.experiment.study_files import LARGEST_STUDY, read_regular
 
 DEEPEST = 16  # names in a dotted key: a study has three
 LONGEST = 200  # characters of a bare word: tomllib takes the square of a key's or number's length

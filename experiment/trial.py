@@ -7,17 +7,17 @@ from functools import partial
 from math import acos, dist, inf
 from typing import Any, TypeGuard
 
-from experiment import viewpoint
-from experiment.config import Study
-from experiment.design import Trial
-from experiment.display import Leave
-from experiment.pages import PICTURE_ASPECT, Page, Paragraph, TextField
-from experiment.scenes import StudyScenes
-from experiment.world import TrialRecord, World
-from renderer.camera import Camera
-from renderer.techniques.standard import Standard
-from tasks.base import Outcome, View
-from tasks.events import (
+from seethrough.experiment import viewpoint
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import Trial
+from seethrough.experiment.display import Leave
+from seethrough.experiment.pages import PICTURE_ASPECT, Page, Paragraph, TextField
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.experiment.world import TrialRecord, World
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.base import Outcome, View
+from seethrough.tasks.events import (
     Event,
     FocusChange,
     KeyPress,
@@ -26,7 +26,7 @@ from tasks.events import (
     PointerRelease,
     Tick,
 )
-from tasks.hud import Inset, practice_mark
+from seethrough.tasks.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
 MISSED = 1.5

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from experiment.driver import open_context
-from experiment.errors import InputError
-from experiment.replay import Recorded, replay
-from experiment.stage import Stage
-from experiment.texts import Texts
+from seethrough.experiment.driver import open_context
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.replay import Recorded, replay
+from seethrough.experiment.stage import Stage
+from seethrough.experiment.texts import Texts
 
 RATE = 30
 

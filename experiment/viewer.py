@@ -8,11 +8,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera, look_at
-from renderer.gpu.polygons import Corners, PolygonPainter
-from renderer.gpu.programs import program
-from renderer.models.translucent.scenes import TranslucentScene
-from renderer.ordering.prepared import Drawable, Prepared, drawable
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.gpu.polygons import Corners, PolygonPainter
+from seethrough.renderer.gpu.programs import program
+from seethrough.renderer.models.translucent.scenes import TranslucentScene
+from seethrough.renderer.ordering.prepared import Drawable, Prepared, drawable
 
 STEP = 0.08  # radians a key press turns the view
 STEEPEST = 1.5

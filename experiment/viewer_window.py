@@ -7,10 +7,10 @@ import pyglet
 pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
-from experiment.driver import no_window, window_context
-from experiment.viewer import Viewer, ViewState
-from renderer.models.translucent.scenes import TranslucentScene
-from renderer.ordering.prepared import Prepared
+from seethrough.experiment.driver import no_window, window_context
+from seethrough.experiment.viewer import Viewer, ViewState
+from seethrough.renderer.models.translucent.scenes import TranslucentScene
+from seethrough.renderer.ordering.prepared import Prepared
 
 KEYS = {
     key.T: "t", key.O: "o", key.L: "l", key.P: "p", key.LEFT: "left", key.RIGHT: "right",

@@ -8,10 +8,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.fragments import fragments
-from renderer.scene import Scene
-from tasks.base import Example
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.fragments import fragments
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.base import Example
 
 SIZE = (64, 48)  # of the pictures in which pixels are counted
 

@@ -12,9 +12,9 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Any
 
-from experiment.display import Leave
-from experiment.form import Form
-from experiment.pages import Answers, Page
+from seethrough.experiment.display import Leave
+from seethrough.experiment.form import Form
+from seethrough.experiment.pages import Answers, Page
 
 PATIENCE = 0.1  # s; between two trials, what is made sooner is not worth a word
 

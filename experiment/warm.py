@@ -1,6 +1,6 @@
 """Compiles what is compiled at first use, so that no participant waits for it.
 
-    python -m experiment.warm
+    python -m seethrough.experiment.warm
 
 numba keeps the result on disk, and so do Mesa and most drivers of graphics cards. start.py does
 this once, at the end of the installation.
@@ -13,17 +13,17 @@ from itertools import product
 
 import numpy as np
 
-from experiment.config import load
-from experiment.design import session_for
-from experiment.scenes import StudyScenes
-from renderer import geometry, transforms
-from renderer.camera import Camera
-from renderer.gpu.context import standalone
-from renderer.gpu.few_sorter import MASKS, SLICES
-from renderer.gpu.renderer import Renderer
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from tasks.catalog import TASKS
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.few_sorter import MASKS, SLICES
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.tasks.catalog import TASKS
 
 SIZE = (160, 120)
 CAMERA = Camera(np.zeros(3), np.eye(3), near=0.5, far=60.0)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import deque
 
-from experiment.display import Leave
-from experiment.looking import Looking
-from experiment.pages import Answers, Page
-from experiment.participants.participant import SimulatedParticipant
-from experiment.window import Window
-from tasks.base import View
-from tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease, Tick
+from seethrough.experiment.display import Leave
+from seethrough.experiment.looking import Looking
+from seethrough.experiment.pages import Answers, Page
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.window import Window
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event, KeyPress, PointerMove, PointerPress, PointerRelease, Tick
 
 
 class WatchedInput:

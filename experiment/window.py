@@ -16,23 +16,23 @@ import pyglet
 pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
-from experiment.clock import Clock
-from experiment.display import DisplayLost, Leave
-from experiment.driver import describe, samples_for, window_context
-from experiment.event_time import EventTime
-from experiment.form import Form
-from experiment.interrupt import check
-from experiment.key_names import KEY_NAMES
-from experiment.pages import Answers, Page
-from experiment.refresh import rate_of
-from experiment.stage import Stage
-from experiment.study_tables import DisplayTable
-from experiment.system_window import ON_X11, open_window, say_when_the_server_goes
-from experiment.texts import Texts
-from experiment.trial import LEAVE, MEANT
-from experiment.waiting import Waits
-from tasks.base import View
-from tasks.events import (
+from seethrough.experiment.clock import Clock
+from seethrough.experiment.display import DisplayLost, Leave
+from seethrough.experiment.driver import describe, samples_for, window_context
+from seethrough.experiment.event_time import EventTime
+from seethrough.experiment.form import Form
+from seethrough.experiment.interrupt import check
+from seethrough.experiment.key_names import KEY_NAMES
+from seethrough.experiment.pages import Answers, Page
+from seethrough.experiment.refresh import rate_of
+from seethrough.experiment.stage import Stage
+from seethrough.experiment.study_tables import DisplayTable
+from seethrough.experiment.system_window import ON_X11, open_window, say_when_the_server_goes
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.trial import LEAVE, MEANT
+from seethrough.experiment.waiting import Waits
+from seethrough.tasks.base import View
+from seethrough.tasks.events import (
     Event,
     FocusChange,
     KeyPress,

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from experiment.clock import Clock
-from experiment.design import Trial
-from experiment.display import Display, Input
-from experiment.scenes import StudyScenes
-from tasks.base import Outcome, Task
-from tasks.hud import FloorPlan
+from seethrough.experiment.clock import Clock
+from seethrough.experiment.design import Trial
+from seethrough.experiment.display import Display, Input
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.tasks.base import Outcome, Task
+from seethrough.tasks.hud import FloorPlan
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import doubt as doubts
-from renderer import levels, order
+from seethrough.renderer import doubt as doubts
+from seethrough.renderer import levels, order
 
 Indices = NDArray[np.int64]
 

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering import bsp
-from renderer.ordering.bsp import PreparedBsp
-from renderer.ordering.fragments import TooManyPieces
-from renderer.ordering.polygons import Polygons, triangles_from
-from renderer.scene import Object, Scene
+from seethrough.renderer.ordering import bsp
+from seethrough.renderer.ordering.bsp import PreparedBsp
+from seethrough.renderer.ordering.fragments import TooManyPieces
+from seethrough.renderer.ordering.polygons import Polygons, triangles_from
+from seethrough.renderer.scene import Object, Scene
 
 Indices = NDArray[np.int64]
 MOST = 3000  # triangles of a cluster: a tree of as many is built within a second

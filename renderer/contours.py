@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from renderer.silhouettes import Topology
+from seethrough.renderer.silhouettes import Topology
 
 # Pixels by which an outline may be moved where short edges are joined to one: a mask of 10 pixels
 # is off by at most 0.4 % there, and a colour by a step of 1/255.

@@ -13,10 +13,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from renderer.blocks import BLOCK
-from renderer.camera import Camera
-from renderer.geometry import Mesh
-from renderer.scene import Scene
+from seethrough.renderer.blocks import BLOCK
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.scene import Scene
 
 SLACK = 1.0  # pixels: what 32 bits on the GPU may round to
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import clusters
-from renderer.plan import BLENDED, HARD, OPAQUE, OUTSIDE, SHORTCUTS, FramePlan
-from renderer.scene import Scene
+from seethrough.renderer import clusters
+from seethrough.renderer.plan import BLENDED, HARD, OPAQUE, OUTSIDE, SHORTCUTS, FramePlan
+from seethrough.renderer.scene import Scene
 
 REASONS = {
     OUTSIDE: "not drawn: outside the view",

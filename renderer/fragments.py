@@ -8,9 +8,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from renderer import lighting, projection
-from renderer.camera import Camera
-from renderer.scene import Object, Scene
+from seethrough.renderer import lighting, projection
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Object, Scene
 
 
 @dataclass(frozen=True, eq=False)

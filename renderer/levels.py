@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from renderer.order import meet
+from seethrough.renderer.order import meet
 
 
 @njit(cache=True)

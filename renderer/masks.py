@@ -11,9 +11,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.scene import Object
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Object
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 
 def opacity(distance: NDArray[np.float64], technique: DynamicTransparency) -> NDArray[np.float64]:

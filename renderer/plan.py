@@ -16,13 +16,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import clusters, levels, masks, order
-from renderer.blending import Blending, merged_parts
-from renderer.camera import Camera
-from renderer.projection import Boxes, screen_boxes
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.renderer import clusters, levels, masks, order
+from seethrough.renderer.blending import Blending, merged_parts
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.projection import Boxes, screen_boxes
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 Technique = Standard | DynamicTransparency
 Indices = NDArray[np.int64]

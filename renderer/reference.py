@@ -20,13 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import masks
-from renderer.camera import Camera
-from renderer.fragments import Fragments, covered, distances, fragments
-from renderer.plan import Technique
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.renderer import masks
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.fragments import Fragments, covered, distances, fragments
+from seethrough.renderer.plan import Technique
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 
 @dataclass(frozen=True, eq=False)

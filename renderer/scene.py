@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.geometry import Mesh
+from seethrough.renderer.geometry import Mesh
 
 if TYPE_CHECKING:
-    from renderer.separation import Separations
+    from seethrough.renderer.separation import Separations
 
 Color = tuple[float, float, float]
 
@@ -137,7 +137,7 @@ class Scene:
     @cached_property
     def separations(self) -> Separations:
         """Planes between objects, found as frames ask for them."""
-        from renderer.separation import Separations
+        from seethrough.renderer.separation import Separations
 
         n = len(self.objects)
         return Separations(np.eye(n, dtype=bool))

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from renderer.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN
+from seethrough.renderer.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN
 
 STEPS = 100  # a gap of a hundredth of the objects' size is found in far fewer
 SLACK = 1e-7  # of the objects' size: a narrower gap is none

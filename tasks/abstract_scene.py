@@ -9,13 +9,13 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from renderer import geometry
-from renderer.geometry import Mesh
-from renderer.scene import Color, Object, Scene
-from renderer.transforms import placed, random_rotation
-from tasks.enclosure import enclosing_pairs, farthest
-from tasks.letters import grid_reach, letter_points
-from tasks.parameters import AbstractParameters
+from seethrough.renderer import geometry
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.scene import Color, Object, Scene
+from seethrough.renderer.transforms import placed, random_rotation
+from seethrough.tasks.enclosure import enclosing_pairs, farthest
+from seethrough.tasks.letters import grid_reach, letter_points
+from seethrough.tasks.parameters import AbstractParameters
 
 RED = (1.0, 0.0, 0.0)
 VERMILION = (0.835, 0.369, 0.0)  # the red of Okabe and Ito's palette, apart from blue for everybody

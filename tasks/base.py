@@ -7,10 +7,10 @@ from typing import Any, Protocol
 
 from numpy.random import Generator
 
-from renderer.camera import Camera
-from renderer.scene import Scene
-from tasks.events import Event
-from tasks.hud import Element, FloorPlan
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.events import Event
+from seethrough.tasks.hud import Element, FloorPlan
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from renderer.geometry import Mesh
-from renderer.scene import Object, Scene
-from renderer.transforms import placed, rotation_y
-from tasks.floor import Floor, random_floor
-from tasks.own_models import mesh_of
-from tasks.parameters import BuildingParameters
-from tasks.walls import inner_walls, shell
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.transforms import placed, rotation_y
+from seethrough.tasks.floor import Floor, random_floor
+from seethrough.tasks.own_models import mesh_of
+from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.walls import inner_walls, shell
 
 Models = Mapping[str, Callable[[], Mesh]]
 
@@ -76,7 +76,9 @@ def count_building(
 def _library(p: BuildingParameters, models: Models | None) -> Models:
     if models is not None:
         return models
-    from renderer.models import MODELS  # the meshes are only built by those who need them
+    from seethrough.renderer.models import (
+        MODELS,
+    )  # the meshes are only built by those who need them
 
     return {**MODELS, **{own.name: partial(mesh_of, own) for own in p.models}}
 

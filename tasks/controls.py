@@ -12,9 +12,9 @@ from typing import TypeVar
 
 import numpy as np
 
-from renderer.camera import Camera
-from tasks.events import Event, KeyPress, KeyRelease, PointerMove, Tick
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.renderer.camera import Camera
+from seethrough.tasks.events import Event, KeyPress, KeyRelease, PointerMove, Tick
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 Value = TypeVar("Value")
 ARROWS = frozenset({"left", "right", "up", "down"})

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.random import Generator
 
-from renderer.scene import Scene
-from tasks.abstract_scene import abstract_scene
-from tasks.base import Example, Outcome, View
-from tasks.controls import Orbit, of_view, orbit
-from tasks.entry import NumberEntry
-from tasks.events import Event
-from tasks.example import around
-from tasks.hud import Label
-from tasks.parameters import AbstractParameters
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.base import Example, Outcome, View
+from seethrough.tasks.controls import Orbit, of_view, orbit
+from seethrough.tasks.entry import NumberEntry
+from seethrough.tasks.events import Event
+from seethrough.tasks.example import around
+from seethrough.tasks.hud import Label
+from seethrough.tasks.parameters import AbstractParameters
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 from numpy.random import Generator
 
-from tasks.base import Example, Outcome, View
-from tasks.building import Building, count_building
-from tasks.count import number_outcome
-from tasks.entry import NumberEntry
-from tasks.events import Event, KeyPress
-from tasks.example import before
-from tasks.hud import Label
-from tasks.parameters import BuildingParameters
-from tasks.visit import Visit, visit
+from seethrough.tasks.base import Example, Outcome, View
+from seethrough.tasks.building import Building, count_building
+from seethrough.tasks.count import number_outcome
+from seethrough.tasks.entry import NumberEntry
+from seethrough.tasks.events import Event, KeyPress
+from seethrough.tasks.example import before
+from seethrough.tasks.hud import Label
+from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.visit import Visit, visit
 
 QUESTION = Label("count_in_building.question", (0.26, 0.02))
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import partial
 from math import sin
 
-from renderer.camera import Camera
-from renderer.scene import Object, Scene
-from tasks.building import Building
-from tasks.controls import turned
-from tasks.hud import Inset, Rect
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Object, Scene
+from seethrough.tasks.building import Building
+from seethrough.tasks.controls import turned
+from seethrough.tasks.hud import Inset, Rect
 
 PLACE = Rect(0.02, 0.02, 0.22, 0.22)
 FOV_Y = 0.7

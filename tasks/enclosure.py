@@ -8,9 +8,9 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.geometry import Mesh
-from renderer.scene import Object
-from renderer.transforms import moved
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.scene import Object
+from seethrough.renderer.transforms import moved
 
 # A vertex this far outside, relative to the mesh, still counts as inside: rather one scene
 # object drawn again than one that hides another by a rounding error.

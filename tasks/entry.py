@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from tasks.events import Event, KeyPress, PointerPress, PointerRelease
-from tasks.hud import Button, Element, Entry, Label, Rect, hint
+from seethrough.tasks.events import Event, KeyPress, PointerPress, PointerRelease
+from seethrough.tasks.hud import Button, Element, Entry, Label, Rect, hint
 
 KEYS = ("7", "8", "9", "4", "5", "6", "1", "2", "3", "backspace", "0", "enter")
 MOST_DIGITS = 4

@@ -8,9 +8,9 @@ from math import atan, atan2, pi
 
 import numpy as np
 
-from renderer.camera import Camera
-from tasks.controls import Orbit, changed
-from tasks.visit import Visit
+from seethrough.renderer.camera import Camera
+from seethrough.tasks.controls import Orbit, changed
+from seethrough.tasks.visit import Visit
 
 YAWS = 8  # of an orbit
 AWAY, DIRECTIONS = (7.5, 10.0), 6  # world units from a thing in the building, and sides of it

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from renderer.camera import Camera
-from renderer.scene import Scene
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Scene
 
 Point = tuple[float, float]
 

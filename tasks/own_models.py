@@ -11,11 +11,11 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from renderer.geometry import Mesh
-from tasks.parameters import OwnModel
+from seethrough.renderer.geometry import Mesh
+from seethrough.tasks.parameters import OwnModel
 
 if TYPE_CHECKING:
-    from renderer.models.user import Facts
+    from seethrough.renderer.models.user import Facts
 
 READER = 2
 """Changes with what the same file looks like: 1 was trimesh with colours as they came."""
@@ -46,7 +46,7 @@ def read(model: OwnModel) -> tuple[Mesh, Facts]:
 
 @cache
 def _read(path: Path, size: float, up: str, turn: float, detail: int) -> tuple[Mesh, Facts]:
-    from renderer.models.user import read_model  # only for those who have models
+    from seethrough.renderer.models.user import read_model  # only for those who have models
 
     return read_model(path, size, up, turn, detail)
 

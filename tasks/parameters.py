@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from renderer.declared import Of, check, key
+from seethrough.renderer.declared import Of, check, key
 
 SHAPES = ("sphere", "cone", "box", "torus")
 PALETTES = ("published", "colour-blind-safe")

@@ -7,15 +7,15 @@ from functools import lru_cache
 
 from numpy.random import Generator
 
-from renderer.scene import Scene
-from tasks.abstract_scene import abstract_scene
-from tasks.base import Example, Outcome, View
-from tasks.controls import Orbit, changed, of_view, orbit
-from tasks.events import Event, KeyPress, PointerPress, PointerRelease
-from tasks.example import around
-from tasks.hud import Button, Element, Label, Rect, hint
-from tasks.letters import LETTERS
-from tasks.parameters import AbstractParameters
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.base import Example, Outcome, View
+from seethrough.tasks.controls import Orbit, changed, of_view, orbit
+from seethrough.tasks.events import Event, KeyPress, PointerPress, PointerRelease
+from seethrough.tasks.example import around
+from seethrough.tasks.hud import Button, Element, Label, Rect, hint
+from seethrough.tasks.letters import LETTERS
+from seethrough.tasks.parameters import AbstractParameters
 
 SIZE, GAP, EDGE = 0.07, 0.012, 0.02
 HIGHER = (1.0,)  # radians of pitch, for the instruction's picture

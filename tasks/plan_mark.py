@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from tasks.building import Building
-from tasks.events import Event, KeyPress, PointerPress
-from tasks.hud import Button, Element, FloorPlan, Point, Rect
+from seethrough.tasks.building import Building
+from seethrough.tasks.events import Event, KeyPress, PointerPress
+from seethrough.tasks.hud import Button, Element, FloorPlan, Point, Rect
 
 SIZE, TOP = 0.78, 0.1
 BUTTON = (0.22, 0.07)

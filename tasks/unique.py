@@ -8,15 +8,15 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from tasks.base import Example, Outcome, View
-from tasks.building import Building, unique_building
-from tasks.events import Event, KeyPress
-from tasks.example import before
-from tasks.floor import room_at
-from tasks.hud import FloorPlan, Label
-from tasks.parameters import BuildingParameters
-from tasks.plan_mark import PlanMark
-from tasks.visit import Visit, visit
+from seethrough.tasks.base import Example, Outcome, View
+from seethrough.tasks.building import Building, unique_building
+from seethrough.tasks.events import Event, KeyPress
+from seethrough.tasks.example import before
+from seethrough.tasks.floor import room_at
+from seethrough.tasks.hud import FloorPlan, Label
+from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.plan_mark import PlanMark
+from seethrough.tasks.visit import Visit, visit
 
 SEARCH = Label("unique.search", (0.26, 0.02))
 

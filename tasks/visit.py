@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from renderer.scene import Scene
-from tasks.base import View
-from tasks.building import Building
-from tasks.controls import Walk, walk
-from tasks.current_target import inset, target_picture
-from tasks.events import Event
-from tasks.hud import Element
-from tasks.parameters import BuildingParameters
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.base import View
+from seethrough.tasks.building import Building
+from seethrough.tasks.controls import Walk, walk
+from seethrough.tasks.current_target import inset, target_picture
+from seethrough.tasks.events import Event
+from seethrough.tasks.hud import Element
+from seethrough.tasks.parameters import BuildingParameters
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,12 +6,12 @@ from functools import cache
 
 import numpy as np
 
-from renderer import geometry
-from renderer.geometry import Mesh
-from renderer.scene import Object
-from renderer.transforms import placed, rotation_y, scaling, translation
-from tasks.floor import Floor, built_lengths
-from tasks.parameters import BuildingParameters
+from seethrough.renderer import geometry
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.scene import Object
+from seethrough.renderer.transforms import placed, rotation_y, scaling, translation
+from seethrough.tasks.floor import Floor, built_lengths
+from seethrough.tasks.parameters import BuildingParameters
 
 INNER = (0.87, 0.84, 0.78)
 OUTER = (0.62, 0.61, 0.63)

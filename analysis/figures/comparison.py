@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from analysis.comparison import Measure
-from analysis.figures.style import (
+from seethrough.analysis.comparison import Measure
+from seethrough.analysis.figures.style import (
     DYNAMIC,
     FAINT,
     INK,
@@ -21,9 +21,9 @@ from analysis.figures.style import (
     picked,
     zero_line,
 )
-from analysis.page.blocks import Figure, Table
-from analysis.page.numbers import significant
-from analysis.stats.undefined import Number, is_defined
+from seethrough.analysis.page.blocks import Figure, Table
+from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.stats.undefined import Number, is_defined
 
 HEIGHT = 210
 

@@ -7,11 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.figures.style import FAINT, LEVEL_COLOUR, LEVELS, Spec, layer, layers, number, picked
-from analysis.load.schema import TASK_CODES
-from analysis.page.blocks import Figure
-from analysis.page.numbers import significant
-from analysis.tradeoff import Change
+from seethrough.analysis.figures.style import (
+    FAINT,
+    LEVEL_COLOUR,
+    LEVELS,
+    Spec,
+    layer,
+    layers,
+    number,
+    picked,
+)
+from seethrough.analysis.load.schema import TASK_CODES
+from seethrough.analysis.page.blocks import Figure
+from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.tradeoff import Change
 
 SIDE = 150
 """Width and height of a panel in pixels."""

@@ -6,9 +6,9 @@ from typing import Any
 
 import pandas as pd
 
-from analysis.figures.style import LEVEL_COLOUR, LEVELS, layer, layers, number
-from analysis.page.blocks import Figure
-from analysis.page.numbers import significant
+from seethrough.analysis.figures.style import LEVEL_COLOUR, LEVELS, layer, layers, number
+from seethrough.analysis.page.blocks import Figure
+from seethrough.analysis.page.numbers import significant
 
 
 def learning_figure(key: str, curve: pd.DataFrame) -> Figure:

@@ -20,7 +20,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from analysis.load.files import AGAIN, MARKS
+from seethrough.analysis.load.files import AGAIN, MARKS
 
 COLUMN = "chain"
 LONGEST_CELL = 2**31 - 1  # characters: Python's own limit of 131,072 is less than a remark may have

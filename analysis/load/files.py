@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from analysis.errors import DataError
+from seethrough.analysis.errors import DataError
 
 LARGEST = 2**30  # bytes: a session's table is some 20 KB, a chunk of sixteen people's 200 KB
 AGAIN = "saved again by another program; put the original back"

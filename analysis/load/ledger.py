@@ -16,9 +16,9 @@ from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
-from analysis.errors import DataError
-from analysis.load.files import is_there, read_bytes
-from analysis.load.person import Person
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.files import is_there, read_bytes
+from seethrough.analysis.load.person import Person
 
 FILE, POINTER = "ledger.sqlite", "ledger.url"
 TABLE = "seethrough_entries"

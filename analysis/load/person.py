@@ -16,9 +16,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from analysis.errors import DataError
-from analysis.load.chain import ChainState, Table, cells_have, check_table, is_chained, seal_of
-from analysis.load.files import (
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.chain import (
+    ChainState,
+    Table,
+    cells_have,
+    check_table,
+    is_chained,
+    seal_of,
+)
+from seethrough.analysis.load.files import (
     AGAIN,
     Source,
     is_there,

@@ -11,7 +11,7 @@ import hashlib
 from collections.abc import Iterator
 from pathlib import Path
 
-from analysis.load.files import files_under, is_there, sha256_of
+from seethrough.analysis.load.files import files_under, is_there, sha256_of
 
 SINGLE = ("dataset_description.json", "certificate.csv")
 

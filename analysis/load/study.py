@@ -11,14 +11,14 @@ from typing import Any
 
 import pandas as pd
 
-from analysis.errors import DataError
-from analysis.load import schema
-from analysis.load.chain import ChainState
-from analysis.load.files import Source, is_there, read_bytes, read_json
-from analysis.load.ledger import NO_LEDGER, Ledger
-from analysis.load.person import REPAIR, table_name
-from analysis.load.table import read_table
-from analysis.load.whole import verified
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load import schema
+from seethrough.analysis.load.chain import ChainState
+from seethrough.analysis.load.files import Source, is_there, read_bytes, read_json
+from seethrough.analysis.load.ledger import NO_LEDGER, Ledger
+from seethrough.analysis.load.person import REPAIR, table_name
+from seethrough.analysis.load.table import read_table
+from seethrough.analysis.load.whole import verified
 
 CERTIFICATE = "certificate.csv"
 """The difficulty certificate, where the study has one, beside dataset_description.json."""

@@ -15,9 +15,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from analysis.errors import DataError
-from analysis.load.chain import read_rows
-from analysis.load.files import AGAIN, MARKS, Source
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.chain import read_rows
+from seethrough.analysis.load.files import AGAIN, MARKS, Source
 
 NEWLINE = b"\n"
 CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")

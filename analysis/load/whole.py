@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from analysis.errors import DataError
-from analysis.load import schema
-from analysis.load.files import is_there, named, names_in, read_json
-from analysis.load.ledger import NO_LEDGER, Ledger, differences, read_ledger
-from analysis.load.person import TRACES, Folder, Person, Session, table_name
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load import schema
+from seethrough.analysis.load.files import is_there, named, names_in, read_json
+from seethrough.analysis.load.ledger import NO_LEDGER, Ledger, differences, read_ledger
+from seethrough.analysis.load.person import TRACES, Folder, Person, Session, table_name
 
 DESCRIPTION = "dataset_description.json"
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from analysis.page.numbers import show
-from analysis.stats.undefined import Undefined
+from seethrough.analysis.page.numbers import show
+from seethrough.analysis.stats.undefined import Undefined
 
 
 @dataclass(frozen=True, slots=True)

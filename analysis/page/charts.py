@@ -15,9 +15,9 @@ from typing import Any
 
 import vl_convert
 
-from analysis.figures.style import DYNAMIC, FAINT, INK, RULE, STANDARD
-from analysis.page.blocks import Figure
-from analysis.written import write_over
+from seethrough.analysis.figures.style import DYNAMIC, FAINT, INK, RULE, STANDARD
+from seethrough.analysis.page.blocks import Figure
+from seethrough.analysis.written import write_over
 
 _VARIABLES = {
     INK: "var(--ink)",

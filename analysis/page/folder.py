@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from analysis.errors import DataError
+from seethrough.analysis.errors import DataError
 
 PAGES = ("report.html", "report.md", "report.pdf")
 PARTS = {"tables": (".csv",), "figures": (".svg", ".png", ".pdf")}

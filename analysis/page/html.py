@@ -9,8 +9,17 @@ from importlib.resources import files
 from jinja2 import Environment, FunctionLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from analysis.page.blocks import Block, Cited, Figure, Fold, Prose, Report, Table, row_texts
-from analysis.page.tables_csv import cell
+from seethrough.analysis.page.blocks import (
+    Block,
+    Cited,
+    Figure,
+    Fold,
+    Prose,
+    Report,
+    Table,
+    row_texts,
+)
+from seethrough.analysis.page.tables_csv import cell
 
 MOST_ROWS = 60
 _CITED = Markup(
@@ -23,7 +32,7 @@ _SYMBOL = re.compile(
 
 
 def _template(name: str) -> str:
-    return (files("analysis.page") / "templates" / name).read_text(encoding="utf-8")
+    return (files("seethrough.analysis.page") / "templates" / name).read_text(encoding="utf-8")
 
 
 def _environment() -> Environment:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from analysis.page.blocks import Block, Cited, Figure, Prose, Report, Table, row_texts
-from analysis.page.html import MOST_ROWS
+from seethrough.analysis.page.blocks import Block, Cited, Figure, Prose, Report, Table, row_texts
+from seethrough.analysis.page.html import MOST_ROWS
 
 
 def as_markdown(report: Report) -> str:

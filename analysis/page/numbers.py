@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from analysis.stats.undefined import Undefined
+from seethrough.analysis.stats.undefined import Undefined
 
 MINUS = "−"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from analysis.errors import DataError
+from seethrough.analysis.errors import DataError
 
 NAMES = (
     "chromium",

@@ -6,8 +6,8 @@ import csv
 import io
 from typing import Any
 
-from analysis.page.blocks import Table
-from analysis.stats.undefined import Undefined
+from seethrough.analysis.page.blocks import Table
+from seethrough.analysis.stats.undefined import Undefined
 
 
 def cell(value: Any) -> str:

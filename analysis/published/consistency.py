@@ -11,16 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.page.numbers import bounded, fixed, p_value
-from analysis.published.grim import (
+from seethrough.analysis.page.numbers import bounded, fixed, p_value
+from seethrough.analysis.published.grim import (
     fitting_scores,
     fitting_whole_numbers,
     mean_of_shares,
     totals,
 )
-from analysis.published.numbers import Published, PublishedMeasure
-from analysis.published.reconstruct import r_interval, r_of
-from analysis.stats.distributions import f_tail, holm
+from seethrough.analysis.published.numbers import Published, PublishedMeasure
+from seethrough.analysis.published.reconstruct import r_interval, r_of
+from seethrough.analysis.stats.distributions import f_tail, holm
 
 MOST_TRIALS = 12
 MOST_WEIGHT = 12

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from analysis.published.numbers import Moments
+from seethrough.analysis.published.numbers import Moments
 
 
 def totals(moments: Moments, count: int, highest: int, halves: bool = True) -> list[int]:

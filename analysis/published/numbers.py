@@ -118,7 +118,7 @@ class Published:
 
 def load_published() -> Published:
     """Read the numbers, which travel with the package (data/published/ has the same file)."""
-    file = files("analysis.published") / "published.toml"
+    file = files("seethrough.analysis.published") / "published.toml"
     raw = tomllib.loads(file.read_text(encoding="utf-8"))
     study, correct, rating = raw["study"], raw["correct_T2"], raw["rating"]
     return Published(
@@ -140,7 +140,9 @@ def load_published() -> Published:
 
 def margins() -> dict[str, float]:
     """What the shipped study file of this design declares; the paper itself declares none."""
-    study = tomllib.loads((files("configs") / "published.toml").read_text(encoding="utf-8"))
+    study = tomllib.loads(
+        (files("seethrough.configs") / "published.toml").read_text(encoding="utf-8")
+    )
     return dict(study["analysis"]["margins"])
 
 

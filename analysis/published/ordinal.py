@@ -8,10 +8,10 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from analysis.published.grim import fitting_scores, fitting_whole_numbers
-from analysis.published.numbers import Claim, Published
-from analysis.stats.ranks import Friedman, friedman
-from analysis.stats.undefined import is_defined
+from seethrough.analysis.published.grim import fitting_scores, fitting_whole_numbers
+from seethrough.analysis.published.numbers import Claim, Published
+from seethrough.analysis.stats.ranks import Friedman, friedman
+from seethrough.analysis.stats.undefined import is_defined
 
 Array = NDArray[np.float64]
 Case = tuple[str, Friedman, bool]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from analysis.comparison import apa_f
-from analysis.equivalence import RATIOS
-from analysis.page.blocks import Block, Cited, Column, Fold, Prose, Section, Table, say
-from analysis.published.consistency import Finding
-from analysis.published.numbers import Published
-from analysis.sections.summary import places
-from analysis.stats.distributions import t_upper
+from seethrough.analysis.comparison import apa_f
+from seethrough.analysis.equivalence import RATIOS
+from seethrough.analysis.page.blocks import Block, Cited, Column, Fold, Prose, Section, Table, say
+from seethrough.analysis.published.consistency import Finding
+from seethrough.analysis.published.numbers import Published
+from seethrough.analysis.sections.summary import places
+from seethrough.analysis.stats.distributions import t_upper
 
 ALPHA = 0.05
 

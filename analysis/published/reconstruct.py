@@ -12,7 +12,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from analysis.published.numbers import Moments, PublishedMeasure
+from seethrough.analysis.published.numbers import Moments, PublishedMeasure
 
 Array = NDArray[np.float64]
 

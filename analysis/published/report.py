@@ -11,19 +11,19 @@ from typing import Any
 import numpy as np
 from numpy.random import Generator
 
-from analysis.comparison import Measure, apa_f, compare
-from analysis.figures.comparison import effect_sizes
-from analysis.page.blocks import Block, Column, Fold, Report, Section, Table, say
-from analysis.published.consistency import Finding, all_findings
-from analysis.published.numbers import Published, load_published
-from analysis.published.ordinal import Case, correct_cases, rating_cases
-from analysis.published.predictions import (
+from seethrough.analysis.comparison import Measure, apa_f, compare
+from seethrough.analysis.figures.comparison import effect_sizes
+from seethrough.analysis.page.blocks import Block, Column, Fold, Report, Section, Table, say
+from seethrough.analysis.published.consistency import Finding, all_findings
+from seethrough.analysis.published.numbers import Published, load_published
+from seethrough.analysis.published.ordinal import Case, correct_cases, rating_cases
+from seethrough.analysis.published.predictions import (
     equivalence_section,
     equivalence_table,
     predictions_section,
 )
-from analysis.published.reconstruct import exact_moments, r_interval, r_of
-from analysis.sections.provenance import PAIRS, software
+from seethrough.analysis.published.reconstruct import exact_moments, r_interval, r_of
+from seethrough.analysis.sections.provenance import PAIRS, software
 
 KINDS = {"time": "time", "error": "count_error", "distance": "distance"}
 """What a measure's margin is declared of, by the start of its name."""
@@ -103,7 +103,7 @@ def published_report(seed: int = 1) -> Report:
 
 def _ran(seed: int) -> Section:
     """Versions, the stream, and the hash of the numbers that all this comes from."""
-    data = (files("analysis.published") / "published.toml").read_bytes()
+    data = (files("seethrough.analysis.published") / "published.toml").read_bytes()
     rows = (
         *software(),
         {"what": "analysis stream", "value": f"seed {seed}, spawn key (3, 0)"},

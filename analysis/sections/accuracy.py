@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from analysis.comparison import (
+from seethrough.analysis.comparison import (
     MORE,
     MORE_TITLE,
     Measure,
@@ -16,14 +16,14 @@ from analysis.comparison import (
     decisive,
     measure,
 )
-from analysis.equivalence import no_difference
-from analysis.figures.comparison import bars_and_differences
-from analysis.measures import distance, over_tasks, relative_error, share_correct
-from analysis.page.blocks import Block, Prose, Section, Table, more, say
-from analysis.sections.context import Context
-from analysis.sections.ordinal import friedman_row, friedman_sentence, friedman_table
-from analysis.sections.tables import cell_table, keep, name_of, of_people
-from analysis.stats.undefined import is_defined
+from seethrough.analysis.equivalence import no_difference
+from seethrough.analysis.figures.comparison import bars_and_differences
+from seethrough.analysis.measures import distance, over_tasks, relative_error, share_correct
+from seethrough.analysis.page.blocks import Block, Prose, Section, Table, more, say
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.ordinal import friedman_row, friedman_sentence, friedman_table
+from seethrough.analysis.sections.tables import cell_table, keep, name_of, of_people
+from seethrough.analysis.stats.undefined import is_defined
 
 CELLS_SHOWN = ("task", "transparency", "n", "trials", "mean", "sd", "median")
 

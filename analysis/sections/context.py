@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 from numpy.random import Generator
 
-from analysis.cells import Cells, Missing
-from analysis.exclude import Excluded
-from analysis.load.study import Study
-from analysis.plan import Plan
+from seethrough.analysis.cells import Cells, Missing
+from seethrough.analysis.exclude import Excluded
+from seethrough.analysis.load.study import Study
+from seethrough.analysis.plan import Plan
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from analysis.comparison import Measure, compare
-from analysis.difficulty import ONLY_BETWEEN, QUANTITIES, Balance, balance, with_certificate
-from analysis.page.blocks import Block, Cited, Column, Prose, Table, say
-from analysis.sections.context import Context
-from analysis.sections.tables import name_of
-from analysis.stats.undefined import Undefined, is_defined
+from seethrough.analysis.comparison import Measure, compare
+from seethrough.analysis.difficulty import (
+    ONLY_BETWEEN,
+    QUANTITIES,
+    Balance,
+    balance,
+    with_certificate,
+)
+from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Table, say
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.tables import name_of
+from seethrough.analysis.stats.undefined import Undefined, is_defined
 
 LARGE = 0.25
 """Standardised difference from which covariates count as unbalanced (Stuart 2010)."""

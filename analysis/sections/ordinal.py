@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from analysis.cells import Cells
-from analysis.comparison import Measure, corrected, decisive, sd_of
-from analysis.equivalence import COLUMNS as EQUIVALENCE
-from analysis.equivalence import equivalence, no_difference
-from analysis.page.blocks import Column, Prose, Table, say
-from analysis.sections.context import Context
-from analysis.sections.tables import of_people
-from analysis.stats.ranks import friedman, post_hoc
-from analysis.stats.undefined import is_defined
+from seethrough.analysis.cells import Cells
+from seethrough.analysis.comparison import Measure, corrected, decisive, sd_of
+from seethrough.analysis.equivalence import COLUMNS as EQUIVALENCE
+from seethrough.analysis.equivalence import equivalence, no_difference
+from seethrough.analysis.page.blocks import Column, Prose, Table, say
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.tables import of_people
+from seethrough.analysis.stats.ranks import friedman, post_hoc
+from seethrough.analysis.stats.undefined import is_defined
 
 FRIEDMAN = (
     Column("measure", "measure"),

@@ -6,15 +6,15 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from analysis.exclude import why
-from analysis.load.schema import TRANSPARENCY
-from analysis.measures import design
-from analysis.page.blocks import Block, Column, Fold, Prose, Section, Table, say
-from analysis.plan import config_of
-from analysis.sections.context import Context
-from analysis.sections.tables import name_of
-from analysis.stats.distributions import detectable
-from analysis.stats.ranks import sign_test
+from seethrough.analysis.exclude import why
+from seethrough.analysis.load.schema import TRANSPARENCY
+from seethrough.analysis.measures import design
+from seethrough.analysis.page.blocks import Block, Column, Fold, Prose, Section, Table, say
+from seethrough.analysis.plan import config_of
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.tables import name_of
+from seethrough.analysis.stats.distributions import detectable
+from seethrough.analysis.stats.ranks import sign_test
 
 COUNTS = (
     Column("participant", "participant"),

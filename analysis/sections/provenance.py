@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from analysis.load.chain import ChainState
-from analysis.load.seal import seal
-from analysis.load.study import Study
-from analysis.page.blocks import Block, Column, Fold, Section, Table, say
-from analysis.plan import Plan, config_of, digest
-from analysis.sections.context import Context
+from seethrough.analysis.load.chain import ChainState
+from seethrough.analysis.load.seal import seal
+from seethrough.analysis.load.study import Study
+from seethrough.analysis.page.blocks import Block, Column, Fold, Section, Table, say
+from seethrough.analysis.plan import Plan, config_of, digest
+from seethrough.analysis.sections.context import Context
 
 PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "vl-convert-python", "Jinja2")
 PAIRS = (Column("what", "what"), Column("value", "value"))

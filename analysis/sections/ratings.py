@@ -5,21 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from analysis.cells import Cells
-from analysis.comparison import Measure, add_holm, measure, sd_of
-from analysis.figures.comparison import ratings_figure
-from analysis.measures import answers, rating
-from analysis.page.blocks import Block, Cited, Column, Section, Table, say
-from analysis.sections.context import Context
-from analysis.sections.ordinal import (
+from seethrough.analysis.cells import Cells
+from seethrough.analysis.comparison import Measure, add_holm, measure, sd_of
+from seethrough.analysis.figures.comparison import ratings_figure
+from seethrough.analysis.measures import answers, rating
+from seethrough.analysis.page.blocks import Block, Cited, Column, Section, Table, say
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.ordinal import (
     four_conditions,
     friedman_row,
     friedman_sentence,
     friedman_table,
 )
-from analysis.sections.tables import keep, missing_note
-from analysis.stats.ranks import share_interval, sign_test
-from analysis.stats.undefined import Undefined, is_defined
+from seethrough.analysis.sections.tables import keep, missing_note
+from seethrough.analysis.stats.ranks import share_interval, sign_test
+from seethrough.analysis.stats.undefined import Undefined, is_defined
 
 ONCE = {
     "preference": "preference for dynamic transparency (0 or 1)",

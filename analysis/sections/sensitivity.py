@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from analysis.mixed import MODELS, MixedEffect, mixed_model
-from analysis.page.blocks import Block, Column, Section, Table, say
-from analysis.sections.context import Context
-from analysis.stats.undefined import is_defined
+from seethrough.analysis.mixed import MODELS, MixedEffect, mixed_model
+from seethrough.analysis.page.blocks import Block, Column, Section, Table, say
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.stats.undefined import is_defined
 
 COLUMNS = (
     Column("effect", "effect"),

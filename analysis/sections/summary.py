@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import Any
 
-from analysis.comparison import apa_f, decisive
-from analysis.equivalence import no_ratio
-from analysis.page.blocks import Cited, Prose, Section, Table, say
-from analysis.plan import Plan
-from analysis.sections.accuracy import measured
-from analysis.sections.context import Context
-from analysis.sections.participants import reach, reach_sentence
-from analysis.sections.tables import INTERACTION, cited_f
-from analysis.stats.undefined import is_defined
+from seethrough.analysis.comparison import apa_f, decisive
+from seethrough.analysis.equivalence import no_ratio
+from seethrough.analysis.page.blocks import Cited, Prose, Section, Table, say
+from seethrough.analysis.plan import Plan
+from seethrough.analysis.sections.accuracy import measured
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.participants import reach, reach_sentence
+from seethrough.analysis.sections.tables import INTERACTION, cited_f
+from seethrough.analysis.stats.undefined import is_defined
 
 PLANNING = " (simulated participants)"
 

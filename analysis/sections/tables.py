@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from analysis.cells import Cells, Missing
-from analysis.comparison import Measure
-from analysis.load.schema import TASK_CODES
-from analysis.page.blocks import Cited, Column, Prose, Table, say
-from analysis.page.numbers import bounded
-from analysis.sections.context import Context
-from analysis.stats.anova import Effect, repeated_measures
-from analysis.stats.distributions import bayes_factor_f, negligible_p
-from analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
+from seethrough.analysis.cells import Cells, Missing
+from seethrough.analysis.comparison import Measure
+from seethrough.analysis.load.schema import TASK_CODES
+from seethrough.analysis.page.blocks import Cited, Column, Prose, Table, say
+from seethrough.analysis.page.numbers import bounded
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.stats.anova import Effect, repeated_measures
+from seethrough.analysis.stats.distributions import bayes_factor_f, negligible_p
+from seethrough.analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
 
 EFFECTS = (
     Column("effect", "effect"),

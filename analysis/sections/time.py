@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from analysis.cells import Cells
-from analysis.comparison import (
+from seethrough.analysis.cells import Cells
+from seethrough.analysis.comparison import (
     LOG_MORE,
     MORE,
     MORE_TITLE,
@@ -18,18 +18,18 @@ from analysis.comparison import (
     decisive,
     measure,
 )
-from analysis.equivalence import no_ratio
-from analysis.figures.comparison import bars_and_differences
-from analysis.measures import (
+from seethrough.analysis.equivalence import no_ratio
+from seethrough.analysis.figures.comparison import bars_and_differences
+from seethrough.analysis.measures import (
     by_scenario,
     log_time_by_task,
     over_tasks,
     scenario_of,
     time_by_task,
 )
-from analysis.page.blocks import Block, Fold, Prose, Section, Table, more, say
-from analysis.sections.context import Context
-from analysis.sections.tables import (
+from seethrough.analysis.page.blocks import Block, Fold, Prose, Section, Table, more, say
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.tables import (
     INTERACTION,
     anova_table,
     cell_table,
@@ -40,7 +40,7 @@ from analysis.sections.tables import (
     of_people,
     testable,
 )
-from analysis.stats.undefined import is_defined
+from seethrough.analysis.stats.undefined import is_defined
 
 RAW = (
     "Times are skewed: where the two levels also differ in spread (s.d. of logarithms .8 and .3, "

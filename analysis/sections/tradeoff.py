@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from analysis.cells import Missing, people
-from analysis.comparison import Measure, compare
-from analysis.figures.tradeoff import arrows
-from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
-from analysis.sections.context import Context
-from analysis.sections.tables import name_of
-from analysis.stats.ranks import sign_test
-from analysis.stats.ties import difference_signs
-from analysis.stats.undefined import Undefined, is_defined
-from analysis.tradeoff import Change, accuracy_by_speed, changes, correlation, scores
+from seethrough.analysis.cells import Missing, people
+from seethrough.analysis.comparison import Measure, compare
+from seethrough.analysis.figures.tradeoff import arrows
+from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.tables import name_of
+from seethrough.analysis.stats.ranks import sign_test
+from seethrough.analysis.stats.ties import difference_signs
+from seethrough.analysis.stats.undefined import Undefined, is_defined
+from seethrough.analysis.tradeoff import Change, accuracy_by_speed, changes, correlation, scores
 
 CHANGES = (
     Column("task", "task"),

@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from analysis.comparison import Measure, apa_f, compare
-from analysis.equivalence import no_difference
-from analysis.figures.validity import learning_figure
-from analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
-from analysis.plan import Plan
-from analysis.sections.context import Context
-from analysis.sections.difficulty import difficulty_blocks
-from analysis.sections.tables import keep, negligible, not_found
-from analysis.stats.paired import one_sample
-from analysis.stats.ties import difference_signs
-from analysis.stats.undefined import is_defined
-from analysis.validity import (
+from seethrough.analysis.comparison import Measure, apa_f, compare
+from seethrough.analysis.equivalence import no_difference
+from seethrough.analysis.figures.validity import learning_figure
+from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
+from seethrough.analysis.plan import Plan
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.difficulty import difficulty_blocks
+from seethrough.analysis.sections.tables import keep, negligible, not_found
+from seethrough.analysis.stats.paired import one_sample
+from seethrough.analysis.stats.ties import difference_signs
+from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.validity import (
     focus_losses,
     learning_curve,
     learning_slopes,

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.stats.distributions import chi2_tail, f_tail, noncentral_f_interval
-from analysis.stats.undefined import (
+from seethrough.analysis.stats.distributions import chi2_tail, f_tail, noncentral_f_interval
+from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
     ONE_PARTICIPANT,
     Interval,

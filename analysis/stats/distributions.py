@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from analysis.stats.undefined import Interval, Undefined, no_interval
+from seethrough.analysis.stats.undefined import Interval, Undefined, no_interval
 
 CAUCHY_SCALE = float(np.sqrt(0.5))
 """Scale of the Cauchy prior of the JZS Bayes factor, the usual "medium" one."""

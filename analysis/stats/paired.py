@@ -11,14 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.stats.distributions import (
+from seethrough.analysis.stats.distributions import (
     bayes_factor_t,
     noncentral_t_interval,
     t_quantile,
     t_two_sided,
     t_upper,
 )
-from analysis.stats.undefined import (
+from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
     ONE_PARTICIPANT,
     Interval,

@@ -16,14 +16,21 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy import special
 
-from analysis.stats.distributions import (
+from seethrough.analysis.stats.distributions import (
     chi2_tail,
     holm,
     normal_two_sided,
     studentized_range_tail,
 )
-from analysis.stats.ties import STEPS, levels, signs, slack
-from analysis.stats.undefined import EPS, ONE_PARTICIPANT, Interval, Number, Undefined, no_interval
+from seethrough.analysis.stats.ties import STEPS, levels, signs, slack
+from seethrough.analysis.stats.undefined import (
+    EPS,
+    ONE_PARTICIPANT,
+    Interval,
+    Number,
+    Undefined,
+    no_interval,
+)
 
 Array = NDArray[np.float64]
 

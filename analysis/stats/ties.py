@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.stats.undefined import EPS
+from seethrough.analysis.stats.undefined import EPS
 
 Array = NDArray[np.float64]
 

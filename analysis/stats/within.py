@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.stats.distributions import f_tail
-from analysis.stats.undefined import EPS, Number, Undefined
+from seethrough.analysis.stats.distributions import f_tail
+from seethrough.analysis.stats.undefined import EPS, Number, Undefined
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from experiment.errors import InputError
+from seethrough.experiment.errors import InputError
 
 HELP = "measure accuracy against time"
 
@@ -52,12 +52,16 @@ def run(args: argparse.Namespace) -> int:
     if args.figure is not None and args.figure.suffix not in (".svg", ".png"):
         raise InputError(f"--figure = {args.figure}: expected a name that ends in .svg or .png")
     try:
-        module = importlib.import_module(f"benchmarks.{args.bench}")
+        module = importlib.import_module(f"seethrough.benchmarks.{args.bench}")
     except ModuleNotFoundError as error:
         raise InputError(f"bench {args.bench}: {error}; expected it to be installed") from error
     if args.figure is not None and not hasattr(module, "chart"):
         raise InputError(f"--figure = {args.figure}: bench {args.bench} draws none")
-    tables = importlib.import_module("benchmarks.tables") if args.markdown is not None else None
+    tables = (
+        importlib.import_module("seethrough.benchmarks.tables")
+        if args.markdown is not None
+        else None
+    )
     if tables is not None:
         try:
             tables.around(args.markdown, args.bench)  # before anything is measured

@@ -9,11 +9,11 @@ from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryFile
 
-from experiment.config import load
-from experiment.errors import InputError
-from experiment.participants.code_hash import code_sha256
-from experiment.participants.profile_file import find, write
-from experiment.progress import Progress
+from seethrough.experiment.config import load
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants.code_hash import code_sha256
+from seethrough.experiment.participants.profile_file import find, write
+from seethrough.experiment.progress import Progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,9 +47,9 @@ def run(arguments: argparse.Namespace) -> int:
     _check_out(arguments.out)
     from dataclasses import replace
 
-    from experiment.participants import calibration, fitting
-    from experiment.participants.looks import KeptLooks
-    from experiment.participants.pool import drawing
+    from seethrough.experiment.participants import calibration, fitting
+    from seethrough.experiment.participants.looks import KeptLooks
+    from seethrough.experiment.participants.pool import drawing
 
     pool = drawing(study, arguments.pool, KeptLooks(arguments.tables))
     crowd = fitting.Crowd(arguments.seed, arguments.participants, pool)
@@ -89,7 +89,7 @@ def _check_out(out: Path) -> None:
 def _provenance(
     arguments: argparse.Namespace, start: str, misfit: float, table: Sequence[str]
 ) -> dict[str, object]:
-    from experiment.participants.calibration import FITTED, HELD_OUT
+    from seethrough.experiment.participants.calibration import FITTED, HELD_OUT
 
     return {
         "command": f"seethrough calibrate {arguments.study} --profile {arguments.profile} "

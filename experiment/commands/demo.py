@@ -7,9 +7,9 @@ import sys
 import webbrowser
 from pathlib import Path
 
-from experiment import cli
-from experiment.config import load
-from experiment.design import SIMULATED, generator
+from seethrough.experiment import cli
+from seethrough.experiment.config import load
+from seethrough.experiment.design import SIMULATED, generator
 
 SPEED = 8.0  # watched, the simulated participant would take minutes at real speed
 
@@ -45,7 +45,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _desktop() -> bool:
-    from experiment.system_window import available  # only here: needs no display, but costs time
+    from seethrough.experiment.system_window import (
+        available,
+    )  # only here: needs no display, but costs time
 
     return available()
 
@@ -58,13 +60,13 @@ def _next_folder(parent: Path) -> Path:
 
 
 def _in_window(data: Path, simulated: bool, speed: float) -> str:
-    from experiment.clock import RealClock
-    from experiment.live import play_in_window
+    from seethrough.experiment.clock import RealClock
+    from seethrough.experiment.live import play_in_window
 
     study = load("demo")
     if not simulated:
         return play_in_window(study, "P01", 1, "human", data, RealClock())
-    from experiment.participants.participant import SimulatedParticipant
+    from seethrough.experiment.participants.participant import SimulatedParticipant
 
     seed, clock = 1, RealClock(speed)
     person = SimulatedParticipant(generator(seed, (SIMULATED, 1)))
@@ -73,7 +75,7 @@ def _in_window(data: Path, simulated: bool, speed: float) -> str:
 
 
 def _offscreen(data: Path) -> str:
-    from experiment.commands.simulate import simulate
+    from seethrough.experiment.commands.simulate import simulate
 
     simulate(load("demo"), 1, 1, data)
     return "complete"

@@ -21,8 +21,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the export; 0."""
-    from experiment.export import formats
-    from experiment.export.dataset import check_out, read
+    from seethrough.experiment.export import formats
+    from seethrough.experiment.export.dataset import check_out, read
 
     check_out(arguments.out)
     data = read(arguments.data, arguments.source)

@@ -11,17 +11,17 @@ from pathlib import Path
 
 import numpy as np
 
-from experiment.errors import InputError
-from renderer.camera import Camera, look_at
-from renderer.explain import explain
-from renderer.plan import SHORTCUTS, Technique
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
-from tasks.abstract_scene import abstract_scene
-from tasks.building import unique_building
-from tasks.controls import orbit, walk
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.experiment.errors import InputError
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.explain import explain
+from seethrough.renderer.plan import SHORTCUTS, Technique
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.building import unique_building
+from seethrough.tasks.controls import orbit, walk
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 HELP = "draw a scene into a picture"
 
@@ -47,14 +47,14 @@ def walkthrough(seed: int, aspect: float) -> tuple[Scene, Camera]:
 
 def models(seed: int, aspect: float) -> tuple[Scene, Camera]:
     """Every model of the library once: the contact sheet, the same for every seed."""
-    from renderer.models.sheet import contact_sheet_scene
+    from seethrough.renderer.models.sheet import contact_sheet_scene
 
     return contact_sheet_scene(aspect)
 
 
 def jeep(seed: int, aspect: float) -> tuple[Scene, Camera]:
     """The jeep with its inner parts as targets, the same for every seed."""
-    from renderer.models.jeep import jeep_scene
+    from seethrough.renderer.models.jeep import jeep_scene
 
     return jeep_scene(), look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.47)
 
@@ -104,8 +104,8 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(f"--samples = {args.samples}: expected a number from 0 to 16")
     from PIL import Image
 
-    from renderer.gpu.context import standalone
-    from renderer.gpu.renderer import Renderer
+    from seethrough.renderer.gpu.context import standalone
+    from seethrough.renderer.gpu.renderer import Renderer
 
     scene, camera = SCENES[args.scene](args.seed, size[0] / size[1])
     technique = _technique(args.technique, args.set)

@@ -41,8 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Make the report; returns 0. Raises DataError with a line for each thing that is wrong."""
     # analysis imports pandas and scipy, which takes a second: only when the command runs
-    from analysis.errors import DataError
-    from analysis.report import Options, make_published, make_report, write
+    from seethrough.analysis.errors import DataError
+    from seethrough.analysis.report import Options, make_published, make_report, write
 
     options = Options(args.source, args.alpha, args.exclude)
     if args.published == (args.data is not None):

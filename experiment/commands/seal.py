@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-from experiment.errors import InputError
+from seethrough.experiment.errors import InputError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,8 +19,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Verify the folder and print its seal; 0, or 1 where --verify names another one."""
-    from analysis.load.seal import seal
-    from analysis.load.whole import verified
+    from seethrough.analysis.load.seal import seal
+    from seethrough.analysis.load.whole import verified
 
     wanted = arguments.verify
     if wanted is not None and not re.fullmatch(r"[0-9a-fA-F]{64}", wanted):

@@ -5,16 +5,16 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from experiment.clock import SimulatedClock
-from experiment.config import Study, load
-from experiment.design import SIMULATED, generator, session_for
-from experiment.errors import InputError
-from experiment.participants.effects import EFFECTS, checked
-from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.profile import AVERAGE, Profile
-from experiment.participants.profile_file import find, names
-from experiment.progress import Progress
-from tasks.catalog import TASKS
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.config import Study, load
+from seethrough.experiment.design import SIMULATED, generator, session_for
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants.effects import EFFECTS, checked
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.participants.profile import AVERAGE, Profile
+from seethrough.experiment.participants.profile_file import find, names
+from seethrough.experiment.progress import Progress
+from seethrough.tasks.catalog import TASKS
 
 MOST_WORKERS = 256
 POOL = 200  # scenes a task in data mode
@@ -84,7 +84,7 @@ def simulate(
     explain: bool = False,
 ) -> None:
     """Play `count` sessions into the data folder `out`. Raises InputError if they are there."""
-    from experiment.driver import open_context
+    from seethrough.experiment.driver import open_context
 
     context = open_context()
     trials = sum(len(s.trials) for s in session_for(1, study.design.factors())) * count
@@ -97,13 +97,13 @@ def simulate(
 def _one(  # type: ignore[no-untyped-def]
     study: Study, slot: int, seed: int, out: Path, context, progress, person, explain: bool
 ) -> None:
-    from experiment.offscreen import OffscreenDisplay
-    from experiment.own_models import keep
-    from experiment.provenance import provenance
-    from experiment.recorder import FileRecorder, Who
-    from experiment.session import run_session
-    from experiment.simulated_input import SimulatedInput
-    from experiment.world import World
+    from seethrough.experiment.offscreen import OffscreenDisplay
+    from seethrough.experiment.own_models import keep
+    from seethrough.experiment.provenance import provenance
+    from seethrough.experiment.recorder import FileRecorder, Who
+    from seethrough.experiment.session import run_session
+    from seethrough.experiment.simulated_input import SimulatedInput
+    from seethrough.experiment.world import World
 
     clock = SimulatedClock()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
@@ -125,8 +125,8 @@ def _watch(
     study: Study, count: int, seed: int, out: Path, profile: Profile, without: frozenset[str]
 ) -> int:
     """Play the sessions in a window until somebody leaves one."""
-    from experiment.clock import RealClock
-    from experiment.live import play_in_window
+    from seethrough.experiment.clock import RealClock
+    from seethrough.experiment.live import play_in_window
 
     for slot in range(1, count + 1):
         person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
@@ -149,8 +149,8 @@ def _explain(trial: str, person: SimulatedParticipant) -> None:
 def _data_mode(
     arguments: argparse.Namespace, count: int, profile: Profile, without: frozenset[str]
 ) -> None:
-    from experiment.participants import data_run
-    from experiment.participants.batch import Batch
+    from seethrough.experiment.participants import data_run
+    from seethrough.experiment.participants.batch import Batch
 
     a = arguments
     if not 1 <= a.workers <= MOST_WORKERS:

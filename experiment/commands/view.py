@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from experiment.errors import InputError
-from renderer.models.translucent.scenes import SCENES, scene
-from renderer.ordering.fragments import TooManyPieces
-from renderer.ordering.methods import METHODS, prepare
+from seethrough.experiment.errors import InputError
+from seethrough.renderer.models.translucent.scenes import SCENES, scene
+from seethrough.renderer.ordering.fragments import TooManyPieces
+from seethrough.renderer.ordering.methods import METHODS, prepare
 
 HELP = "look at a scene of translucent polygons, ordered by a method"
 SIZE = (960, 720)
@@ -38,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
     if prepared.stats.dense and args.picture is None:
         print(f"{args.scene}: {prepared.stats.dense}")
     if args.picture is None:
-        from experiment.viewer_window import show
+        from seethrough.experiment.viewer_window import show
 
         show(made, prepared, args.order, SIZE)
         return 0
@@ -47,8 +47,8 @@ def run(args: argparse.Namespace) -> int:
     import numpy as np
     from PIL import Image
 
-    from experiment.viewer import Viewer, ViewState
-    from renderer.gpu.context import standalone
+    from seethrough.experiment.viewer import Viewer, ViewState
+    from seethrough.renderer.gpu.context import standalone
 
     viewer = Viewer(standalone(), SIZE, made, prepared)
     picture = viewer.picture(ViewState())

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from experiment.export.dataset import Dataset
+from seethrough.experiment.export.dataset import Dataset
 
 
 def formats() -> dict[str, Callable[[Dataset, Path], None]]:
     """What `--format` may be, each with what writes it."""
-    from experiment.export.bids import bids
-    from experiment.export.parquet import parquet
-    from experiment.export.psychds import psychds
-    from experiment.export.wide import wide
+    from seethrough.experiment.export.bids import bids
+    from seethrough.experiment.export.parquet import parquet
+    from seethrough.experiment.export.psychds import psychds
+    from seethrough.experiment.export.wide import wide
 
     return {"wide": wide, "parquet": parquet, "bids": bids, "psychds": psychds}

@@ -10,10 +10,10 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from analysis.load.files import read_json
-from experiment.columns import TRIALS, Column
-from experiment.export.dataset import Dataset, Row, as_json, check_labels, harmless, put
-from experiment.export.wide import item_name
+from seethrough.analysis.load.files import read_json
+from seethrough.experiment.columns import TRIALS, Column
+from seethrough.experiment.export.dataset import Dataset, Row, as_json, check_labels, harmless, put
+from seethrough.experiment.export.wide import item_name
 
 VERSION = "1.10.0"
 TASK = "seethrough"

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from analysis.load.chain import read_rows
-from analysis.load.whole import verified
-from experiment.columns import TABLES, Column
-from experiment.errors import InputError
-from experiment.folders import PARTICIPANT, plain
-from experiment.private import make_folder, write_new
-from experiment.record_files import csv_line
+from seethrough.analysis.load.chain import read_rows
+from seethrough.analysis.load.whole import verified
+from seethrough.experiment.columns import TABLES, Column
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.folders import PARTICIPANT, plain
+from seethrough.experiment.private import make_folder, write_new
+from seethrough.experiment.record_files import csv_line
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "'")
 HARMLESS = "a text that begins with one of = + - @ ' or a tab has one ' more before it"

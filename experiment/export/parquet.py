@@ -8,10 +8,10 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
-from experiment.columns import TABLES, Column
-from experiment.errors import InputError
-from experiment.export.dataset import Dataset
-from experiment.private import FILE, make_folder
+from seethrough.experiment.columns import TABLES, Column
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.export.dataset import Dataset
+from seethrough.experiment.private import FILE, make_folder
 
 TYPES = {"text": "VARCHAR", "integer": "BIGINT", "number": "DOUBLE", "boolean": "BOOLEAN"}
 INSTALL = "pip install 'seethrough[parquet]'"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from experiment.dataset import FILE
-from experiment.export.dataset import Dataset, check_labels, put
+from seethrough.experiment.dataset import FILE
+from seethrough.experiment.export.dataset import Dataset, check_labels, put
 
 
 def psychds(data: Dataset, out: Path) -> None:

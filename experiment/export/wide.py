@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from experiment.columns import QUESTIONNAIRE, TRIALS
-from experiment.export.dataset import (
+from seethrough.experiment.columns import QUESTIONNAIRE, TRIALS
+from seethrough.experiment.export.dataset import (
     HARMLESS,
     Dataset,
     Row,

@@ -8,17 +8,17 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from experiment.config import Study, load
-from experiment.design import Trial, session_for
-from experiment.participants.batch_files import CHUNK, Chunk, Slots, render
-from experiment.participants.code_hash import code_sha256
-from experiment.participants.data_mode import Played, play_session
-from experiment.participants.looks import KeptLooks
-from experiment.participants.pool import Pool, drawing
-from experiment.participants.profile import AVERAGE, Profile
-from experiment.participants.tables import views_of
-from experiment.workers import ordered_map
-from tasks.catalog import TASKS
+from seethrough.experiment.config import Study, load
+from seethrough.experiment.design import Trial, session_for
+from seethrough.experiment.participants.batch_files import CHUNK, Chunk, Slots, render
+from seethrough.experiment.participants.code_hash import code_sha256
+from seethrough.experiment.participants.data_mode import Played, play_session
+from seethrough.experiment.participants.looks import KeptLooks
+from seethrough.experiment.participants.pool import Pool, drawing
+from seethrough.experiment.participants.profile import AVERAGE, Profile
+from seethrough.experiment.participants.tables import views_of
+from seethrough.experiment.workers import ordered_map
+from seethrough.tasks.catalog import TASKS
 
 
 @dataclass(frozen=True)

@@ -17,17 +17,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from experiment.chain import link, seal_of, start_of
-from experiment.columns import QUESTIONNAIRE, TRIALS, Column
-from experiment.config import Study
-from experiment.dataset import describe_dataset
-from experiment.errors import InputError
-from experiment.export.parquet import INSTALL, ParquetWriter
-from experiment.folders import stem_of
-from experiment.participants.data_mode import Played
-from experiment.participants.looks import Rows
-from experiment.private import make_folder, write_new
-from experiment.record_files import cell, csv_line, header_of
+from seethrough.experiment.chain import link, seal_of, start_of
+from seethrough.experiment.columns import QUESTIONNAIRE, TRIALS, Column
+from seethrough.experiment.config import Study
+from seethrough.experiment.dataset import describe_dataset
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.export.parquet import INSTALL, ParquetWriter
+from seethrough.experiment.folders import stem_of
+from seethrough.experiment.participants.data_mode import Played
+from seethrough.experiment.participants.looks import Rows
+from seethrough.experiment.private import make_folder, write_new
+from seethrough.experiment.record_files import cell, csv_line, header_of
 
 CHUNK = 16  # participants a folder: the published study's number
 NAME = re.compile(r"S(\d{5,})-S(\d{5,})")

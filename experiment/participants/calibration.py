@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.power import implied_r
+from seethrough.experiment.power import implied_r
 
 LEVELS = ("standard", "dynamic")
 FITTED = ("count", "count_in_building")

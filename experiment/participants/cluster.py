@@ -17,12 +17,12 @@ from importlib import metadata
 from threading import Lock
 from typing import Any
 
-from experiment.config import Study, load
-from experiment.errors import InputError
-from experiment.participants import batch as b
-from experiment.participants.batch_files import Chunk, Slots, chunk_name
-from experiment.participants.code_hash import code_sha256
-from experiment.participants.looks import KeptLooks
+from seethrough.experiment.config import Study, load
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants import batch as b
+from seethrough.experiment.participants.batch_files import Chunk, Slots, chunk_name
+from seethrough.experiment.participants.code_hash import code_sha256
+from seethrough.experiment.participants.looks import KeptLooks
 
 PATIENCE = 5.0  # seconds until a scheduler or workers that do not answer are not there
 AHEAD = 2  # chunks handed out for each thread of the cluster, so that none waits

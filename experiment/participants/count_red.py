@@ -9,12 +9,12 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.counting import seconds_to_count, slips
-from experiment.participants.glance import WHOLE, Glance, heading, noticed, uncrowded
-from experiment.participants.hands import Hands
-from experiment.participants.person import Mood
-from renderer.scene import Scene
-from tasks.events import Event
+from seethrough.experiment.participants.counting import seconds_to_count, slips
+from seethrough.experiment.participants.glance import WHOLE, Glance, heading, noticed, uncrowded
+from seethrough.experiment.participants.hands import Hands
+from seethrough.experiment.participants.person import Mood
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.events import Event
 
 RED_ENOUGH = 0.5  # a thing is red if this much of its colour is [ours]
 MOST_VIEWS = 18  # three times round

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Generator
 from math import dist
 
-from experiment.participants.counting import slips
-from experiment.participants.find_unique import _go_on
-from experiment.participants.glance import Glance
-from experiment.participants.person import Mood
-from experiment.participants.places import Place
-from experiment.participants.walking import Found, Walker
-from tasks.events import Event
+from seethrough.experiment.participants.counting import slips
+from seethrough.experiment.participants.find_unique import _go_on
+from seethrough.experiment.participants.glance import Glance
+from seethrough.experiment.participants.person import Mood
+from seethrough.experiment.participants.places import Place
+from seethrough.experiment.participants.walking import Found, Walker
+from seethrough.tasks.events import Event
 
 MOST_SECONDS = 900.0
 

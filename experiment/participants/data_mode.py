@@ -10,21 +10,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from experiment.clock import SimulatedClock
-from experiment.config import Study
-from experiment.design import SIMULATED, Trial, generator
-from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.pool import Pool
-from experiment.participants.profile import AVERAGE, Profile
-from experiment.recorder import trial_row
-from experiment.session import run_session
-from experiment.simulated_input import SimulatedInput
-from experiment.trial import TrialRun
-from experiment.world import TrialRecord, World
-from renderer.visibility import Visibility
-from tasks.base import View
-from tasks.catalog import TASKS
-from tasks.events import Event
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import SIMULATED, Trial, generator
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.participants.pool import Pool
+from seethrough.experiment.participants.profile import AVERAGE, Profile
+from seethrough.experiment.recorder import trial_row
+from seethrough.experiment.session import run_session
+from seethrough.experiment.simulated_input import SimulatedInput
+from seethrough.experiment.trial import TrialRun
+from seethrough.experiment.world import TrialRecord, World
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import View
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import Event
 
 Row = dict[str, Any]
 

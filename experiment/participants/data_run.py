@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 
-from experiment.config import Study, find, load
-from experiment.errors import InputError
-from experiment.participants import batch as b
-from experiment.participants.batch_files import Chunk, Results, Slots
-from experiment.participants.looks import KeptLooks
-from experiment.progress import Progress
-from experiment.workers import ordered_map
+from seethrough.experiment.config import Study, find, load
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants import batch as b
+from seethrough.experiment.participants.batch_files import Chunk, Results, Slots
+from seethrough.experiment.participants.looks import KeptLooks
+from seethrough.experiment.progress import Progress
+from seethrough.experiment.workers import ordered_map
 
 
 def run(
@@ -84,7 +84,7 @@ def _played(
     job: b.Batch, chunks: Sequence[Slots], workers: int, scheduler: str | None
 ) -> Iterator[Chunk]:
     if scheduler is not None:
-        from experiment.participants import cluster
+        from seethrough.experiment.participants import cluster
 
         return cluster.play(job, chunks, scheduler)
     return ordered_map(b.play_files, chunks, workers, b.prepare, (job,))

@@ -7,13 +7,13 @@ from math import dist
 
 import numpy as np
 
-from experiment.participants.glance import Glance
-from experiment.participants.hands import Hands
-from experiment.participants.person import Mood
-from experiment.participants.places import THERE, Place
-from experiment.participants.walking import Walker
-from tasks.events import Event
-from tasks.hud import Button, FloorPlan
+from seethrough.experiment.participants.glance import Glance
+from seethrough.experiment.participants.hands import Hands
+from seethrough.experiment.participants.person import Mood
+from seethrough.experiment.participants.places import THERE, Place
+from seethrough.experiment.participants.walking import Walker
+from seethrough.tasks.events import Event
+from seethrough.tasks.hud import Button, FloorPlan
 
 AGAIN = 0.01  # with so little left unseen and nothing found, one begins again
 MOST_SECONDS = 900.0  # then one gives up and marks a guess

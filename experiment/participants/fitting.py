@@ -17,8 +17,8 @@ from scipy.optimize import least_squares
 from scipy.special import ndtri
 from scipy.stats.qmc import Halton
 
-from experiment.design import SIMULATED, generator, session_for
-from experiment.participants.calibration import (
+from seethrough.experiment.design import SIMULATED, generator, session_for
+from seethrough.experiment.participants.calibration import (
     FITTED,
     TimeMeasure,
     measured,
@@ -26,11 +26,11 @@ from experiment.participants.calibration import (
     published,
     residuals,
 )
-from experiment.participants.data_mode import play_trial
-from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.person import TRAITS
-from experiment.participants.pool import Pool
-from experiment.participants.profile import Profile
+from seethrough.experiment.participants.data_mode import play_trial
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.participants.person import TRAITS
+from seethrough.experiment.participants.pool import Pool
+from seethrough.experiment.participants.profile import Profile
 
 Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
 

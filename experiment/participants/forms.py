@@ -7,8 +7,8 @@ from statistics import fmean
 
 import numpy as np
 
-from experiment.depth_test import on_picture
-from experiment.pages import (
+from seethrough.experiment.depth_test import on_picture
+from seethrough.experiment.pages import (
     PICTURE_ASPECT,
     Choice,
     Page,
@@ -18,7 +18,7 @@ from experiment.pages import (
     Scale,
     TextField,
 )
-from experiment.participants.person import Person
+from seethrough.experiment.participants.person import Person
 
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]

@@ -9,10 +9,10 @@ from math import asin, atan2
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.person import Mood
-from renderer.visibility import Visibility
-from tasks.base import View
-from tasks.events import Event
+from seethrough.experiment.participants.person import Mood
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event
 
 # Thresholds count the pixels of a window of 800 × 600, whatever the size of the id picture.
 WINDOW_PIXELS = 480_000

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from functools import cache
 from math import hypot, log2
 
-from experiment.participants.person import Mood
-from tasks.events import (
+from seethrough.experiment.participants.person import Mood
+from seethrough.tasks.events import (
     Event,
     KeyPress,
     KeyRelease,
@@ -16,7 +16,7 @@ from tasks.events import (
     PointerRelease,
     Tick,
 )
-from tasks.hud import Rect
+from seethrough.tasks.hud import Rect
 
 MOVES = 6  # pointer events of one turn; a mouse sends ten times as many [ours]
 GRIP = (0.5, 0.5)  # where the pointer takes hold of the view: no button lies there

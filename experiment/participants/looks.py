@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.errors import InputError
-from experiment.participants.sight import Kept, shown
-from renderer.visibility import Visibility
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants.sight import Kept, shown
+from seethrough.renderer.visibility import Visibility
 
 OURS = 0x53656521  # "See!" as SQLite's application id: what tells our files from others
 CONTENT = 2  # SQLite's user version: raised when a look of the same view holds something else

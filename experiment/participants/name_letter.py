@@ -8,12 +8,12 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.count_red import learn_gain, red_things
-from experiment.participants.counting import saccade
-from experiment.participants.glance import Glance, heading, recognised
-from experiment.participants.hands import Hands
-from experiment.participants.person import Mood
-from tasks.events import Event
+from seethrough.experiment.participants.count_red import learn_gain, red_things
+from seethrough.experiment.participants.counting import saccade
+from seethrough.experiment.participants.glance import Glance, heading, recognised
+from seethrough.experiment.participants.hands import Hands
+from seethrough.experiment.participants.person import Mood
+from seethrough.tasks.events import Event
 
 FROM_ABOVE = 1.25  # height, in radians, from which a flat letter reads well [ours]
 RELATIVE_DEPTH = 0.04  # s.d. of depth in the cloud, as a part of the distance [ours]

@@ -14,20 +14,20 @@ import numpy as np
 from numpy.random import Generator as Random
 from numpy.typing import NDArray
 
-from experiment.pages import Page
-from experiment.participants.code_hash import code_sha256
-from experiment.participants.count_red import count_red
-from experiment.participants.count_things import count_things
-from experiment.participants.effects import EffectUse, checked
-from experiment.participants.find_unique import find_unique
-from experiment.participants.forms import Opinions
-from experiment.participants.glance import Glance
-from experiment.participants.name_letter import name_letter
-from experiment.participants.person import Mood, Person, mood_for
-from experiment.participants.profile import AVERAGE, Profile
-from renderer.visibility import Visibility
-from tasks.base import View
-from tasks.events import Event, KeyPress, KeyRelease
+from seethrough.experiment.pages import Page
+from seethrough.experiment.participants.code_hash import code_sha256
+from seethrough.experiment.participants.count_red import count_red
+from seethrough.experiment.participants.count_things import count_things
+from seethrough.experiment.participants.effects import EffectUse, checked
+from seethrough.experiment.participants.find_unique import find_unique
+from seethrough.experiment.participants.forms import Opinions
+from seethrough.experiment.participants.glance import Glance
+from seethrough.experiment.participants.name_letter import name_letter
+from seethrough.experiment.participants.person import Mood, Person, mood_for
+from seethrough.experiment.participants.profile import AVERAGE, Profile
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import View
+from seethrough.tasks.events import Event, KeyPress, KeyRelease
 
 STRATEGIES: dict[str, Callable[[Mood, Glance], Generator[list[Event], Glance, None]]] = {
     "count": count_red,

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from experiment.participants.effects import WALKING, EffectUse, plan_effects
-from experiment.participants.profile import Profile
+from seethrough.experiment.participants.effects import WALKING, EffectUse, plan_effects
+from seethrough.experiment.participants.profile import Profile
 
 TASKS = ("count", "pattern", "unique", "count_in_building")
 TRAITS = 2 + len(TASKS)

@@ -14,8 +14,8 @@ from math import atan2, cos, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.scene import Scene
-from renderer.transforms import moved
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.transforms import moved
 
 Place = tuple[float, float]  # (x, z)
 CELL = 5.0

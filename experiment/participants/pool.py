@@ -11,16 +11,16 @@ from typing import Any
 
 import numpy as np
 
-from experiment.config import Study
-from experiment.design import STUDY_SCENES, Trial, generator
-from experiment.participants.looks import KeptLooks
-from experiment.participants.tables import Draw, TableEyes
-from experiment.scenes import StudyScenes
-from renderer.camera import Camera
-from renderer.scene import Scene
-from renderer.visibility import Visibility
-from tasks.base import Task, View
-from tasks.catalog import TASKS
+from seethrough.experiment.config import Study
+from seethrough.experiment.design import STUDY_SCENES, Trial, generator
+from seethrough.experiment.participants.looks import KeptLooks
+from seethrough.experiment.participants.tables import Draw, TableEyes
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.base import Task, View
+from seethrough.tasks.catalog import TASKS
 
 SIMPLE = "simple models, "  # what tables were looked at with
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
@@ -124,15 +124,15 @@ class LazyDraw:
 
     def __call__(self, level: str) -> Draw:
         """What draws for a transparency level."""
-        from renderer.techniques.standard import Standard
+        from seethrough.renderer.techniques.standard import Standard
 
         technique = self.study.dynamic if level == "dynamic" else Standard()
         return lambda scene, camera: self._look(scene, camera, technique)
 
     def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:
         if self._looking is None:
-            from experiment.driver import open_context
-            from experiment.looking import Looking
+            from seethrough.experiment.driver import open_context
+            from seethrough.experiment.looking import Looking
 
             self._looking = Looking(open_context(), window_of(self.study), simple=True)
         self._looking.technique = technique

@@ -8,10 +8,10 @@ from dataclasses import asdict, fields, replace
 from pathlib import Path
 from typing import Any
 
-from analysis.written import write_over
-from experiment.errors import InputError, gathered, short, shown, unknown
-from experiment.participants.profile import AVERAGE, PROFILES, Profile
-from experiment.toml_file import read_toml
+from seethrough.analysis.written import write_over
+from seethrough.experiment.errors import InputError, gathered, short, shown, unknown
+from seethrough.experiment.participants.profile import AVERAGE, PROFILES, Profile
+from seethrough.experiment.toml_file import read_toml
 
 SHIPPED = Path(__file__).with_name("profiles")  # files that come with the program
 

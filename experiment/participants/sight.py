@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
-from experiment.participants.profile import Profile
-from renderer.scene import Scene
-from renderer.visibility import Visibility
+from seethrough.experiment.participants.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
+from seethrough.experiment.participants.profile import Profile
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.visibility import Visibility
 
 
 def shown(seen: Visibility) -> NDArray[np.float64]:

@@ -13,14 +13,14 @@ from math import asin, atan2, floor, inf, pi
 
 import numpy as np
 
-from experiment.participants.count_red import TILT
-from experiment.participants.looks import KeptLooks, Key
-from experiment.participants.name_letter import FROM_ABOVE
-from experiment.participants.places import AHEAD, CELL, DIRECTIONS, STRIDES
-from renderer.camera import Camera
-from renderer.scene import Scene
-from renderer.visibility import Visibility
-from tasks.controls import turned
+from seethrough.experiment.participants.count_red import TILT
+from seethrough.experiment.participants.looks import KeptLooks, Key
+from seethrough.experiment.participants.name_letter import FROM_ABOVE
+from seethrough.experiment.participants.places import AHEAD, CELL, DIRECTIONS, STRIDES
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.controls import turned
 
 YAWS = 12  # of the orbit's lattice: every 30°
 PITCHES = (-1.25, -0.8, -TILT, 0.0, TILT, 0.8, FROM_ABOVE)

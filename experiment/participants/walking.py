@@ -10,11 +10,11 @@ from math import atan2, dist, hypot, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from experiment.participants.counting import saccade
-from experiment.participants.glance import CLEAR, WHOLE, WINDOW_PIXELS, Glance, likely
-from experiment.participants.hands import Hands
-from experiment.participants.person import Mood
-from experiment.participants.places import (
+from seethrough.experiment.participants.counting import saccade
+from seethrough.experiment.participants.glance import CLEAR, WHOLE, WINDOW_PIXELS, Glance, likely
+from seethrough.experiment.participants.hands import Hands
+from seethrough.experiment.participants.person import Mood
+from seethrough.experiment.participants.places import (
     CELL,
     DIRECTIONS,
     STRIDES,
@@ -25,10 +25,10 @@ from experiment.participants.places import (
     layout,
     turn_to,
 )
-from experiment.participants.sight import Sight, Thing, sight
-from renderer.scene import Scene
-from tasks.events import Event
-from tasks.hud import Inset
+from seethrough.experiment.participants.sight import Sight, Thing, sight
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.events import Event
+from seethrough.tasks.hud import Inset
 
 STEP = 2 * pi / DIRECTIONS
 THING = 1.5  # radius of a usual thing, for how well it would be seen from afar [ours]

@@ -9,10 +9,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.gpu.polygons import Corners, PolygonPainter
-from renderer.gpu.programs import program
-from renderer.gpu.reused import spoil
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu.polygons import Corners, PolygonPainter
+from seethrough.renderer.gpu.programs import program
+from seethrough.renderer.gpu.reused import spoil
 
 
 class WeightedPainter:

@@ -6,10 +6,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks
-from renderer.blocks import BLOCK
-from renderer.gpu.programs import program
-from renderer.gpu.reused import kept, spoil
+from seethrough.renderer import blocks
+from seethrough.renderer.blocks import BLOCK
+from seethrough.renderer.gpu.programs import program
+from seethrough.renderer.gpu.reused import kept, spoil
 
 WIDTH = 2072  # texels; a row of cells is no wider unless one cell is
 MOST = 64  # of slices or masks: the bits and arrays in shaders/exact.frag

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
-from renderer.camera import Camera
-from renderer.clusters import Indices, tree_of
-from renderer.geometry import Mesh
-from renderer.gpu.meshes import MeshStore
-from renderer.gpu.programs import Shader
-from renderer.gpu.scene_table import SceneTable
-from renderer.ordering.bsp import PreparedBsp
-from renderer.scene import Object, Scene
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.clusters import Indices, tree_of
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.gpu.meshes import MeshStore
+from seethrough.renderer.gpu.programs import Shader
+from seethrough.renderer.gpu.scene_table import SceneTable
+from seethrough.renderer.ordering.bsp import PreparedBsp
+from seethrough.renderer.scene import Object, Scene
 
 KEPT = 8  # clusters, the last ones drawn
 

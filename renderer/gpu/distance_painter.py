@@ -14,14 +14,14 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks, contours, masks
-from renderer.camera import Camera
-from renderer.gpu import tiles
-from renderer.gpu.mask_maker import MaskGeometry, outline_segments
-from renderer.gpu.programs import program
-from renderer.gpu.reused import kept
-from renderer.gpu.scene_table import Run, SceneTable
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer import blocks, contours, masks
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu import tiles
+from seethrough.renderer.gpu.mask_maker import MaskGeometry, outline_segments
+from seethrough.renderer.gpu.programs import program
+from seethrough.renderer.gpu.reused import kept
+from seethrough.renderer.gpu.scene_table import Run, SceneTable
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 _STRIP = 4  # vertices of a rectangle as a triangle strip
 _LOOKED_UP = 3  # texture unit

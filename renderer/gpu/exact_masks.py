@@ -12,15 +12,15 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.gpu.cells import Cells, emptied
-from renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS
-from renderer.gpu.looked_up import LookedUp
-from renderer.gpu.mask_painter import BITS, MaskPainter
-from renderer.gpu.programs import Shader
-from renderer.gpu.scene_table import SceneTable
-from renderer.plan import FramePlan
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu.cells import Cells, emptied
+from seethrough.renderer.gpu.exact_sorter import COLORS, DEPTHS, PARTS
+from seethrough.renderer.gpu.looked_up import LookedUp
+from seethrough.renderer.gpu.mask_painter import BITS, MaskPainter
+from seethrough.renderer.gpu.programs import Shader
+from seethrough.renderer.gpu.scene_table import SceneTable
+from seethrough.renderer.plan import FramePlan
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 # Rasterisation may reach a pixel beyond the box of the exact coordinates.
 SLACK = np.array([-1.0, -1.0, 1.0, 1.0])

@@ -13,16 +13,16 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks, coverage, order
-from renderer.blocks import BLOCK
-from renderer.gpu.cells import MOST, Cells, emptied, height, touched, within
-from renderer.gpu.exact_masks import SLACK, ExactJob, ExactMasks
-from renderer.gpu.exact_sorter import Filled, PixelSorter
-from renderer.gpu.few_sorter import too_many
-from renderer.gpu.mask_painter import MaskPainter
-from renderer.gpu.programs import program
-from renderer.gpu.reused import kept
-from renderer.plan import impenetrable
+from seethrough.renderer import blocks, coverage, order
+from seethrough.renderer.blocks import BLOCK
+from seethrough.renderer.gpu.cells import MOST, Cells, emptied, height, touched, within
+from seethrough.renderer.gpu.exact_masks import SLACK, ExactJob, ExactMasks
+from seethrough.renderer.gpu.exact_sorter import Filled, PixelSorter
+from seethrough.renderer.gpu.few_sorter import too_many
+from seethrough.renderer.gpu.mask_painter import MaskPainter
+from seethrough.renderer.gpu.programs import program
+from seethrough.renderer.gpu.reused import kept
+from seethrough.renderer.plan import impenetrable
 
 TEXELS = 24_000_000  # of all slices of one part: what is larger is drawn in bands
 _PER_ROW, _SURFACES_PER_ROW = 1024, 4096

@@ -12,14 +12,14 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks
-from renderer.blocks import BLOCK
-from renderer.gpu.cells import MOST, Cells
-from renderer.gpu.few_sorter import FewSorter
-from renderer.gpu.looked_up import LookedUp
-from renderer.gpu.programs import Shader, program
-from renderer.gpu.reused import kept
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer import blocks
+from seethrough.renderer.blocks import BLOCK
+from seethrough.renderer.gpu.cells import MOST, Cells
+from seethrough.renderer.gpu.few_sorter import FewSorter
+from seethrough.renderer.gpu.looked_up import LookedUp
+from seethrough.renderer.gpu.programs import Shader, program
+from seethrough.renderer.gpu.reused import kept
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 # Texture units.
 COLORS, DEPTHS, MASKS, PARTS, NUMBERS, SURFACES, DISTANCES = 5, 6, 7, 8, 9, 10, 11

@@ -13,13 +13,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks
-from renderer.gpu.cells import MOST, Cells
-from renderer.gpu.programs import Shader, program
-from renderer.gpu.reused import kept
+from seethrough.renderer import blocks
+from seethrough.renderer.gpu.cells import MOST, Cells
+from seethrough.renderer.gpu.programs import Shader, program
+from seethrough.renderer.gpu.reused import kept
 
 if TYPE_CHECKING:
-    from renderer.gpu.exact_sorter import Filled
+    from seethrough.renderer.gpu.exact_sorter import Filled
 
 # Numbers that there is a program for: each takes its time to compile, at first use.
 SLICES = np.array([1, 2, 3, 4, 6, 8, 12, 16])

@@ -10,20 +10,20 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.gpu import reused
-from renderer.gpu.exact_painter import ExactJob, ExactPainter
-from renderer.gpu.layer_counter import LayerCounter
-from renderer.gpu.mask_painter import MaskPainter
-from renderer.gpu.meshes import MeshStore
-from renderer.gpu.programs import Shader, program
-from renderer.gpu.scene_table import Run, SceneTable
-from renderer.gpu.targets import FrameTarget
-from renderer.plan import FramePlan, Level, Technique
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu import reused
+from seethrough.renderer.gpu.exact_painter import ExactJob, ExactPainter
+from seethrough.renderer.gpu.layer_counter import LayerCounter
+from seethrough.renderer.gpu.mask_painter import MaskPainter
+from seethrough.renderer.gpu.meshes import MeshStore
+from seethrough.renderer.gpu.programs import Shader, program
+from seethrough.renderer.gpu.scene_table import Run, SceneTable
+from seethrough.renderer.gpu.targets import FrameTarget
+from seethrough.renderer.plan import FramePlan, Level, Technique
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 if TYPE_CHECKING:
-    from renderer.gpu.cluster_painter import ClusterPainter
+    from seethrough.renderer.gpu.cluster_painter import ClusterPainter
 
 OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
@@ -225,7 +225,7 @@ class Layer:
                 continue
             if self._clusters is None:
                 # Most frames have none, and its kernels take a second to load.
-                from renderer.gpu.cluster_painter import ClusterPainter
+                from seethrough.renderer.gpu.cluster_painter import ClusterPainter
 
                 self._clusters = ClusterPainter(self._context)
             self._context.enable(moderngl.BLEND)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import moderngl
 
-from renderer.gpu.programs import program
-from renderer.gpu.reused import kept
-from renderer.gpu.scene_table import Run
+from seethrough.renderer.gpu.programs import program
+from seethrough.renderer.gpu.reused import kept
+from seethrough.renderer.gpu.scene_table import Run
 
 
 class LayerCounter:

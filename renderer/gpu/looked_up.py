@@ -9,8 +9,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.blocks import NONE
-from renderer.gpu.programs import Shader
+from seethrough.renderer.blocks import NONE
+from seethrough.renderer.gpu.programs import Shader
 
 
 @dataclass(frozen=True, eq=False)

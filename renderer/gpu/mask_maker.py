@@ -12,14 +12,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import masks, projection
-from renderer.blocks import BLOCK
-from renderer.camera import Camera
-from renderer.gpu import tiles
-from renderer.gpu.scene_table import SceneTable
-from renderer.plan import FramePlan
-from renderer.silhouettes import near_cuts, silhouette
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer import masks, projection
+from seethrough.renderer.blocks import BLOCK
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu import tiles
+from seethrough.renderer.gpu.scene_table import SceneTable
+from seethrough.renderer.plan import FramePlan
+from seethrough.renderer.silhouettes import near_cuts, silhouette
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 VERTEX = 7  # place x, y; offset x, y; kind; semi-axes, or the way to the tile
 

@@ -8,15 +8,15 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer import blocks
-from renderer.camera import Camera
-from renderer.gpu.distance_painter import DistancePainter
-from renderer.gpu.mask_maker import MaskGeometry, mask_geometry
-from renderer.gpu.programs import Shader, program
-from renderer.gpu.reused import kept
-from renderer.gpu.scene_table import Run, SceneTable
-from renderer.plan import FramePlan
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer import blocks
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu.distance_painter import DistancePainter
+from seethrough.renderer.gpu.mask_maker import MaskGeometry, mask_geometry
+from seethrough.renderer.gpu.programs import Shader, program
+from seethrough.renderer.gpu.reused import kept
+from seethrough.renderer.gpu.scene_table import Run, SceneTable
+from seethrough.renderer.plan import FramePlan
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 _FORMAT = ("2f 2f 1f 2f", "in_place", "in_offset", "in_kind", "in_extra")
 _UNITS = {"distances": 2, "rings": 3, "counts": 4}

@@ -8,11 +8,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.contours import HalfEdges, half_edges
-from renderer.geometry import Mesh
-from renderer.gpu.outlines import Outlines
-from renderer.gpu.programs import Shader
-from renderer.silhouettes import Topology, topology
+from seethrough.renderer.contours import HalfEdges, half_edges
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.gpu.outlines import Outlines
+from seethrough.renderer.gpu.programs import Shader
+from seethrough.renderer.silhouettes import Topology, topology
 
 FORMAT = "3f 3f 3f"
 ATTRIBUTES = ("in_position", "in_normal", "in_color")

@@ -16,10 +16,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from renderer import blocks, contours
+from seethrough.renderer import blocks, contours
 
 if TYPE_CHECKING:
-    from renderer.gpu.meshes import GpuMesh
+    from seethrough.renderer.gpu.meshes import GpuMesh
 
 
 # Compiled code is kept on disk until this file changes: change it with the kernels of contours.py.

@@ -12,10 +12,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.gpu.programs import Shader, program
-from renderer.gpu.reused import spoil
-from renderer.ordering.polygons import Floats
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu.programs import Shader, program
+from seethrough.renderer.gpu.reused import spoil
+from seethrough.renderer.ordering.polygons import Floats
 
 # Corner columns: r, g, b, opacity, u, v, textured (0 or 1).
 COLUMNS = 7

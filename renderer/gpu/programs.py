@@ -9,12 +9,12 @@ from typing import Any
 
 import moderngl
 
-from renderer import lighting
+from seethrough.renderer import lighting
 
 
 @cache
 def _source(name: str) -> str:
-    return files("renderer").joinpath("shaders", name).read_text(encoding="utf-8")
+    return files("seethrough.renderer").joinpath("shaders", name).read_text(encoding="utf-8")
 
 
 class Shader:

@@ -9,16 +9,16 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.gpu.layer import FrameStats, Layer
-from renderer.gpu.meshes import MeshStore
-from renderer.gpu.programs import program
-from renderer.gpu.scene_table import SceneTable
-from renderer.gpu.targets import FrameTarget
-from renderer.plan import SHORTCUTS, FramePlan, Technique, plan
-from renderer.scene import Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.visibility import Drawn, Visibility, visibility, visibility_of_shares
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.gpu.layer import FrameStats, Layer
+from seethrough.renderer.gpu.meshes import MeshStore
+from seethrough.renderer.gpu.programs import program
+from seethrough.renderer.gpu.scene_table import SceneTable
+from seethrough.renderer.gpu.targets import FrameTarget
+from seethrough.renderer.plan import SHORTCUTS, FramePlan, Technique, plan
+from seethrough.renderer.scene import Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.visibility import Drawn, Visibility, visibility, visibility_of_shares
 
 SCENES_KEPT = 4  # a trial's own, its inset's, and the last ones of both
 

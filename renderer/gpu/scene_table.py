@@ -8,11 +8,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.coverage import Triangles, triangles
-from renderer.gpu.meshes import GpuMesh, MeshStore
-from renderer.gpu.reused import kept
-from renderer.scene import Scene
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.coverage import Triangles, triangles
+from seethrough.renderer.gpu.meshes import GpuMesh, MeshStore
+from seethrough.renderer.gpu.reused import kept
+from seethrough.renderer.scene import Scene
 
 Run = tuple[GpuMesh, int, int]  # a mesh, its first row in the sequence, how many instances
 

@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.gpu.reused import spoil
+from seethrough.renderer.gpu.reused import spoil
 
 
 class FrameTarget:

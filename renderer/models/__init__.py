@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
-from renderer.geometry import Mesh
-from renderer.models import (
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.models import (
     animals,
     cars,
     craft,
@@ -24,7 +24,7 @@ from renderer.models import (
     seats,
     wildlife,
 )
-from renderer.models.shapes import Shape, shade
+from seethrough.renderer.models.shapes import Shape, shade
 
 BUILDERS: tuple[Callable[[], Shape], ...] = (
     animals.cat,
@@ -66,6 +66,6 @@ def proxy(name: str) -> Mesh:
 
     Closed, in the model's place, of its mean colour, made once. Raises KeyError for no model.
     """
-    from renderer.models import proxies
+    from seethrough.renderer.models import proxies
 
     return proxies.proxy(name)

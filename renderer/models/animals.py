@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.blend import Limb, Point, body, chain
-from renderer.models.shapes import Array, Color, Shape, assemble, join
-from renderer.models.surfaces import ball, curve, sweep
+from seethrough.renderer.models.blend import Limb, Point, body, chain
+from seethrough.renderer.models.shapes import Array, Color, Shape, assemble, join
+from seethrough.renderer.models.surfaces import ball, curve, sweep
 
 BLACK: Color = (0.06, 0.05, 0.05)
 WHITE: Color = (0.95, 0.94, 0.90)

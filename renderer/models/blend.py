@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.shapes import Array, Color, Shape, shape
+from seethrough.renderer.models.shapes import Array, Color, Shape, shape
 
 Field = NDArray[np.float32]
 Point = tuple[float, float, float]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.shapes import Color, Shape, assemble, join
-from renderer.models.surfaces import box, copies, disc, pillow, rod, rounded, tube
-from renderer.models.wheels import (
+from seethrough.renderer.models.shapes import Color, Shape, assemble, join
+from seethrough.renderer.models.surfaces import box, copies, disc, pillow, rod, rounded, tube
+from seethrough.renderer.models.wheels import (
     GLASS,
     RUBBER,
     STEEL,

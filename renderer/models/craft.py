@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.shapes import Array, Color, Shape, assemble, join
-from renderer.models.surfaces import (
+from seethrough.renderer.models.shapes import Array, Color, Shape, assemble, join
+from seethrough.renderer.models.surfaces import (
     box,
     circle,
     copies,
@@ -18,7 +18,7 @@ from renderer.models.surfaces import (
     sweep,
     tube,
 )
-from renderer.models.wheels import GLASS, STEEL, tyre, wing
+from seethrough.renderer.models.wheels import GLASS, STEEL, tyre, wing
 
 WHITE: Color = (0.94, 0.94, 0.95)
 DARK: Color = (0.12, 0.12, 0.13)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.shapes import Color, Shape, assemble, join
-from renderer.models.surfaces import (
+from seethrough.renderer.models.shapes import Color, Shape, assemble, join
+from seethrough.renderer.models.surfaces import (
     ball,
     box,
     curve,
@@ -17,7 +17,7 @@ from renderer.models.surfaces import (
     spun,
     sweep,
 )
-from renderer.models.wheels import STEEL, spoked_wheel
+from seethrough.renderer.models.wheels import STEEL, spoked_wheel
 
 BLACK: Color = (0.10, 0.10, 0.11)
 

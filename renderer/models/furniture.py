@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.seats import OAK, WALNUT, turned_leg
-from renderer.models.shapes import Array, Color, Shape, assemble, join
-from renderer.models.surfaces import (
+from seethrough.renderer.models.seats import OAK, WALNUT, turned_leg
+from seethrough.renderer.models.shapes import Array, Color, Shape, assemble, join
+from seethrough.renderer.models.surfaces import (
     ball,
     box,
     boxes,

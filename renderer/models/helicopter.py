@@ -4,9 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.shapes import Shape, assemble, join
-from renderer.models.surfaces import ball, box, copies, curve, disc, lathe, pillow, rod, spun, sweep
-from renderer.models.wheels import GLASS, STEEL, wing
+from seethrough.renderer.models.shapes import Shape, assemble, join
+from seethrough.renderer.models.surfaces import (
+    ball,
+    box,
+    copies,
+    curve,
+    disc,
+    lathe,
+    pillow,
+    rod,
+    spun,
+    sweep,
+)
+from seethrough.renderer.models.wheels import GLASS, STEEL, wing
 
 ORANGE = (0.90, 0.38, 0.08)
 WHITE = (0.94, 0.94, 0.92)

@@ -11,8 +11,8 @@ from functools import cache
 
 import numpy as np
 
-from renderer.geometry import Mesh
-from renderer.models.jeep_engine import (
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.models.jeep_engine import (
     AXLE_Y,
     DARK,
     IRON,
@@ -25,8 +25,8 @@ from renderer.models.jeep_engine import (
     shaft,
     springs,
 )
-from renderer.models.shapes import Color, Shape, assemble, join, shade
-from renderer.models.surfaces import (
+from seethrough.renderer.models.shapes import Color, Shape, assemble, join, shade
+from seethrough.renderer.models.surfaces import (
     ball,
     box,
     copies,
@@ -40,8 +40,8 @@ from renderer.models.surfaces import (
     sweep,
     tube,
 )
-from renderer.models.wheels import STEEL, hull, plate
-from renderer.scene import Object, Scene
+from seethrough.renderer.models.wheels import STEEL, hull, plate
+from seethrough.renderer.scene import Object, Scene
 
 OLIVE: Color = (0.36, 0.42, 0.22)
 CANVAS: Color = (0.62, 0.54, 0.36)

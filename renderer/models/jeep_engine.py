@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.shapes import Color, Shape, join
-from renderer.models.surfaces import (
+from seethrough.renderer.models.shapes import Color, Shape, join
+from seethrough.renderer.models.surfaces import (
     ball,
     box,
     copies,
@@ -19,7 +19,7 @@ from renderer.models.surfaces import (
     spun,
     sweep,
 )
-from renderer.models.wheels import RUBBER, STEEL, tyre
+from seethrough.renderer.models.wheels import RUBBER, STEEL, tyre
 
 IRON: Color = (0.42, 0.44, 0.47)
 DARK: Color = (0.14, 0.14, 0.15)

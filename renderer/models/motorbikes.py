@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.cycles import BLACK, mudguard
-from renderer.models.shapes import Shape, assemble, join
-from renderer.models.surfaces import ball, box, copies, curve, disc, pillow, rod, sweep
-from renderer.models.wheels import STEEL, road_wheel, tyre
+from seethrough.renderer.models.cycles import BLACK, mudguard
+from seethrough.renderer.models.shapes import Shape, assemble, join
+from seethrough.renderer.models.surfaces import ball, box, copies, curve, disc, pillow, rod, sweep
+from seethrough.renderer.models.wheels import STEEL, road_wheel, tyre
 
 RED = (0.72, 0.07, 0.08)
 

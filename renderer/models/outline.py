@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.geometry import Mesh
+from seethrough.renderer.geometry import Mesh
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.shapes import Array, Shape, assemble, join
-from renderer.models.surfaces import curve, lathe, sweep, tube
+from seethrough.renderer.models.shapes import Array, Shape, assemble, join
+from seethrough.renderer.models.surfaces import curve, lathe, sweep, tube
 
 
 def plant() -> Shape:

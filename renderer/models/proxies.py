@@ -2,7 +2,8 @@
 
 Quadric edge collapse (Garland and Heckbert 1997, as in libigl) takes a tenth of a second a model,
 too long for the start of a session, so proxies.npz holds its results. After a change to a model run
-`python -m renderer.models.proxies`, which writes the file anew and prints what it costs in outline.
+`python -m seethrough.renderer.models.proxies`, which writes the file anew and prints what it costs
+in outline.
 """
 
 from __future__ import annotations
@@ -14,9 +15,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.geometry import Mesh
-from renderer.models.outline import outline, square, view_axes
-from renderer.models.shapes import Shape, shade, shape
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.models.outline import outline, square, view_axes
+from seethrough.renderer.models.shapes import Shape, shade, shape
 
 FILE = Path(__file__).with_name("proxies.npz")
 BUDGETS = (300, 400, 600, 900)
@@ -137,7 +138,7 @@ def _only(whole: Shape, chosen: NDArray[np.bool_]) -> Shape:
 
 def main() -> None:
     """Write the proxies of all models and print the error of each."""
-    from renderer.models import BUILDERS
+    from seethrough.renderer.models import BUILDERS
 
     arrays = {}
     for build in BUILDERS:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.geometry import Mesh
+from seethrough.renderer.geometry import Mesh
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.camera import Camera
-from renderer.models import MODELS
-from renderer.models.outline import view_axes
-from renderer.scene import Object, Scene
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.models import MODELS
+from seethrough.renderer.models.outline import view_axes
+from seethrough.renderer.scene import Object, Scene
 
 YAW, PITCH = 0.61, 0.31
 """Radians: seen from the right of the front and from above, so that front, side and top show."""

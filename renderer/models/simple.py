@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import lru_cache
 
-from renderer.models import MODELS, proxy
-from renderer.scene import Object, Scene
+from seethrough.renderer.models import MODELS, proxy
+from seethrough.renderer.scene import Object, Scene
 
 SCENES_KEPT = 8
 

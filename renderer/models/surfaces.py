@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.models.shapes import SHARP, Array, Shape, shape
+from seethrough.renderer.models.shapes import SHARP, Array, Shape, shape
 
 
 def tube(

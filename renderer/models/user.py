@@ -12,12 +12,18 @@ from pathlib import Path
 
 import numpy as np
 
-from renderer.geometry import Mesh
-from renderer.models.files.part import GREY, MOST_TRIANGLES, Array, Found, to_shown
-from renderer.models.files.refine import Carried, refined
-from renderer.models.files.source import Refused, Source
-from renderer.models.files.surface import Sides, Surface, doubled, joined, shown_from_outside
-from renderer.models.shapes import assemble, shade, shape
+from seethrough.renderer.geometry import Mesh
+from seethrough.renderer.models.files.part import GREY, MOST_TRIANGLES, Array, Found, to_shown
+from seethrough.renderer.models.files.refine import Carried, refined
+from seethrough.renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.surface import (
+    Sides,
+    Surface,
+    doubled,
+    joined,
+    shown_from_outside,
+)
+from seethrough.renderer.models.shapes import assemble, shade, shape
 
 READERS = {".glb": "gltf", ".gltf": "gltf", ".obj": "obj", ".ply": "ply", ".stl": "stl"}
 KINDS = tuple(READERS)
@@ -91,7 +97,9 @@ def _found(source: Source) -> Found:
     suffix = source.path.suffix.lower()
     if suffix not in KINDS:
         raise Refused(f"expected a model file, one of {', '.join(KINDS)}")
-    read: Callable[[Source], Found] = import_module(f"renderer.models.files.{READERS[suffix]}").read
+    read: Callable[[Source], Found] = import_module(
+        f"seethrough.renderer.models.files.{READERS[suffix]}"
+    ).read
     try:
         found = read(source)
     except (Refused, OSError):

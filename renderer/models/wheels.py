@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from renderer.models.shapes import Array, Color, Shape, join
-from renderer.models.surfaces import (
+from seethrough.renderer.models.shapes import Array, Color, Shape, join
+from seethrough.renderer.models.surfaces import (
     box,
     circle,
     copies,

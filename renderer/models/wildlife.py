@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.animals import BLACK, WHITE, eye_pair, mirrored, whiskers
-from renderer.models.blend import Limb as L
-from renderer.models.blend import body, chain
-from renderer.models.shapes import Color, Shape, assemble
-from renderer.models.surfaces import ball, curve, sweep
+from seethrough.renderer.models.animals import BLACK, WHITE, eye_pair, mirrored, whiskers
+from seethrough.renderer.models.blend import Limb as L
+from seethrough.renderer.models.blend import body, chain
+from seethrough.renderer.models.shapes import Color, Shape, assemble
+from seethrough.renderer.models.surfaces import ball, curve, sweep
 
 HIDE: Color = (0.50, 0.50, 0.53)
 

@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.distance import centers
-from renderer.ordering.polygons import Floats, Integers, Polygons, check
-from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
-from renderer.ordering.tree import EVERYTHING, Tree, tree
+from seethrough.renderer.ordering.distance import centers
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons, check
+from seethrough.renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
+from seethrough.renderer.ordering.tree import EVERYTHING, Tree, tree
 
 
 @dataclass(frozen=True, eq=False, slots=True)

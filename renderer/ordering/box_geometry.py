@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.polygons import Floats, Polygons
+from seethrough.renderer.ordering.polygons import Floats, Polygons
 
 # Corner k lies at +1 along axis i where bit i of k is set. Face 2 i looks along +axis i, face
 # 2 i + 1 along -axis i; bit f of a code says that face f is visible.

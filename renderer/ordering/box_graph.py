@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from renderer.ordering.polygons import Floats, Integers
+from seethrough.renderer.ordering.polygons import Floats, Integers
 
 # (p,) how much of the view the first and the second objects (p,) of pairs share.
 Shared = Callable[[Integers, Integers], Floats]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from renderer.ordering.box_relations import contour, face_code
+from seethrough.renderer.ordering.box_relations import contour, face_code
 
 
 @numba.njit(cache=True)

@@ -25,13 +25,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.box_geometry import Boxes, contour_table, fit
-from renderer.ordering.box_graph import draw_order
-from renderer.ordering.box_overlap import shared_views
-from renderer.ordering.box_relations import FIRST, INTERSECTING, SECOND, relate
-from renderer.ordering.polygons import Floats, Integers, Polygons, check
-from renderer.ordering.predicates import plane_corners, plane_rows
-from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
+from seethrough.renderer.ordering.box_geometry import Boxes, contour_table, fit
+from seethrough.renderer.ordering.box_graph import draw_order
+from seethrough.renderer.ordering.box_overlap import shared_views
+from seethrough.renderer.ordering.box_relations import FIRST, INTERSECTING, SECOND, relate
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons, check
+from seethrough.renderer.ordering.predicates import plane_corners, plane_rows
+from seethrough.renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
 
 RULES = ("plane", "paper")
 

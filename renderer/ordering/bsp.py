@@ -17,11 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.bsp_kernels import choose, deal
-from renderer.ordering.fragments import CUT, MOST_PIECES, Fragments
-from renderer.ordering.polygons import Floats, Integers, Polygons
-from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
-from renderer.ordering.tree import AGAINST, ALONG, EITHER, EVERYTHING, Tree, tree
+from seethrough.renderer.ordering.bsp_kernels import choose, deal
+from seethrough.renderer.ordering.fragments import CUT, MOST_PIECES, Fragments
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons
+from seethrough.renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
+from seethrough.renderer.ordering.tree import AGAINST, ALONG, EITHER, EVERYTHING, Tree, tree
 
 SPLITTERS = ("first", "fewest", "sampled")
 CANDIDATES = 5

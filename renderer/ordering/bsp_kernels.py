@@ -5,8 +5,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from renderer.ordering.cutting import COUNT, PLANE, SOURCE, START
-from renderer.ordering.predicates import loop_heights, loop_limit
+from seethrough.renderer.ordering.cutting import COUNT, PLANE, SOURCE, START
+from seethrough.renderer.ordering.predicates import loop_heights, loop_limit
 
 
 @numba.njit(cache=True)

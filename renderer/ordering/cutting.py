@@ -13,7 +13,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from renderer.ordering.predicates import (
+from seethrough.renderer.ordering.predicates import (
     ROUNDING,
     distance_row,
     filtered_side,

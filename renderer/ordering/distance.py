@@ -13,8 +13,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.polygons import Floats, Integers, Polygons, check
-from renderer.ordering.prepared import Stats, drawable, viewpoint
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons, check
+from seethrough.renderer.ordering.prepared import Stats, drawable, viewpoint
 
 METRICS = ("distance", "depth")
 

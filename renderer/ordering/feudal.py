@@ -23,13 +23,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.feudal_list import Program, program
-from renderer.ordering.feudal_lookahead import Lookahead
-from renderer.ordering.feudal_relations import Relations
-from renderer.ordering.feudal_tree import Cheapest, Node, build_dynamic, build_static
-from renderer.ordering.fragments import MOST_PIECES, Fragments
-from renderer.ordering.polygons import Floats, Integers, Polygons
-from renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
+from seethrough.renderer.ordering.feudal_list import Program, program
+from seethrough.renderer.ordering.feudal_lookahead import Lookahead
+from seethrough.renderer.ordering.feudal_relations import Relations
+from seethrough.renderer.ordering.feudal_tree import Cheapest, Node, build_dynamic, build_static
+from seethrough.renderer.ordering.fragments import MOST_PIECES, Fragments
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons
+from seethrough.renderer.ordering.prepared import Drawable, Stats, drawable, viewpoint
 
 VERSIONS = ("static", "dynamic")
 # Above this the table of relations would take more than 400 MB.

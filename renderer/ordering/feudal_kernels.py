@@ -12,7 +12,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from renderer.ordering.cutting import COUNT, START, corner_side
+from seethrough.renderer.ordering.cutting import COUNT, START, corner_side
 
 COPLANAR, IN_FRONT, BEHIND, CUT = 0, 1, 2, 3
 # A relation nobody asked for yet; one that only exact arithmetic can tell; a row without cuts.

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.feudal_stretches import Lists, Stretches, write_out
-from renderer.ordering.feudal_tree import Node
-from renderer.ordering.polygons import Floats, Integers
+from seethrough.renderer.ordering.feudal_stretches import Lists, Stretches, write_out
+from seethrough.renderer.ordering.feudal_tree import Node
+from seethrough.renderer.ordering.polygons import Floats, Integers
 
 DOWN, SWITCH, UP = 0, 1, 2
 

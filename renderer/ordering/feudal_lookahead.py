@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from renderer.ordering.feudal_relations import Relations
-from renderer.ordering.feudal_tree import Cheapest, Node, divide, settle
-from renderer.ordering.polygons import Integers
+from seethrough.renderer.ordering.feudal_relations import Relations
+from seethrough.renderer.ordering.feudal_tree import Cheapest, Node, divide, settle
+from seethrough.renderer.ordering.polygons import Integers
 
 # What balance is worth in cuts: to the rules that propose, and to those that build the subtrees.
 WEIGHTS = (0.0, 0.5, 1.0, 2.0)

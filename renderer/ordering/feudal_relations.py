@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.feudal_kernels import (
+from seethrough.renderer.ordering.feudal_kernels import (
     BEHIND,
     COPLANAR,
     CUT,
@@ -15,8 +15,8 @@ from renderer.ordering.feudal_kernels import (
     clean_rows,
     first_usable,
 )
-from renderer.ordering.fragments import Fragments
-from renderer.ordering.polygons import Integers
+from seethrough.renderer.ordering.fragments import Fragments
+from seethrough.renderer.ordering.polygons import Integers
 
 # What a row says where the two polygons' normals point opposite ways.
 REVERSED = np.array([COPLANAR, BEHIND, IN_FRONT, CUT], np.int8)

@@ -16,7 +16,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.polygons import Floats, Integers
+from seethrough.renderer.ordering.polygons import Floats, Integers
 
 # Switches of a knot: its order is written out 2^SWITCHES times. `emit` unrolls this number.
 SWITCHES = 5

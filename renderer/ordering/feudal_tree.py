@@ -7,9 +7,9 @@ from typing import Protocol
 
 import numpy as np
 
-from renderer.ordering.feudal_kernels import BEHIND, COPLANAR, CUT, IN_FRONT
-from renderer.ordering.feudal_relations import Relations
-from renderer.ordering.polygons import Integers
+from seethrough.renderer.ordering.feudal_kernels import BEHIND, COPLANAR, CUT, IN_FRONT
+from seethrough.renderer.ordering.feudal_relations import Relations
+from seethrough.renderer.ordering.polygons import Integers
 
 
 @dataclass(slots=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.cutting import COUNT, SOURCE, START, classify, cut, interpolate
-from renderer.ordering.polygons import Integers, Polygons, check
-from renderer.ordering.predicates import (
+from seethrough.renderer.ordering.cutting import COUNT, SOURCE, START, classify, cut, interpolate
+from seethrough.renderer.ordering.polygons import Integers, Polygons, check
+from seethrough.renderer.ordering.predicates import (
     has_area,
     plane_corners,
     plane_ids,

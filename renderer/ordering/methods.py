@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from renderer.ordering.polygons import Polygons
-from renderer.ordering.prepared import Prepared
+from seethrough.renderer.ordering.polygons import Polygons
+from seethrough.renderer.ordering.prepared import Prepared
 
 # Module, and what to ask of it.
 METHODS: dict[str, tuple[str, dict[str, str]]] = {
@@ -34,7 +34,7 @@ def prepare(name: str, polygons: Polygons, most: int | None = None) -> Prepared:
         raise ValueError(f"order = {name!r}, expected one of {', '.join(METHODS)}")
     module, options = METHODS[name]
     bound = {} if most is None or module not in CUTTING else {"most": most}
-    prepared: Prepared = import_module(f"renderer.ordering.{module}").prepare(
+    prepared: Prepared = import_module(f"seethrough.renderer.ordering.{module}").prepare(
         polygons, **options, **bound
     )
     return prepared

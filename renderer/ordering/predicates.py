@@ -17,7 +17,7 @@ import numpy as np
 from igl import predicates as igl_predicates
 from numpy.typing import NDArray
 
-from renderer.ordering.polygons import Floats, Integers, Polygons, newell
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons, newell
 
 # (7 + 56 eps) eps with eps = 2^-53: ORIENT3D's bound A, relative to the permanent.
 ERROR_BOUND = (7.0 + 56.0 * 2.0**-53) * 2.0**-53

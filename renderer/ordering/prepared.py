@@ -8,9 +8,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.polygons import Floats, Integers, Polygons
-from renderer.ordering.predicates import plane_corners, plane_rows
-from renderer.ordering.triangulation import triangulate
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons
+from seethrough.renderer.ordering.predicates import plane_corners, plane_rows
+from seethrough.renderer.ordering.triangulation import triangulate
 
 DENSE_CROSSINGS = "DENSE CROSSINGS"  # begins the warning
 DENSE = 8  # times as many out as in: soups of random triangles stay below 5

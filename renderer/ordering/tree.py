@@ -8,7 +8,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.polygons import Floats, Integers
+from seethrough.renderer.ordering.polygons import Floats, Integers
 
 Indices = NDArray[np.uint32]
 # Which way an item faces: away from its node's normal, along it, or it is drawn either way.

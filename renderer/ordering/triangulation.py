@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.ordering.polygons import Floats, Integers, Polygons, newell
+from seethrough.renderer.ordering.polygons import Floats, Integers, Polygons, newell
 
 
 def triangulate(polygons: Polygons, normals: Floats) -> tuple[NDArray[np.int32], Integers]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from renderer.declared import check, key
+from seethrough.renderer.declared import check, key
 
 MASKS = ("outline", "ring", "circle", "ellipse", "oriented-ellipse", "hull")
 MODES = ("passive", "active")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGES = ("analysis", "benchmarks", "configs", "experiment", "renderer", "tasks")
+ROOMS = ("analysis", "benchmarks", "configs", "experiment", "renderer", "tasks")
 MADE_HERE = {"__pycache__", "build", "dist", "out"}
 
 
@@ -39,12 +39,26 @@ def tree() -> list[Path]:
 
 @pytest.fixture(scope="session")
 def sources(tree: list[Path]) -> list[Path]:
-    """The Python files of our packages."""
-    return [f for f in tree if f.suffix == ".py" and f.relative_to(ROOT).parts[0] in PACKAGES]
+    """The Python files of our package, whose rooms lie at the top of the checkout."""
+    ours = {*ROOMS, "seethrough"}
+    return [f for f in tree if f.suffix == ".py" and f.relative_to(ROOT).parts[0] in ours]
 
 
 @pytest.fixture(scope="session")
 def modules(sources: list[Path]) -> list[str]:
-    """The names under which our packages' files are imported; `__main__` is run, not imported."""
+    """The names under which our files are imported; `__main__` is run, not imported."""
     paths = [f.relative_to(ROOT).with_suffix("") for f in sources if f.name != "__main__.py"]
-    return [".".join(p.parent.parts if p.name == "__init__" else p.parts) for p in paths]
+    names = [".".join(p.parent.parts if p.name == "__init__" else p.parts) for p in paths]
+    return [name if name == "seethrough" else f"seethrough.{name}" for name in names]
+
+
+@pytest.fixture(scope="session")
+def linked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder in which `seethrough` lies whole, as in the wheel: for readers of folders."""
+    folder = tmp_path_factory.mktemp("linked")
+    (folder / "seethrough").mkdir()
+    for source in (ROOT / "seethrough").glob("*.py"):
+        (folder / "seethrough" / source.name).symlink_to(source)
+    for room in ROOMS:
+        (folder / "seethrough" / room).symlink_to(ROOT / room, target_is_directory=True)
+    return folder

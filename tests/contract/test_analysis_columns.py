@@ -8,11 +8,11 @@ from typing import get_args
 
 import pytest
 
-from analysis import exclude, plan
-from analysis.load import schema
-from analysis.load.chain import link, seal_of, start_of
-from experiment import chain, study_tables
-from experiment.columns import TABLES
+from seethrough.analysis import exclude, plan
+from seethrough.analysis.load import schema
+from seethrough.analysis.load.chain import link, seal_of, start_of
+from seethrough.experiment import chain, study_tables
+from seethrough.experiment.columns import TABLES
 
 
 @pytest.mark.parametrize(

@@ -9,20 +9,20 @@ from math import pi
 import numpy as np
 import pytest
 
-from experiment.design import generator
-from renderer import geometry
-from renderer.camera import Camera, look_at
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from renderer.models import MODELS
-from renderer.scene import Object, Scene
-from renderer.techniques.standard import Standard
-from renderer.transforms import rotation_y, translation
-from renderer.visibility import shares
-from tasks.abstract_scene import abstract_scene
-from tasks.controls import orbit, turned, walk
-from tasks.events import KeyPress, PointerMove, Tick
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.experiment.design import generator
+from seethrough.renderer import geometry
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.models import MODELS
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.transforms import rotation_y, translation
+from seethrough.renderer.visibility import shares
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.controls import orbit, turned, walk
+from seethrough.tasks.events import KeyPress, PointerMove, Tick
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 AHEAD = np.array([0.0, 0.0, -1.0])
 LEFT = np.array([-1.0, 0.0, 0.0])

@@ -11,8 +11,8 @@ import re
 import pytest
 from recorded import record
 
-from experiment import cli
-from experiment.columns import TABLES
+from seethrough.experiment import cli
+from seethrough.experiment.columns import TABLES
 
 # "keys can be any sequence of lowercase alphabetic characters (a-z)", "values can be any sequence
 # of upper- and lowercase alphanumeric characters", joined by underscores, ending in _data.csv

@@ -14,11 +14,11 @@ from disks import nobody
 from made_chains import chain, enter
 from made_data import Made, make_folder
 
-from analysis.errors import DataError
-from analysis.load.chain import start_of
-from analysis.load.study import load_study
-from analysis.page.markdown import as_markdown
-from analysis.report import Options, make_report
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.chain import start_of
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.report import Options, make_report
 
 
 @pytest.fixture(scope="module")

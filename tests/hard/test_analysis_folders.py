@@ -11,10 +11,10 @@ import pytest
 from data_folders import ANSWERS, TRIALS, edit, refused
 from made_data import Made, make_folder
 
-from analysis.errors import SHOWN, DataError
-from analysis.load.study import load_study
-from analysis.report import Options, make_report
-from experiment.cli import main
+from seethrough.analysis.errors import SHOWN, DataError
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.report import Options, make_report
+from seethrough.experiment.cli import main
 
 
 @pytest.fixture(scope="module")

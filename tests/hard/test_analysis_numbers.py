@@ -8,12 +8,12 @@ import numpy as np
 import oracles
 import pytest
 
-from analysis.cells import means
-from analysis.comparison import Measure, compare, compare_logs
-from analysis.stats.anova import repeated_measures
-from analysis.stats.paired import one_sample, paired, ratio_of_means, tost
-from analysis.stats.ranks import friedman
-from analysis.stats.undefined import Undefined
+from seethrough.analysis.cells import means
+from seethrough.analysis.comparison import Measure, compare, compare_logs
+from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.paired import one_sample, paired, ratio_of_means, tost
+from seethrough.analysis.stats.ranks import friedman
+from seethrough.analysis.stats.undefined import Undefined
 
 EQUAL = Undefined("all differences are equal")
 OFFSETS = ["0.0", "1000.0", "1000000.0", "1000000000.0", "1000000000000.0", "1000000000000000.0"]

@@ -11,8 +11,8 @@ from contextlib import redirect_stderr, redirect_stdout
 import pytest
 from broken_configs import BASE, KINDS, case, toml
 
-from experiment import cli
-from experiment.errors import MOST
+from seethrough.experiment import cli
+from seethrough.experiment.errors import MOST
 
 CASES = int(os.environ.get("SEETHROUGH_CASES", "300"))
 

@@ -10,9 +10,9 @@ from contextlib import redirect_stderr, redirect_stdout
 
 from broken_data import break_one, valid
 
-from analysis.errors import DataError
-from analysis.load.study import load_study
-from experiment import cli
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.study import load_study
+from seethrough.experiment import cli
 
 CASES = int(os.environ.get("SEETHROUGH_CASES", "120"))
 

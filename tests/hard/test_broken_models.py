@@ -8,7 +8,7 @@ from model_cases import RGB, TRIANGLES, XYZ, mtl, plain
 from model_cases_gltf import pbr
 from model_files import CUBE, QUADS, Gltf, logo, obj, ply, png, stl
 
-from renderer.models.user import load_model
+from seethrough.renderer.models.user import load_model
 
 LIST = [(("uchar", "int"), "vertex_indices")]
 
@@ -175,7 +175,7 @@ def test_any_flipped_byte_gives_a_model_or_one_line(tmp_path):
 
 
 def test_the_digest_covers_what_lies_beside(tmp_path):
-    from renderer.models.user import read_model
+    from seethrough.renderer.models.user import read_model
 
     files = {"a.obj": obj(CUBE, SIDED, "mtllib a.mtl"), "a.mtl": mtl([(1, 0, 0)])}
     digests = []

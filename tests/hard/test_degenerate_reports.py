@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from made_data import Made, make_folder
 
-from experiment.cli import main
+from seethrough.experiment.cli import main
 
 FIGURES = ("time", "errors", "ratings", "tradeoff", "learning")
 

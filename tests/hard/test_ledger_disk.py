@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from disks import read_only, small_disk
 
-from experiment import cli
-from experiment.ledger import Ledger
-from experiment.ledger_plan import Plan
+from seethrough.experiment import cli
+from seethrough.experiment.ledger import Ledger
+from seethrough.experiment.ledger_plan import Plan
 
 PLAN = Plan("t", "d" * 64, 4, 2000, 86400.0, {})
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
@@ -21,9 +21,9 @@ RESERVE = """
 import argparse, os, resource, sys
 from datetime import UTC, datetime
 from pathlib import Path
-from experiment import cli
-from experiment.ledger import Ledger
-from experiment.ledger_plan import Plan
+from seethrough.experiment import cli
+from seethrough.experiment.ledger import Ledger
+from seethrough.experiment.ledger_plan import Plan
 
 data, largest, user = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 if user:
@@ -50,10 +50,10 @@ sys.exit(cli.main([]))
 SESSION = """
 import resource, sys
 from pathlib import Path
-from experiment import cli
-from experiment.commands import run
-from experiment.config import load
-from experiment.recorder import FileRecorder, Who
+from seethrough.experiment import cli
+from seethrough.experiment.commands import run
+from seethrough.experiment.config import load
+from seethrough.experiment.recorder import FileRecorder, Who
 
 def play(study, participant, slot, source, data, guard):
     provenance = {"study_sha256": study.digest()}

@@ -7,11 +7,11 @@ import stat
 import pytest
 from made_data import Made, make_folder
 
-from analysis.written import own_folder, write_over
-from experiment import cli
-from experiment.errors import InputError
-from experiment.private import write_new
-from experiment.recorder import FileRecorder, Who
+from seethrough.analysis.written import own_folder, write_over
+from seethrough.experiment import cli
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.private import write_new
+from seethrough.experiment.recorder import FileRecorder, Who
 
 WRITES = 200  # of each of two processes
 

@@ -10,11 +10,11 @@ import pytest
 from made_chains import chain, close, enter
 from made_data import Made, make_folder
 
-from analysis.load.chain import link, start_of
-from analysis.load.seal import seal
-from analysis.page.markdown import as_markdown
-from analysis.report import Options, make_report
-from experiment import cli
+from seethrough.analysis.load.chain import link, start_of
+from seethrough.analysis.load.seal import seal
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.report import Options, make_report
+from seethrough.experiment import cli
 
 # CONVENTIONS.md has these words: a reader without this program can make the same seal.
 SHELL = (

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from sample_scenes import before_column, column
 
-from renderer.gpu.renderer import Renderer
-from renderer.reference import exact
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.reference import exact
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 SIZE = (160, 120)
 # Issue 2: half a step of rounding, and what 16-bit alpha and 32-bit shading add.

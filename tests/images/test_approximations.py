@@ -5,12 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.camera import look_at
-from renderer.gpu.approximations import PeelingPainter, StochasticPainter, WeightedPainter
-from renderer.gpu.context import standalone
-from renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
-from renderer.ordering.polygons import polygons_from
-from renderer.ordering.prepared import drawable
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.gpu.approximations import (
+    PeelingPainter,
+    StochasticPainter,
+    WeightedPainter,
+)
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
+from seethrough.renderer.ordering.polygons import polygons_from
+from seethrough.renderer.ordering.prepared import drawable
 
 SIZE = (48, 36)
 BACKGROUND = (0.2, 0.4, 0.6)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column
 
-from renderer import geometry, transforms
-from renderer.camera import look_at
-from renderer.fragments import fragments
-from renderer.gpu.renderer import Renderer
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.fragments import fragments
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 SIZE = (120, 90)
 TECHNIQUE = DynamicTransparency(width=6)

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from renderer import geometry, transforms
-from renderer.camera import look_at
-from renderer.gpu import cluster_painter
-from renderer.gpu.renderer import Renderer
-from renderer.reference import exact
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.visibility import SEEN
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.gpu import cluster_painter
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.reference import exact
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.visibility import SEEN
 
 SIZE = (120, 90)
 POLYGONS = DynamicTransparency(order="polygons", doubt=0.0, width=7)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from sample_scenes import before_column, column
 
-from renderer.gpu.renderer import Renderer
-from renderer.reference import exact
-from renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES, DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.reference import exact
+from seethrough.renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES, DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 SIZE = (96, 72)
 BASE = DynamicTransparency(width=7, pointer=(0.65, 0.5), radius=0.25, softness=0.2)

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES
 
-from renderer import transforms
-from renderer.camera import look_at
-from renderer.gpu import exact_painter
-from renderer.gpu.few_sorter import MASKS, SLICES, FewSorter
-from renderer.gpu.renderer import Renderer
-from renderer.reference import exact
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer import transforms
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.gpu import exact_painter
+from seethrough.renderer.gpu.few_sorter import MASKS, SLICES, FewSorter
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.reference import exact
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 SIZE = (101, 77)  # ends within a block on two sides
 EXACT = DynamicTransparency(width=6, exact=True)

@@ -9,14 +9,20 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES
 
-from benchmarks import guarantee
-from benchmarks.guarantee import KEPT, Guarantee, abstract_views, building_views, orbit_path
-from renderer import geometry, transforms
-from renderer.camera import Camera, look_at
-from renderer.gpu.renderer import Renderer
-from renderer.reference import exact
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.benchmarks import guarantee
+from seethrough.benchmarks.guarantee import (
+    KEPT,
+    Guarantee,
+    abstract_views,
+    building_views,
+    orbit_path,
+)
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.reference import exact
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 DEFAULT = DynamicTransparency()
 

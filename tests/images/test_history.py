@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from renderer.plan import plan
-from renderer.techniques.dynamic import DynamicTransparency
-from tasks.catalog import TASKS
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.plan import plan
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 SIZE = (800, 600)
 CLOUD = AbstractParameters(side=50.0, objects=60, target_share=(0.3, 0.4))

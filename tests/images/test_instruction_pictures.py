@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 from instruction_pictures import SIZE, sights
 
-from experiment.viewpoint import best, shown
-from renderer.camera import Camera
-from renderer.fragments import fragments
-from renderer.geometry import box
-from renderer.gpu.renderer import Renderer
-from renderer.scene import Object, Scene
-from renderer.transforms import translation
-from tasks.base import Example
-from tasks.catalog import TASKS
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.experiment.viewpoint import best, shown
+from seethrough.renderer.camera import Camera
+from seethrough.renderer.fragments import fragments
+from seethrough.renderer.geometry import box
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.transforms import translation
+from seethrough.tasks.base import Example
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 # Ours; `python tests/support/instruction_pictures.py SEEDS` prints the least over more seeds.
 LARGEST = {"unique": 0.01, "count_in_building": 0.01}  # of the picture, the largest thing asked for

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.breaking import crossings, small_crossings
-from renderer.gpu.renderer import Renderer
-from renderer.reference import exact
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.visibility import SEEN
+from seethrough.benchmarks.breaking import crossings, small_crossings
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.reference import exact
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.visibility import SEEN
 
 SIZE = (120, 90)
 TECHNIQUE = DynamicTransparency(width=5)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from model_reference import DIRECTIONS, cast, cast_mesh, standing
 
-from experiment.contact_sheet import _sides
-from renderer.models.user import read_model
+from seethrough.experiment.contact_sheet import _sides
+from seethrough.renderer.models.user import read_model
 
 CASES = model_cases.CASES + model_cases_gltf.CASES
 # Colours of 8 bits, and single precision: half a step of 255 each, doubled by sRGB where it is

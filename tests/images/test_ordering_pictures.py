@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.camera import look_at
-from renderer.gpu.context import standalone
-from renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
-from renderer.models.translucent.scenes import scene
-from renderer.ordering.methods import prepare
-from renderer.ordering.polygons import polygons_from
-from renderer.ordering.prepared import drawable
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
+from seethrough.renderer.models.translucent.scenes import scene
+from seethrough.renderer.ordering.methods import prepare
+from seethrough.renderer.ordering.polygons import polygons_from
+from seethrough.renderer.ordering.prepared import drawable
 
 SIZE = (200, 150)
 # Issue 3: 1/255 at every pixel but the one in a thousand along cuts.

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from experiment.config import load
-from experiment.design import session_for
-from experiment.looking import HEIGHT, Looking
-from experiment.participants.pool import LazyDraw
-from experiment.scenes import StudyScenes
-from renderer.gpu.renderer import Renderer
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
-from tasks.base import View
-from tasks.catalog import TASKS
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.looking import HEIGHT, Looking
+from seethrough.experiment.participants.pool import LazyDraw
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.base import View
+from seethrough.tasks.catalog import TASKS
 
 STUDY = load("published")
 WINDOW = (800, 600)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from experiment import cli
-from experiment.viewer import Viewer, ViewState
-from renderer.gpu.context import standalone
-from renderer.models.translucent.scenes import scene
-from renderer.ordering.methods import prepare
+from seethrough.experiment import cli
+from seethrough.experiment.viewer import Viewer, ViewState
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.models.translucent.scenes import scene
+from seethrough.renderer.ordering.methods import prepare
 
 SIZE = (160, 120)
 EMPTY = 1 / 255  # of a channel: the background, as half floats hold it

@@ -2,19 +2,19 @@
 
 import pytest
 
-from experiment import cli
-from experiment.clock import SimulatedClock
-from experiment.config import load
-from experiment.design import SIMULATED, generator
-from experiment.offscreen import OffscreenDisplay
-from experiment.participants import batch
-from experiment.participants.data_mode import Played, play_session
-from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.pool import LazyDraw, Pool
-from experiment.session import run_session
-from experiment.simulated_input import SimulatedInput
-from experiment.world import World
-from tasks.catalog import TASKS
+from seethrough.experiment import cli
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.config import load
+from seethrough.experiment.design import SIMULATED, generator
+from seethrough.experiment.offscreen import OffscreenDisplay
+from seethrough.experiment.participants import batch
+from seethrough.experiment.participants.data_mode import Played, play_session
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.participants.pool import LazyDraw, Pool
+from seethrough.experiment.session import run_session
+from seethrough.experiment.simulated_input import SimulatedInput
+from seethrough.experiment.world import World
+from seethrough.tasks.catalog import TASKS
 
 LATTICE = frozenset({"motor_noise"})  # without it a participant stands on the lattice: exact tables
 
@@ -49,7 +49,7 @@ def test_where_tables_are_exact_a_whole_session_is_the_same_event_for_event(cont
 
 def test_a_study_of_sixteen_in_data_mode_is_the_same_on_two_workers(tmp_path, monkeypatch):
     """What CI plays: 16 participants, two processes against one, down to the last byte."""
-    monkeypatch.setattr("experiment.participants.batch_files.CHUNK", 4)
+    monkeypatch.setattr("seethrough.experiment.participants.batch_files.CHUNK", 4)
     tables = tmp_path / "tables.db"
     folders = []
     for workers in ("1", "2"):
@@ -76,7 +76,7 @@ def test_without_opengl_a_command_that_draws_says_so_in_one_line(
     def none():
         raise RuntimeError("OpenGL 3.3: not available, expected a graphics driver")
 
-    monkeypatch.setattr("renderer.gpu.context.standalone", none)
+    monkeypatch.setattr("seethrough.renderer.gpu.context.standalone", none)
     monkeypatch.setattr(batch, "_ready", {})
     assert cli.main(words.format(t=tmp_path).split()) == 2
     told = [line for line in capsys.readouterr().err.splitlines() if " after " not in line]

@@ -13,7 +13,7 @@ from made_data import Made, make_folder
 from scipy import stats
 from statsmodels.stats.multitest import multipletests
 
-from experiment.cli import main
+from seethrough.experiment.cli import main
 
 TASKS = ("count", "pattern", "unique", "count_in_building")
 # Names and levels, which are no results: tasks, predictions, confidence levels, the margin, the

@@ -8,8 +8,8 @@ import time
 import pytest
 from desktop import Desktop
 
-from experiment import interrupt
-from experiment.ledger import Ledger
+from seethrough.experiment import interrupt
+from seethrough.experiment.ledger import Ledger
 
 LINE = "seethrough: interrupted; every completed trial is saved"
 
@@ -17,7 +17,7 @@ LINE = "seethrough: interrupted; every completed trial is saved"
 @pytest.mark.parametrize("seconds", [0.7, 2.0, 4.0])  # imports, ledger, window: as they come
 def test_an_interrupted_start_ends_in_one_line_and_holds_no_slot(tmp_path, seconds):
     data = tmp_path / "data"
-    words = [sys.executable, "-m", "experiment", "run", "demo", "--next", "--data", data]
+    words = [sys.executable, "-m", "seethrough", "run", "demo", "--next", "--data", data]
     with Desktop() as desktop:
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
         program = subprocess.Popen(list(map(str, words)), env=desktop.env, **pipes)

@@ -7,8 +7,8 @@ import pytest
 from desktop import Desktop, wait_until
 from player import START, answer, open_session
 
-from experiment.config import load
-from experiment.resume import starting_point
+from seethrough.experiment.config import load
+from seethrough.experiment.resume import starting_point
 
 TITLE = "A session that breaks off"
 STUDY = f"""
@@ -36,7 +36,7 @@ FAILING = """
 import sys
 from pathlib import Path
 import moderngl, pyglet
-from experiment import cli
+from seethrough.experiment import cli
 
 now, how = Path(sys.argv.pop(1)), sys.argv.pop(1)
 flip, error = pyglet.window.Window.flip, moderngl.Context.error

@@ -26,7 +26,7 @@ moderngl.create_context = none
 
 def said(env, words, folder):
     """The one line of a command that must fail; nothing of a session is there after it."""
-    command = [sys.executable, "-m", "experiment", *words.format(t=folder).split()]
+    command = [sys.executable, "-m", "seethrough", *words.format(t=folder).split()]
     done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=120)
     lines = [line for line in done.stderr.splitlines() if "participant P01, slot 1" not in line]
     assert done.returncode == 2 and len(lines) == 1, done.stderr
@@ -63,7 +63,7 @@ def test_a_slot_whose_session_could_not_begin_is_given_out_again(tmp_path):
     env = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
     for _ in range(2):
         said(env, "run demo --next --data {t}/data", tmp_path)
-    words = [sys.executable, "-m", "experiment", "status", str(tmp_path / "data")]
+    words = [sys.executable, "-m", "seethrough", "status", str(tmp_path / "data")]
     done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     assert "slots     0 complete, 0 open, 4 free, 0 void entries" in done.stdout

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from recorded_session import DrawnDisplay, play_recorded
 
-from experiment import cli
-from experiment.commands.replay import _verify as verify
-from experiment.errors import InputError
-from experiment.replay import find_trial, replay
+from seethrough.experiment import cli
+from seethrough.experiment.commands.replay import _verify as verify
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.replay import find_trial, replay
 
 
 @pytest.fixture(scope="module")

@@ -48,7 +48,7 @@ def test_escape_leaves_it(data, tmp_path):
 
 def test_without_a_desktop_it_is_one_line(data):
     env = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
-    command = [sys.executable, "-m", "experiment", *map(str, words(data))]
+    command = [sys.executable, "-m", "seethrough", *map(str, words(data))]
     done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=120)
     assert done.returncode == 2 and done.stderr.count("\n") == 1
     assert done.stderr.startswith("seethrough: display: no window can be opened")

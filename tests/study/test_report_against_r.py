@@ -11,10 +11,10 @@ import r_values
 from report_cases import CASES, Case
 from report_folders import PUBLISHED, contents, make_case, published_data
 
-from analysis.page.blocks import Column, Table
-from analysis.published.grim import fitting_whole_numbers
-from analysis.published.numbers import load_published
-from analysis.report import Options, make_published, make_report, tables_of
+from seethrough.analysis.page.blocks import Column, Table
+from seethrough.analysis.published.grim import fitting_whole_numbers
+from seethrough.analysis.published.numbers import load_published
+from seethrough.analysis.report import Options, make_published, make_report, tables_of
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)

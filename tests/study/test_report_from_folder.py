@@ -10,12 +10,12 @@ import pytest
 from made_data import Made, make_folder
 from scipy import stats
 
-from analysis.load.study import load_study
-from analysis.page.blocks import Table, walk
-from analysis.page.html import as_html
-from analysis.page.markdown import as_markdown
-from analysis.report import Options, figures_of, make_report
-from experiment.cli import main
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.page.blocks import Table, walk
+from seethrough.analysis.page.html import as_html
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.report import Options, figures_of, make_report
+from seethrough.experiment.cli import main
 
 
 @pytest.fixture(scope="module")

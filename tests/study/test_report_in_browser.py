@@ -12,7 +12,7 @@ import pytest
 from browser import Browser
 from made_data import Made, make_folder
 
-from experiment.cli import main
+from seethrough.experiment.cli import main
 
 # details of violations only: with those of all that passes a page takes four times as long
 AXE = "axe.run(document, {resultTypes: ['violations']}).then(arguments[arguments.length - 1])"
@@ -223,7 +223,7 @@ def test_it_prints_to_pdf(folder, tmp_path):
 
 def test_without_a_browser_pdf_says_so(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setattr("analysis.page.pdf.PLACES", ())
+    monkeypatch.setattr("seethrough.analysis.page.pdf.PLACES", ())
     out = tmp_path / "out"
     assert main(["report", "--published", "--out", str(out), "--format", "pdf"]) == 2
     error = capsys.readouterr().err

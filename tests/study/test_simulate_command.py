@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from experiment import cli
+from seethrough.experiment import cli
 
 
 def rows(folder):
@@ -21,7 +21,7 @@ def tables(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def small_chunks(monkeypatch):
-    monkeypatch.setattr("experiment.participants.batch_files.CHUNK", 2)
+    monkeypatch.setattr("seethrough.experiment.participants.batch_files.CHUNK", 2)
 
 
 def data_mode(tables, out, *more):

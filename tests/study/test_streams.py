@@ -8,10 +8,10 @@ import time
 
 import pytest
 
-from experiment.cli import COMMANDS
+from seethrough.experiment.cli import COMMANDS
 
-PYTHON = [sys.executable, "-m", "experiment"]
-UNBUFFERED = [sys.executable, "-u", "-m", "experiment"]
+PYTHON = [sys.executable, "-m", "seethrough"]
+UNBUFFERED = [sys.executable, "-u", "-m", "seethrough"]
 
 
 @pytest.fixture(scope="module")

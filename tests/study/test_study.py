@@ -8,9 +8,9 @@ from collections import Counter
 
 import pytest
 
-from experiment import cli
-from experiment.config import load
-from experiment.replay import find_trial, replay
+from seethrough.experiment import cli
+from seethrough.experiment.config import load
+from seethrough.experiment.replay import find_trial, replay
 
 PARTICIPANTS = 4  # one pass through the Latin square
 
@@ -73,7 +73,7 @@ def test_every_trace_of_a_simulated_session_can_be_replayed(data):
 
 def test_the_report_is_made_from_the_folder_alone_and_says_that_nobody_was_there(data, tmp_path):
     out = tmp_path / "report"
-    command = [sys.executable, "-m", "experiment", "report", str(data), "--out", str(out)]
+    command = [sys.executable, "-m", "seethrough", "report", str(data), "--out", str(out)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     page = (out / "report.html").read_text(encoding="utf-8")
@@ -125,7 +125,7 @@ def test_bad_input_is_one_line_and_status_2(words, message, tmp_path, monkeypatc
 
 def test_help_imports_none_of_the_heavy_packages():
     code = (
-        "import sys\nfrom experiment.cli import main\n"
+        "import sys\nfrom seethrough.experiment.cli import main\n"
         "try:\n    main(['--help'])\nexcept SystemExit:\n    pass\n"
         "heavy = {'numpy', 'numba', 'scipy', 'pandas', 'matplotlib', 'statsmodels', 'pyglet'}\n"
         "print(sorted(heavy & set(sys.modules)))"
@@ -137,7 +137,7 @@ def test_help_imports_none_of_the_heavy_packages():
 def test_the_demo_without_a_display_plays_and_reports(tmp_path, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     out = tmp_path / "demo"
-    command = [sys.executable, "-m", "experiment", "demo", "--out", str(out)]
+    command = [sys.executable, "-m", "seethrough", "demo", "--out", str(out)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip().splitlines()[-1].endswith("report.html")

@@ -11,7 +11,7 @@ import pytest
 from desktop import Desktop, Program, wait_until
 from player import ARTEFACTS, PAGE, START, answer, drag, fill_in, open_session, trials_of
 
-from experiment import cli
+from seethrough.experiment import cli
 
 TITLE = "A short session"
 STUDY = f"""
@@ -41,11 +41,11 @@ types = ["chair", "table", "cat"]
 HASTY = """
 import gc
 from pyglet.window import key
-from experiment.clock import RealClock
-from experiment.config import load
-from experiment.pages import Page
-from experiment.texts import Texts
-from experiment.window import Window
+from seethrough.experiment.clock import RealClock
+from seethrough.experiment.config import load
+from seethrough.experiment.pages import Page
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.window import Window
 
 window = Window(load("demo").display, Texts("en"), RealClock(), "hasty")
 frames = 0

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from analysis.errors import DataError
-from analysis.load.study import load_study
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.study import load_study
 
 TRIALS = "data/human/P01/study-made_subject-P01_session-1_trials_data.csv"
 ANSWERS = "data/human/P01/study-made_subject-P01_session-1_questionnaire_data.csv"

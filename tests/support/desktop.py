@@ -83,7 +83,7 @@ class Desktop:
 class Program:
     """`seethrough …` on a desktop; what it says is read from its log as it comes."""
 
-    def __init__(self, desktop, log, *words, start=(sys.executable, "-m", "experiment")):
+    def __init__(self, desktop, log, *words, start=(sys.executable, "-m", "seethrough")):
         self.log = Path(log)
         self._file = open(self.log, "w", encoding="utf-8")
         command = [*map(str, start), *map(str, words)]

@@ -3,18 +3,18 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-from experiment import blocks
-from experiment.config import load
-from experiment.design import session_for
-from experiment.questionnaire import after, asked, before
-from experiment.scenes import StudyScenes
-from experiment.session import _feedback, _instruction, _page
-from experiment.trial import LEAVE, MENU, TrialRun
-from experiment.world import TrialRecord
-from tasks.base import Outcome
-from tasks.catalog import TASKS
-from tasks.events import KeyPress, PointerPress
-from tasks.hud import FloorPlan, practice_mark
+from seethrough.experiment import blocks
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.questionnaire import after, asked, before
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.experiment.session import _feedback, _instruction, _page
+from seethrough.experiment.trial import LEAVE, MENU, TrialRun
+from seethrough.experiment.world import TrialRecord
+from seethrough.tasks.base import Outcome
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import KeyPress, PointerPress
+from seethrough.tasks.hud import FloorPlan, practice_mark
 
 
 class Keeping:

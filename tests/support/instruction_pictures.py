@@ -11,13 +11,13 @@ from collections import defaultdict
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from experiment.config import load
-from experiment.design import session_for
-from experiment.pages import PICTURE_ASPECT
-from experiment.trial import TrialRun
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from tasks.catalog import TASKS
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.pages import PICTURE_ASPECT
+from seethrough.experiment.trial import TrialRun
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.tasks.catalog import TASKS
 
 SIZE = (288, 216)  # that of a picture in a window of 800 × 600
 SEEN = 12  # pixels of an object that can be made out

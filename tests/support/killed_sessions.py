@@ -17,15 +17,15 @@ from pathlib import Path
 
 import numpy as np
 
-from experiment.chain import verify
-from experiment.clock import SimulatedClock
-from experiment.config import parse
-from experiment.recorder import FileRecorder, Who
-from experiment.resume import starting_point
-from experiment.session import run_session
-from experiment.world import World
-from tasks.catalog import TASKS
-from tasks.events import KeyPress, PointerMove, Tick
+from seethrough.experiment.chain import verify
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.config import parse
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.resume import starting_point
+from seethrough.experiment.session import run_session
+from seethrough.experiment.world import World
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import KeyPress, PointerMove, Tick
 
 STUDY = parse(
     {

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from data_folders import ANSWERS, TRIALS
 
-from analysis.load.chain import link, seal_of, start_of
+from seethrough.analysis.load.chain import link, seal_of, start_of
 
 
 def sha256(path: Path) -> str:

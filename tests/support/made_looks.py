@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from renderer.visibility import Visibility
+from seethrough.renderer.visibility import Visibility
 
 ARRAYS = ("pixels", "weight", "position", "contrast", "area")
 

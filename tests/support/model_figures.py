@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from renderer.models import MODELS
-from renderer.models.jeep import jeep
+from seethrough.renderer.models import MODELS
+from seethrough.renderer.models.jeep import jeep
 
 FIGURES = Path(__file__).resolve().parents[1] / "data" / "models" / "figures.json"
 

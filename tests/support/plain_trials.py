@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from experiment.participants.participant import SimulatedParticipant
-from renderer import geometry
-from renderer.visibility import Visibility
-from tasks.building import count_building, unique_building
-from tasks.catalog import TASKS
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.renderer import geometry
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.building import count_building, unique_building
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
 _MESHES = {

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from tasks.catalog import TASKS
-from tasks.events import KeyPress, PointerPress, PointerRelease
-from tasks.hud import Button
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import KeyPress, PointerPress, PointerRelease
+from seethrough.tasks.hud import Button
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
 

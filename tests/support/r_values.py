@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from analysis.page.blocks import Table
-from analysis.page.tables_csv import as_csv
-from analysis.stats.distributions import t_two_sided
+from seethrough.analysis.page.blocks import Table
+from seethrough.analysis.page.tables_csv import as_csv
+from seethrough.analysis.stats.distributions import t_two_sided
 
 FOLDER = Path(__file__).parents[1] / "oracles"
 ABOUT = "made.json"

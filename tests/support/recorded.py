@@ -6,15 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from experiment.config import load
-from experiment.design import session_for
-from experiment.provenance import provenance
-from experiment.recorder import FileRecorder, Who
-from experiment.world import TrialRecord
-from renderer.camera import look_at
-from renderer.scene import Scene
-from tasks.base import Outcome, View
-from tasks.events import KeyPress, PointerMove, Tick
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.provenance import provenance
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.world import TrialRecord
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.base import Outcome, View
+from seethrough.tasks.events import KeyPress, PointerMove, Tick
 
 STUDY = load("demo")
 VIEW = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))

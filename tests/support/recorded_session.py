@@ -2,18 +2,18 @@
 
 import numpy as np
 
-from experiment.clock import SimulatedClock
-from experiment.config import parse
-from experiment.driver import describe
-from experiment.provenance import provenance
-from experiment.recorder import FileRecorder, Who
-from experiment.session import run_session
-from experiment.stage import Stage
-from experiment.texts import Texts
-from experiment.world import World
-from renderer.gpu.context import standalone
-from tasks.catalog import TASKS
-from tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.config import parse
+from seethrough.experiment.driver import describe
+from seethrough.experiment.provenance import provenance
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.session import run_session
+from seethrough.experiment.stage import Stage
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.world import World
+from seethrough.renderer.gpu.context import standalone
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
 
 STUDY = {
     "study": {"name": "t", "title": "t", "description": "t", "participants": 4, "seed": 1},

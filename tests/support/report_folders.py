@@ -15,17 +15,17 @@ from unittest.mock import patch
 import numpy as np
 from report_cases import Answer, Case, Draws, Play, plain_answers, plain_plays
 
-from analysis.load.schema import CERTIFICATE
-from analysis.published.grim import fitting_whole_numbers
-from analysis.published.numbers import load_published
-from analysis.published.report import reconstructed
-from experiment.config import Study, find, parse
-from experiment.design import session_for
-from experiment.participants.batch import Batch
-from experiment.participants.batch_files import CHUNK, Results, render
-from experiment.participants.data_mode import Played
-from experiment.recorder import FileRecorder, Who, trial_row
-from experiment.world import TrialRecord
+from seethrough.analysis.load.schema import CERTIFICATE
+from seethrough.analysis.published.grim import fitting_whole_numbers
+from seethrough.analysis.published.numbers import load_published
+from seethrough.analysis.published.report import reconstructed
+from seethrough.experiment.config import Study, find, parse
+from seethrough.experiment.design import session_for
+from seethrough.experiment.participants.batch import Batch
+from seethrough.experiment.participants.batch_files import CHUNK, Results, render
+from seethrough.experiment.participants.data_mode import Played
+from seethrough.experiment.recorder import FileRecorder, Who, trial_row
+from seethrough.experiment.world import TrialRecord
 
 NOW = "2026-01-02T03:04:05.000Z"
 KEPT = ("_trials_data.csv", "_questionnaire_data.csv", "certificate.csv")

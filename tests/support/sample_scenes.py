@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer import geometry, transforms
-from renderer.camera import Camera, look_at
-from renderer.scene import Object, Scene
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import Camera, look_at
+from seethrough.renderer.scene import Object, Scene
 
 SHAPES = (
     geometry.sphere(1.0, 1),

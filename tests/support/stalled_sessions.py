@@ -27,11 +27,11 @@ from desktop import Desktop, wait_until
 from player import has_window
 from xserver import XServer
 
-from experiment import cli, live  # imported before the forks: a start costs them less
-from experiment.config import load
-from tasks import pattern
-from tasks.entry import MOST_DIGITS, NumberEntry
-from tasks.letters import LETTERS
+from seethrough.experiment import cli, live  # imported before the forks: a start costs them less
+from seethrough.experiment.config import load
+from seethrough.tasks import pattern
+from seethrough.tasks.entry import MOST_DIGITS, NumberEntry
+from seethrough.tasks.letters import LETTERS
 
 TITLE = "Stalls"
 STUDY = f"""

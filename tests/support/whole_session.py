@@ -22,11 +22,11 @@ from desktop import Desktop, wait_until
 from PIL import Image, ImageGrab
 from player import START, open_session, trials_of
 
-from experiment import cli
-from experiment.config import load
-from tasks import pattern
-from tasks.entry import NumberEntry
-from tasks.plan_mark import PlanMark
+from seethrough.experiment import cli
+from seethrough.experiment.config import load
+from seethrough.tasks import pattern
+from seethrough.tasks.entry import NumberEntry
+from seethrough.tasks.plan_mark import PlanMark
 
 STUDY = "published"
 KILLED = (8, 16)  # after so many trials of the design, in the middle of the next one

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from renderer.models.files.part import Array, to_shown
-from renderer.models.files.texture import CLAMP, MIRROR
+from seethrough.renderer.models.files.part import Array, to_shown
+from seethrough.renderer.models.files.texture import CLAMP, MIRROR
 
 _STEPS = 4096
 SHOWN = to_shown(np.arange(_STEPS + 2) / _STEPS)

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.files.gltf_file import COMPRESSED, GltfFile, compressed
-from renderer.models.files.gltf_material import Material, Materials
-from renderer.models.files.gltf_nodes import Nodes
-from renderer.models.files.part import (
+from seethrough.renderer.models.files.gltf_file import COMPRESSED, GltfFile, compressed
+from seethrough.renderer.models.files.gltf_material import Material, Materials
+from seethrough.renderer.models.files.gltf_nodes import Nodes
+from seethrough.renderer.models.files.part import (
     WHITE,
     Array,
     Found,
@@ -18,7 +18,7 @@ from renderer.models.files.part import (
     checked_colors,
     too_many,
 )
-from renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.source import Refused, Source
 
 _KNOWN = {
     "KHR_mesh_quantization", "KHR_texture_transform", "EXT_texture_webp", "EXT_texture_avif",

@@ -12,8 +12,8 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.files.part import MOST_TRIANGLES
-from renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.part import MOST_TRIANGLES
+from seethrough.renderer.models.files.source import Refused, Source
 
 _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}

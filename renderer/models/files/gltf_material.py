@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from renderer.models.files.gltf_file import GltfFile
-from renderer.models.files.part import GREY, WHITE, Array, Found, linear_rgba
-from renderer.models.files.source import Refused
-from renderer.models.files.texture import CLAMP, MIRROR, REPEAT, Texture, decoded
+from seethrough.renderer.models.files.gltf_file import GltfFile
+from seethrough.renderer.models.files.part import GREY, WHITE, Array, Found, linear_rgba
+from seethrough.renderer.models.files.source import Refused
+from seethrough.renderer.models.files.texture import CLAMP, MIRROR, REPEAT, Texture, decoded
 
 _SPECULAR = "KHR_materials_pbrSpecularGlossiness"
 _PLACED = "KHR_texture_transform"

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from renderer.models.files.gltf_file import GltfFile
-from renderer.models.files.part import Array, Found
-from renderer.models.files.source import Refused
+from seethrough.renderer.models.files.gltf_file import GltfFile
+from seethrough.renderer.models.files.part import Array, Found
+from seethrough.renderer.models.files.source import Refused
 
 _INSTANCED = "EXT_mesh_gpu_instancing"
 _MOST_INSTANCES = 10_000

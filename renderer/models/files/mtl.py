@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from renderer.models.files.part import GREY, WHITE, Array, Found, linear_rgba
-from renderer.models.files.source import Refused, Source
-from renderer.models.files.texture import CLAMP, REPEAT, Texture, decoded
+from seethrough.renderer.models.files.part import GREY, WHITE, Array, Found, linear_rgba
+from seethrough.renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.texture import CLAMP, REPEAT, Texture, decoded
 
 # Options of a map and how many words follow each; those of -o, -s and -t are one to three numbers.
 _OPTIONS = {

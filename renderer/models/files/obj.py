@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from renderer.models.files.mtl import Library, Material, decoded_text, grey_material
-from renderer.models.files.part import (
+from seethrough.renderer.models.files.mtl import Library, Material, decoded_text, grey_material
+from seethrough.renderer.models.files.part import (
     Array,
     Found,
     Part,
@@ -16,7 +16,7 @@ from renderer.models.files.part import (
     linear_rgba,
     too_many,
 )
-from renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.source import Refused, Source
 
 _CURVED = {"curv", "curv2", "surf", "bzp", "bsp"}
 

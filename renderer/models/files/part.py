@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from renderer.models.files.source import Refused
-from renderer.models.files.texture import Texture
+from seethrough.renderer.models.files.source import Refused
+from seethrough.renderer.models.files.texture import Texture
 
 Array = NDArray[np.float64]
 
@@ -103,8 +103,8 @@ def cut_polygons(
 
     `loops` are rows of `vertices`. Fans where they are convex, clipped ears where not.
     """
-    from renderer.ordering.polygons import Polygons, newell
-    from renderer.ordering.triangulation import triangulate
+    from seethrough.renderer.ordering.polygons import Polygons, newell
+    from seethrough.renderer.ordering.triangulation import triangulate
 
     counts = np.array([len(loop) for loop in loops], np.int64)
     if len(counts) and counts.max() > MOST_CORNERS:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.files.part import (
+from seethrough.renderer.models.files.part import (
     Array,
     Found,
     Part,
@@ -19,9 +19,9 @@ from renderer.models.files.part import (
     linear_rgba,
     too_many,
 )
-from renderer.models.files.ply_table import Table, tables
-from renderer.models.files.source import Refused, Source
-from renderer.models.files.texture import decoded
+from seethrough.renderer.models.files.ply_table import Table, tables
+from seethrough.renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.texture import decoded
 
 INDICES = ("vertex_indices", "vertex_index", "vertexindices")
 TEXTURE_AXES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.files.comparing import BINS, SHOWN, compared, sides_of
-from renderer.models.files.part import Array, to_shown
-from renderer.models.files.surface import Surface
-from renderer.models.files.texture import Texture
+from seethrough.renderer.models.files.comparing import BINS, SHOWN, compared, sides_of
+from seethrough.renderer.models.files.part import Array, to_shown
+from seethrough.renderer.models.files.surface import Surface
+from seethrough.renderer.models.files.texture import Texture
 
 TOLERANCE = 4 / 255  # of a colour as shown: less is not seen on a shaded surface
 ROUNDS = 80

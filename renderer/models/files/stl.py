@@ -7,7 +7,7 @@ import struct
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.files.part import (
+from seethrough.renderer.models.files.part import (
     GREY,
     Array,
     Found,
@@ -16,7 +16,7 @@ from renderer.models.files.part import (
     linear_rgba,
     too_many,
 )
-from renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.source import Refused, Source
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("points", "<f4", (3, 3)), ("more", "<u2")])
 _HEAD = 84

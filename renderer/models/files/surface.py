@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from renderer.models.files.part import Array, Part
-from renderer.models.files.texture import Texture
+from seethrough.renderer.models.files.part import Array, Part
+from seethrough.renderer.models.files.texture import Texture
 
 _FLAT = 1e-9  # of its extent cubed: less volume has no inside
 

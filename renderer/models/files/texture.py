@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from renderer.models.files.source import Refused
+from seethrough.renderer.models.files.source import Refused
 
 REPEAT, CLAMP, MIRROR = 10497, 33071, 33648  # as glTF numbers them
 MOST_PIXELS = 2**26  # of a picture that is read at all

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.translucent.solids import Faces, box, cone, disc, prism, turned
+from seethrough.renderer.models.translucent.solids import Faces, box, cone, disc, prism, turned
 
 # Windows of a front: where along the wall, the sill's height, how far the shutters stand open.
 EAST = [(-5.2, 0.9, 0.2), (-5.2, 3.7, 0.5), (-2.6, 3.7, 0.8), (0.9, 3.7, 1.1)]

@@ -7,9 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from renderer.models.translucent import garden, house, vise
-from renderer.models.translucent.solids import Faces, box
-from renderer.ordering.polygons import Floats, Polygons, newell, polygons_from, triangles_from
+from seethrough.renderer.models.translucent import garden, house, vise
+from seethrough.renderer.models.translucent.solids import Faces, box
+from seethrough.renderer.ordering.polygons import (
+    Floats,
+    Polygons,
+    newell,
+    polygons_from,
+    triangles_from,
+)
 
 # Length of a soup's sides, times the mean distance of its triangles: makes the baseline of two to
 # three pieces for each triangle at any size.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from renderer.models.translucent.solids import Faces, box, disc, prism, turned
+from seethrough.renderer.models.translucent.solids import Faces, box, disc, prism, turned
 
 # The upper part stands turned on its foot, in radians.
 SWIVEL = 0.5

@@ -13,9 +13,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from renderer.ordering import bsp, feudal
-from renderer.ordering.polygons import triangles_from
-from renderer.ordering.predicates import plane_corners
+from seethrough.renderer.ordering import bsp, feudal
+from seethrough.renderer.ordering.polygons import triangles_from
+from seethrough.renderer.ordering.predicates import plane_corners
 
 corner = st.tuples(*[st.integers(-2, 2)] * 3)
 

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from analysis.stats.anova import helmert, repeated_measures
-from analysis.stats.undefined import Undefined
+from seethrough.analysis.stats.anova import helmert, repeated_measures
+from seethrough.analysis.stats.undefined import Undefined
 
 # R prints 15 digits; its own sums lose a few of them on these data
 DIGITS = 1e-9

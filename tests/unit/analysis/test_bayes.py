@@ -9,8 +9,8 @@ import oracles
 import pytest
 from scipy import stats
 
-from analysis.stats.anova import repeated_measures
-from analysis.stats.distributions import bayes_factor_f, bayes_factor_t, negligible_p
+from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.distributions import bayes_factor_f, bayes_factor_t, negligible_p
 
 R = np.sqrt(0.5)
 

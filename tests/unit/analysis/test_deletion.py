@@ -9,13 +9,13 @@ import pandas as pd
 import pytest
 from made_data import ANSWER_COLUMNS, TRIAL_COLUMNS, Made, make_folder, write_rows
 
-from analysis.exclude import apply_rules
-from analysis.load.study import load_study
-from analysis.page.blocks import Table, walk
-from analysis.page.markdown import as_markdown
-from analysis.report import Options, make_report
-from analysis.sections.ratings import preferences
-from analysis.validity import learning_slopes
+from seethrough.analysis.exclude import apply_rules
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.page.blocks import Table, walk
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.report import Options, make_report
+from seethrough.analysis.sections.ratings import preferences
+from seethrough.analysis.validity import learning_slopes
 
 
 def edit(folder, change, kind="trials", columns=TRIAL_COLUMNS):

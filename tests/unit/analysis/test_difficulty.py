@@ -11,13 +11,13 @@ import pytest
 from made_data import Made, make_folder
 from scipy import stats
 
-from analysis.difficulty import balance, with_certificate
-from analysis.errors import DataError
-from analysis.load.schema import CERTIFICATE
-from analysis.load.study import load_study
-from analysis.page.blocks import Table, walk
-from analysis.page.markdown import as_markdown
-from analysis.report import Options, make_report
+from seethrough.analysis.difficulty import balance, with_certificate
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.schema import CERTIFICATE
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.page.blocks import Table, walk
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.report import Options, make_report
 
 
 def scenes(

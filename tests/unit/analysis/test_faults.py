@@ -7,11 +7,11 @@ import csv
 import pytest
 from made_data import TRIAL_COLUMNS, Made, make_folder, write_rows
 
-from analysis.exclude import apply_rules
-from analysis.load.study import load_study
-from analysis.page.blocks import Prose, Table
-from analysis.report import Options, make_report
-from analysis.sections.validity import NO_DISPLAY
+from seethrough.analysis.exclude import apply_rules
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.page.blocks import Prose, Table
+from seethrough.analysis.report import Options, make_report
+from seethrough.analysis.sections.validity import NO_DISPLAY
 
 
 def folder_of(tmp_path, source):

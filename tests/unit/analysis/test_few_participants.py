@@ -5,8 +5,8 @@ import re
 import pytest
 from made_data import Made, make_folder
 
-from analysis.page.markdown import as_markdown
-from analysis.report import Options, make_report
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.report import Options, make_report
 
 
 @pytest.fixture(scope="module")

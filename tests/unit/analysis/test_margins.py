@@ -7,17 +7,17 @@ import pytest
 from made_data import Made, make_folder
 from scipy import stats
 
-from analysis.comparison import Measure, compare, compare_logs
-from analysis.equivalence import equivalence, log_equivalence
-from analysis.errors import DataError
-from analysis.load.study import load_study
-from analysis.page.blocks import Table, walk
-from analysis.page.markdown import as_markdown
-from analysis.plan import make_plan
-from analysis.report import Options, make_report
-from analysis.stats.paired import ratio_of_means, ratio_within
-from analysis.stats.undefined import Undefined
-from experiment.config import parse, shipped
+from seethrough.analysis.comparison import Measure, compare, compare_logs
+from seethrough.analysis.equivalence import equivalence, log_equivalence
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.page.blocks import Table, walk
+from seethrough.analysis.page.markdown import as_markdown
+from seethrough.analysis.plan import make_plan
+from seethrough.analysis.report import Options, make_report
+from seethrough.analysis.stats.paired import ratio_of_means, ratio_within
+from seethrough.analysis.stats.undefined import Undefined
+from seethrough.experiment.config import parse, shipped
 
 RNG = np.random.default_rng(8)
 FIRST = RNG.gamma(9, 3, 14)

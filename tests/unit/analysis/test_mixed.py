@@ -11,9 +11,9 @@ import oracles
 import pandas as pd
 import pytest
 
-from analysis.mixed import LEVELS, SLOPES, TASK_LEVELS, TASK_SLOPES, mixed_model
-from analysis.stats import reml
-from analysis.stats.undefined import Undefined
+from seethrough.analysis.mixed import LEVELS, SLOPES, TASK_LEVELS, TASK_SLOPES, mixed_model
+from seethrough.analysis.stats import reml
+from seethrough.analysis.stats.undefined import Undefined
 
 FULL = f"{SLOPES} + {TASK_SLOPES}"
 SCENARIO = {"count": "abstract", "pattern": "abstract", "unique": "walkthrough"}

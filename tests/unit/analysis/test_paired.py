@@ -7,13 +7,13 @@ import oracles
 import pytest
 from scipy import stats
 
-from analysis.stats.distributions import (
+from seethrough.analysis.stats.distributions import (
     bayes_factor_t,
     holm,
     noncentral_f_interval,
     noncentral_t_cdf,
 )
-from analysis.stats.paired import paired, ratio_of_means, tost, within_halfwidths
+from seethrough.analysis.stats.paired import paired, ratio_of_means, tost, within_halfwidths
 
 MEASURES = list(oracles.values()["datasets"]["paper_exact_moments"]["R"])
 

@@ -11,20 +11,20 @@ import oracles
 import pytest
 from scipy import stats
 
-from analysis.page.blocks import Table, walk
-from analysis.published import consistency
-from analysis.published.grim import (
+from seethrough.analysis.page.blocks import Table, walk
+from seethrough.analysis.published import consistency
+from seethrough.analysis.published.grim import (
     fitting_scores,
     fitting_whole_numbers,
     mean_of_shares,
     partitions,
     totals,
 )
-from analysis.published.numbers import Claim, Moments, Printed, Published, load_published
-from analysis.published.ordinal import correct_cases, rating_cases
-from analysis.published.predictions import worst_tost
-from analysis.published.reconstruct import exact_moments, r_interval, r_of
-from analysis.published.report import published_report
+from seethrough.analysis.published.numbers import Claim, Moments, Printed, Published, load_published
+from seethrough.analysis.published.ordinal import correct_cases, rating_cases
+from seethrough.analysis.published.predictions import worst_tost
+from seethrough.analysis.published.reconstruct import exact_moments, r_interval, r_of
+from seethrough.analysis.published.report import published_report
 
 RECONSTRUCTED = {r["measure"]: r for r in oracles.values()["paper_reconstruction"]}
 NAMES = {

@@ -9,8 +9,15 @@ import oracles
 import pytest
 from scipy import stats
 
-from analysis.stats.ranks import friedman, post_hoc, ranks, share_interval, sign_test, signed_rank
-from analysis.stats.undefined import Undefined
+from seethrough.analysis.stats.ranks import (
+    friedman,
+    post_hoc,
+    ranks,
+    share_interval,
+    sign_test,
+    signed_rank,
+)
+from seethrough.analysis.stats.undefined import Undefined
 
 
 def rng() -> np.random.Generator:
@@ -115,7 +122,7 @@ def test_post_hoc_agrees_with_holm_and_the_studentised_range():
 @pytest.mark.parametrize("k", [2, 3, 4, 10])
 @pytest.mark.parametrize("q", [0.0, 0.5, 3.3, 6.0])
 def test_the_studentised_range_agrees_with_scipy(q, k):
-    from analysis.stats.distributions import studentized_range_tail
+    from seethrough.analysis.stats.distributions import studentized_range_tail
 
     expected = stats.studentized_range.sf(q, k, np.inf)
     assert studentized_range_tail(q, k) == pytest.approx(expected, abs=1e-9)  # scipy's own error

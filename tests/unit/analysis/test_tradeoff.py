@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-from analysis.stats.undefined import Undefined
-from analysis.tradeoff import accuracy_by_speed, changes, correlation, scores
+from seethrough.analysis.stats.undefined import Undefined
+from seethrough.analysis.tradeoff import accuracy_by_speed, changes, correlation, scores
 
 
 def trials(rows: list[tuple]) -> pd.DataFrame:

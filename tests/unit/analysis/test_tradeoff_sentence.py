@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from analysis.page.blocks import Table
-from analysis.sections.tradeoff import CHANGES, _row, _sentence
-from analysis.tradeoff import Change
+from seethrough.analysis.page.blocks import Table
+from seethrough.analysis.sections.tradeoff import CHANGES, _row, _sentence
+from seethrough.analysis.tradeoff import Change
 
 RNG = np.random.default_rng(3)
 

@@ -9,13 +9,13 @@ import statsmodels.formula.api as smf
 from made_data import Made, make_folder
 from scipy import stats
 
-from analysis.load.study import load_study
-from analysis.measures import over_tasks, time_by_task
-from analysis.mixed import mixed_model
-from analysis.stats.anova import repeated_measures
-from analysis.stats.undefined import Undefined
-from analysis.stats.within import dummies, one_way, term_tests
-from analysis.validity import condition_means, learning_slopes, order_tests
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.measures import over_tasks, time_by_task
+from seethrough.analysis.mixed import mixed_model
+from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.undefined import Undefined
+from seethrough.analysis.stats.within import dummies, one_way, term_tests
+from seethrough.analysis.validity import condition_means, learning_slopes, order_tests
 
 
 @pytest.fixture(scope="module")

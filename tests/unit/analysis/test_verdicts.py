@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analysis.comparison import Measure, add_holm, compare, compare_logs, decisive
-from analysis.equivalence import no_difference
-from analysis.page.blocks import Prose
-from analysis.plan import Plan
-from analysis.sections.ordinal import friedman_table
-from analysis.sections.summary import _accurate, _by_task
+from seethrough.analysis.comparison import Measure, add_holm, compare, compare_logs, decisive
+from seethrough.analysis.equivalence import no_difference
+from seethrough.analysis.page.blocks import Prose
+from seethrough.analysis.plan import Plan
+from seethrough.analysis.sections.ordinal import friedman_table
+from seethrough.analysis.sections.summary import _accurate, _by_task
 
 MARGINS = {"time": 1.2, "count_error": 2.0, "correct": 0.1}
 PLAN = Plan(0.05, (), (), MARGINS, None, (), None, None)

@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks import accuracy, vtk_peeling
-from benchmarks.breaking import BREAKING
-from benchmarks.speed import row
-from renderer import geometry, transforms
-from renderer.camera import look_at
-from renderer.gpu.renderer import Renderer
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.benchmarks import accuracy, vtk_peeling
+from seethrough.benchmarks.breaking import BREAKING
+from seethrough.benchmarks.speed import row
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 CENTERS = DynamicTransparency(order="centers")
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from benchmarks import tables
-from benchmarks.speed import row
-from experiment.cli import main
+from seethrough.benchmarks import tables
+from seethrough.benchmarks.speed import row
+from seethrough.experiment.cli import main
 
 ROWS = [
     row("plan()", "200 objects", 1.25, "ms", 2, 0.4),

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.memory import peak, used_by
-from benchmarks.rows import row
+from seethrough.benchmarks.memory import peak, used_by
+from seethrough.benchmarks.rows import row
 
 LARGE = 200  # MiB: far above an empty Python's 10 to 20
 FILL = f"b = bytes([1]) * ({LARGE} << 20)"
@@ -40,7 +40,7 @@ def test_what_was_let_go_counts_and_so_do_arguments_and_processor_time():
 
 WATCHING = """
 import subprocess, sys
-from benchmarks.memory import Watch, peak
+from seethrough.benchmarks.memory import Watch, peak
 start = "import subprocess, sys; subprocess.run([sys.executable, '-c', sys.argv[1]], check=True)"
 with Watch(0.05) as watch:
     subprocess.run([sys.executable, "-c", start, sys.argv[1]], check=True)

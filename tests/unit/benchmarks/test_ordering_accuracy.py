@@ -8,13 +8,13 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from benchmarks import ordering_accuracy, ordering_exactness, paper_figures
-from benchmarks.ordering_advice import advice
-from benchmarks.ordering_exactness import edge_distance
-from experiment import cli
-from renderer.camera import look_at
-from renderer.models.translucent.scenes import panels
-from renderer.ordering.polygons import polygons_from
+from seethrough.benchmarks import ordering_accuracy, ordering_exactness, paper_figures
+from seethrough.benchmarks.ordering_advice import advice
+from seethrough.benchmarks.ordering_exactness import edge_distance
+from seethrough.experiment import cli
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.models.translucent.scenes import panels
+from seethrough.renderer.ordering.polygons import polygons_from
 
 TINY = ("fence",)
 KEYS = {"figure", "scene", "value", "unit", "must", "aim", "met"}

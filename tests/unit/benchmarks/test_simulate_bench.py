@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from benchmarks import simulate
-from experiment import cli
-from tasks.events import KeyPress, KeyRelease, Tick
+from seethrough.benchmarks import simulate
+from seethrough.experiment import cli
+from seethrough.tasks.events import KeyPress, KeyRelease, Tick
 
 
 @pytest.mark.parametrize(

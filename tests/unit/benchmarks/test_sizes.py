@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks import sizes
-from benchmarks.sizes import Studies, inside, kinds
+from seethrough.benchmarks import sizes
+from seethrough.benchmarks.sizes import Studies, inside, kinds
 
 
 def test_every_line_holds_in_a_small_part_of_the_runs():

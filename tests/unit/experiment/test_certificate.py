@@ -8,16 +8,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiment import cli, machine
-from experiment.certificate import Certifier, Difficulty, matches, walking_path, worst
-from experiment.commands.check import smooth
-from experiment.config import parse
-from experiment.design import Trial, session_for
-from experiment.machine import FrameTimes
-from renderer import geometry
-from renderer.camera import look_at
-from renderer.gpu.context import standalone
-from renderer.scene import Object, Scene
+from seethrough.experiment import cli, machine
+from seethrough.experiment.certificate import Certifier, Difficulty, matches, walking_path, worst
+from seethrough.experiment.commands.check import smooth
+from seethrough.experiment.config import parse
+from seethrough.experiment.design import Trial, session_for
+from seethrough.experiment.machine import FrameTimes
+from seethrough.renderer import geometry
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.scene import Object, Scene
 
 STUDY = """
 [study]

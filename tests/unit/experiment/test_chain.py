@@ -9,14 +9,14 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from experiment.chain import verify
-from experiment.design import Trial
-from experiment.recorder import FileRecorder, Who
-from experiment.world import TrialRecord
-from renderer.camera import look_at
-from renderer.scene import Scene
-from tasks.base import Outcome, View
-from tasks.events import KeyPress, Tick
+from seethrough.experiment.chain import verify
+from seethrough.experiment.design import Trial
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.world import TrialRecord
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.scene import Scene
+from seethrough.tasks.base import Outcome, View
+from seethrough.tasks.events import KeyPress, Tick
 
 VIEW = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
 STEM = "study-test_subject-P01_session-1"
@@ -66,8 +66,8 @@ def test_the_chain_is_what_conventions_say(tmp_path):
 
 def test_the_report_reads_the_same_chain(tmp_path):
     """Written here, verified by the analysis, which shares no code with the recorder."""
-    from analysis.errors import DataError
-    from analysis.load.whole import verified
+    from seethrough.analysis.errors import DataError
+    from seethrough.analysis.load.whole import verified
 
     table = session(tmp_path) / f"{STEM}_trials_data.csv"
     assert [s.chain.state for s in verified(tmp_path).sessions] == ["verified"]
@@ -161,8 +161,8 @@ def test_a_session_that_was_killed_verifies_as_far_as_it_goes(tmp_path):
 
 @pytest.mark.parametrize("how", ["changed", "removed", "added"])
 def test_what_a_killed_session_left_beside_its_rows_is_held_by_the_next(tmp_path, how):
-    from analysis.errors import DataError
-    from analysis.load.whole import verified
+    from seethrough.analysis.errors import DataError
+    from seethrough.analysis.load.whole import verified
 
     folder = session(tmp_path, status="", answers=how != "added")
     (folder / "traces" / "session-1_trial-004_events.csv").write_text("begun", "utf-8")

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from experiment.design import (
+from seethrough.experiment.design import (
     Factors,
     generator,
     order_of,

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from experiment.driver import open_context, samples_for
-from experiment.errors import InputError
-from renderer.gpu import context as gpu
+from seethrough.experiment.driver import open_context, samples_for
+from seethrough.experiment.errors import InputError
+from seethrough.renderer.gpu import context as gpu
 
 
 @pytest.mark.parametrize(

@@ -11,12 +11,12 @@ import pytest
 from bids_validator import BIDSValidator
 from recorded import REMARK, record
 
-from analysis.load.study import load_study
-from experiment import cli
-from experiment.columns import TABLES, TRIALS
-from experiment.errors import InputError
-from experiment.export.dataset import _rows, harmless
-from experiment.export.parquet import ParquetWriter
+from seethrough.analysis.load.study import load_study
+from seethrough.experiment import cli
+from seethrough.experiment.columns import TABLES, TRIALS
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.export.dataset import _rows, harmless
+from seethrough.experiment.export.parquet import ParquetWriter
 
 
 @pytest.fixture(scope="module")

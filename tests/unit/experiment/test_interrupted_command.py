@@ -2,8 +2,8 @@
 
 import pytest
 
-from experiment import cli
-from experiment.commands import status
+from seethrough.experiment import cli
+from seethrough.experiment.commands import status
 
 
 def from_compiled_code(_):

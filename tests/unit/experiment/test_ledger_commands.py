@@ -7,14 +7,14 @@ from datetime import UTC, datetime
 
 import pytest
 
-from experiment import cli, ledger_lock
-from experiment.chain import seal_of
-from experiment.commands import withdraw as withdraw_module
-from experiment.config import find, load
-from experiment.errors import InputError
-from experiment.ledger import Ledger
-from experiment.ledger_plan import plan_of
-from experiment.recorder import FileRecorder, Who
+from seethrough.experiment import cli, ledger_lock
+from seethrough.experiment.chain import seal_of
+from seethrough.experiment.commands import withdraw as withdraw_module
+from seethrough.experiment.config import find, load
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.ledger import Ledger
+from seethrough.experiment.ledger_plan import plan_of
+from seethrough.experiment.recorder import FileRecorder, Who
 
 STUDY = load("demo")
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
@@ -37,7 +37,7 @@ def sessions(monkeypatch, tmp_path):
         return how
 
     ends = []
-    monkeypatch.setattr("experiment.live.play_in_window", session)
+    monkeypatch.setattr("seethrough.experiment.live.play_in_window", session)
 
     def run(*words, how="complete"):
         ends[:] = [how]

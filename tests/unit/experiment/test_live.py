@@ -6,15 +6,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from experiment import live
-from experiment.clock import RealClock
-from experiment.commands import simulate
-from experiment.config import load
-from experiment.design import Trial
-from experiment.errors import InputError
-from experiment.participants.profile_file import find
-from experiment.world import TrialRecord
-from tasks.base import Outcome
+from seethrough.experiment import live
+from seethrough.experiment.clock import RealClock
+from seethrough.experiment.commands import simulate
+from seethrough.experiment.config import load
+from seethrough.experiment.design import Trial
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants.profile_file import find
+from seethrough.experiment.world import TrialRecord
+from seethrough.tasks.base import Outcome
 
 STUDY = load("demo")
 

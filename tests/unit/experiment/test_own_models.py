@@ -6,13 +6,13 @@ import shutil
 import numpy as np
 import pytest
 
-from experiment import cli
-from experiment.config import load, parse
-from experiment.design import session_for
-from experiment.errors import InputError
-from experiment.own_models import keep, kept
-from experiment.scenes import StudyScenes
-from tasks.catalog import TASKS
+from seethrough.experiment import cli
+from seethrough.experiment.config import load, parse
+from seethrough.experiment.design import session_for
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.own_models import keep, kept
+from seethrough.experiment.scenes import StudyScenes
+from seethrough.tasks.catalog import TASKS
 
 WEDGE = """
 v 0 0 0
@@ -167,8 +167,8 @@ def test_check_lists_the_models(tmp_path, capsys):
 def test_check_puts_a_picture_of_each_model_into_a_sheet(tmp_path):
     from PIL import Image
 
-    from experiment.contact_sheet import write
-    from experiment.driver import open_context
+    from seethrough.experiment.contact_sheet import write
+    from seethrough.experiment.driver import open_context
 
     study, sheet = load(str(written(tmp_path))), tmp_path / "own-models.png"
     context = open_context()

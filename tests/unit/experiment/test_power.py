@@ -5,15 +5,15 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import stats
 
-from analysis.stats.anova import repeated_measures
-from analysis.stats.ranks import friedman
-from experiment import power_ranks
-from experiment.config import load
-from experiment.design import session_for
-from experiment.participants.batch import Batch
-from experiment.participants.batch_files import Results, render
-from experiment.participants.data_mode import Played
-from experiment.power import (
+from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.ranks import friedman
+from seethrough.experiment import power_ranks
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.participants.batch import Batch
+from seethrough.experiment.participants.batch_files import Results, render
+from seethrough.experiment.participants.data_mode import Played
+from seethrough.experiment.power import (
     NormalEffect,
     SampledEffect,
     closed_form,
@@ -23,8 +23,8 @@ from experiment.power import (
     published,
     rejections,
 )
-from experiment.power_data import sampled
-from experiment.power_ranks import RankEffect, trinomial_power
+from seethrough.experiment.power_data import sampled
+from seethrough.experiment.power_ranks import RankEffect, trinomial_power
 
 SHIFT = NormalEffect("shift", (0.5, 0.0), (1.0, 1.0), 0.5)
 

@@ -7,19 +7,19 @@ import pytest
 from every_page import begun, ended
 from every_page import marked as mark
 
-from experiment.clock import SimulatedClock
-from experiment.config import load
-from experiment.design import session_for
-from experiment.pages import PlanPicture
-from experiment.session import _feedback
-from experiment.texts import Texts
-from experiment.trial import TrialRun
-from experiment.waiting import PATIENCE, meanwhile
-from experiment.world import TrialRecord, World
-from tasks.base import Outcome
-from tasks.catalog import TASKS
-from tasks.events import KeyPress, Tick
-from tasks.hud import Label
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.pages import PlanPicture
+from seethrough.experiment.session import _feedback
+from seethrough.experiment.texts import Texts
+from seethrough.experiment.trial import TrialRun
+from seethrough.experiment.waiting import PATIENCE, meanwhile
+from seethrough.experiment.world import TrialRecord, World
+from seethrough.tasks.base import Outcome
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import KeyPress, Tick
+from seethrough.tasks.hud import Label
 
 STUDY = load("published")
 SETS = session_for(1, STUDY.design.factors())

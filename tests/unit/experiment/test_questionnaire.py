@@ -5,15 +5,15 @@ from itertools import chain
 import numpy as np
 import pytest
 
-from experiment import blocks, questionnaire
-from experiment.config import load, parse
-from experiment.depth_test import RATIO, depth_test
-from experiment.display import Leave
-from experiment.errors import InputError
-from experiment.form import Form
-from experiment.pages import Choice, PlatePicture, Scale, TextField
-from experiment.participants.participant import SimulatedParticipant
-from experiment.plates import FIGURE, GROUND, plates
+from seethrough.experiment import blocks, questionnaire
+from seethrough.experiment.config import load, parse
+from seethrough.experiment.depth_test import RATIO, depth_test
+from seethrough.experiment.display import Leave
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.form import Form
+from seethrough.experiment.pages import Choice, PlatePicture, Scale, TextField
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.plates import FIGURE, GROUND, plates
 
 PUBLISHED = load("published")
 

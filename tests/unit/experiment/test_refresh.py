@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from experiment import refresh, system_window, window
-from experiment.commands import check
-from experiment.config import load
-from experiment.verdicts import Verdicts
+from seethrough.experiment import refresh, system_window, window
+from seethrough.experiment.commands import check
+from seethrough.experiment.config import load
+from seethrough.experiment.verdicts import Verdicts
 
 RATES = [59.94, 60.0, 74.97, 120.0, 143.98, 240.0]
 STUDY = load("published")

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from experiment import gallery_hard
-from experiment.cli import main
-from experiment.gallery import sections
-from experiment.gallery_plates import Section
-from renderer.gpu.renderer import Renderer
-from renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES
+from seethrough.experiment import gallery_hard
+from seethrough.experiment.cli import main
+from seethrough.experiment.gallery import sections
+from seethrough.experiment.gallery_plates import Section
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES
 
 
 def test_a_picture_is_written_and_explained(tmp_path, capsys):
@@ -71,7 +71,7 @@ def test_the_page_shows_the_pictures_and_what_is_refused(tmp_path, capsys, monke
     odd = replace(first, name="odd", caption="7 < 30", size=(30, 7))
     refused = tuple(gallery_hard._refused())
     some = [Section("Some & few", "", (first, odd)), Section("Refused", "", (), refused)]
-    monkeypatch.setattr("experiment.commands.gallery.sections", lambda *_: iter(some))
+    monkeypatch.setattr("seethrough.experiment.commands.gallery.sections", lambda *_: iter(some))
     assert main(["gallery", "--out", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().out.endswith("index.html: 2 pictures\n")
     page = (tmp_path / "out" / "index.html").read_text("utf-8")

@@ -2,13 +2,13 @@
 
 import pytest
 
-from experiment.config import load
-from experiment.design import session_for
-from experiment.errors import InputError
-from experiment.recorder import FileRecorder, Who
-from experiment.resume import already_done, going_on, past, starting_point
-from experiment.world import TrialRecord
-from tasks.base import Outcome
+from seethrough.experiment.config import load
+from seethrough.experiment.design import session_for
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.resume import already_done, going_on, past, starting_point
+from seethrough.experiment.world import TrialRecord
+from seethrough.tasks.base import Outcome
 
 STUDY = load("published")
 SLOT = 3

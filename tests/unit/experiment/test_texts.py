@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from experiment.errors import InputError
-from experiment.texts import Texts
-from renderer.models import MODELS
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.texts import Texts
+from seethrough.renderer.models import MODELS
 
 LANGUAGES = ["en", "de"]
 

@@ -6,12 +6,12 @@ from types import SimpleNamespace
 import pytest
 from scripted_session import ANSWERS, FRAME, FakeDisplay, MemoryRecorder, ScriptedInput, study
 
-from experiment.clock import SimulatedClock
-from experiment.session import run_session
-from experiment.window import Window
-from experiment.world import World
-from tasks.catalog import TASKS
-from tasks.events import (
+from seethrough.experiment.clock import SimulatedClock
+from seethrough.experiment.session import run_session
+from seethrough.experiment.window import Window
+from seethrough.experiment.world import World
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import (
     FocusChange,
     KeyPress,
     KeyRelease,

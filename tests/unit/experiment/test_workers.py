@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from experiment.workers import ordered_map
+from seethrough.experiment.workers import ordered_map
 
 _prepared: list[str] = []
 
@@ -60,7 +60,7 @@ def test_a_worker_that_dies_is_replaced_and_nothing_is_lost_or_twice(tmp_path):
 
 
 def test_workers_that_keep_dying_are_given_up(monkeypatch):
-    monkeypatch.setattr("experiment.workers.MOST_DEATHS", 1)
+    monkeypatch.setattr("seethrough.experiment.workers.MOST_DEATHS", 1)
     with pytest.raises(RuntimeError, match=r"2 workers died one after the other"):
         list(ordered_map(die_always, range(2), 2))
 

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from renderer.blocks import BLOCK, NONE, covered, grouped, mark, most, runs, shape, shown
-from renderer.gpu.mask_maker import _tiles
+from seethrough.renderer.blocks import BLOCK, NONE, covered, grouped, mark, most, runs, shape, shown
+from seethrough.renderer.gpu.mask_maker import _tiles
 
 SHAPE = (9, 13)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer import clusters, geometry, transforms
-from renderer.clusters import fitting, polygons_of, unite
-from renderer.ordering.polygons import newell
-from renderer.scene import Object, Scene
+from seethrough.renderer import clusters, geometry, transforms
+from seethrough.renderer.clusters import fitting, polygons_of, unite
+from seethrough.renderer.ordering.polygons import newell
+from seethrough.renderer.scene import Object, Scene
 
 
 def known(n, pairs=(), fronts=()):

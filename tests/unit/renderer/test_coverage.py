@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer import blocks, coverage, geometry, transforms
-from renderer.blocks import BLOCK
-from renderer.camera import look_at
-from renderer.projection import screen_boxes
-from renderer.reference import fragments
-from renderer.scene import Object, Scene
+from seethrough.renderer import blocks, coverage, geometry, transforms
+from seethrough.renderer.blocks import BLOCK
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.projection import screen_boxes
+from seethrough.renderer.reference import fragments
+from seethrough.renderer.scene import Object, Scene
 
 SIZE = (90, 70)  # not whole blocks
 EVERYWHERE = np.array([0, 0, *SIZE])

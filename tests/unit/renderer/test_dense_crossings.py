@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from benchmarks.ordering import crossing
-from renderer import clusters
-from renderer.explain import of_cluster
-from renderer.geometry import merged, quad, transformed
-from renderer.ordering import bsp, feudal
-from renderer.ordering.fragments import TooManyPieces
-from renderer.scene import Object, Scene
-from renderer.transforms import random_rotation
+from seethrough.benchmarks.ordering import crossing
+from seethrough.renderer import clusters
+from seethrough.renderer.explain import of_cluster
+from seethrough.renderer.geometry import merged, quad, transformed
+from seethrough.renderer.ordering import bsp, feudal
+from seethrough.renderer.ordering.fragments import TooManyPieces
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.transforms import random_rotation
 
 
 def test_what_crosses_densely_is_said_with_figures():

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from renderer.models.translucent.scenes import scene
-from renderer.ordering import bsp, feudal
-from renderer.ordering.feudal_stretches import SWITCHES, knot_roots
-from renderer.ordering.polygons import polygons_from, triangles_from
+from seethrough.renderer.models.translucent.scenes import scene
+from seethrough.renderer.ordering import bsp, feudal
+from seethrough.renderer.ordering.feudal_stretches import SWITCHES, knot_roots
+from seethrough.renderer.ordering.polygons import polygons_from, triangles_from
 
 
 def soup(count, seed):

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from sample_scenes import SHAPES
 from scipy.spatial import ConvexHull
 
-from renderer import contours, masks, transforms
-from renderer.camera import look_at
-from renderer.fragments import distances, fragments
-from renderer.scene import Object, Scene
-from renderer.silhouettes import topology
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer import contours, masks, transforms
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.fragments import distances, fragments
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.silhouettes import topology
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 
 def test_the_gradient_jumps_at_the_border_and_rises_to_one():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from renderer.models.jeep import INSIDE, jeep, jeep_scene
-from renderer.models.outline import outline, square, view_axes
-from renderer.silhouettes import topology
+from seethrough.renderer.models.jeep import INSIDE, jeep, jeep_scene
+from seethrough.renderer.models.outline import outline, square, view_axes
+from seethrough.renderer.silhouettes import topology
 
 PIECES = dict(jeep())
 

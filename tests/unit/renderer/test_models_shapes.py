@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from renderer.models.blend import Limb, body
-from renderer.models.outline import outline
-from renderer.models.shapes import assemble, join, shade
-from renderer.models.surfaces import (
+from seethrough.renderer.models.blend import Limb, body
+from seethrough.renderer.models.outline import outline
+from seethrough.renderer.models.shapes import assemble, join, shade
+from seethrough.renderer.models.surfaces import (
     ball,
     box,
     boxes,
@@ -24,7 +24,7 @@ from renderer.models.surfaces import (
     sweep,
     tube,
 )
-from renderer.transforms import rotation
+from seethrough.renderer.transforms import rotation
 
 RED = (1.0, 0.0, 0.0)
 BLUE = (0.0, 0.0, 1.0)

@@ -7,8 +7,8 @@ import struct
 import numpy as np
 import pytest
 
-from renderer.models import user
-from renderer.models.user import load_model
+from seethrough.renderer.models import user
+from seethrough.renderer.models.user import load_model
 
 # A wedge: a right triangle in x and y drawn out along z, on the ground, 4 long, 2 high, 1 deep.
 CORNERS = [(0, 0, 0), (4, 0, 0), (0, 2, 0), (0, 0, 1), (4, 0, 1), (0, 2, 1)]

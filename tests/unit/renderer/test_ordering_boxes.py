@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from renderer.ordering import boxes
-from renderer.ordering.box_geometry import Boxes, contour_table, fit
-from renderer.ordering.box_overlap import shared_views
-from renderer.ordering.polygons import Polygons, polygons_from
+from seethrough.renderer.ordering import boxes
+from seethrough.renderer.ordering.box_geometry import Boxes, contour_table, fit
+from seethrough.renderer.ordering.box_overlap import shared_views
+from seethrough.renderer.ordering.polygons import Polygons, polygons_from
 
 NOTHING = Polygons(np.empty((0, 3)), np.zeros(1, np.int64), np.empty((0, 0)), np.empty(0, np.int64))
 

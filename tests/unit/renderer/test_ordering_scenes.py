@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from renderer.models.translucent.scenes import scene
-from renderer.ordering import bsp, feudal
-from renderer.ordering.polygons import newell
+from seethrough.renderer.models.translucent.scenes import scene
+from seethrough.renderer.ordering import bsp, feudal
+from seethrough.renderer.ordering.polygons import newell
 
 # Polygons, and the splits of the paper's BSP trees (tables 6 and 7).
 PUBLISHED = {"vise": (304, 275), "house": (736, 554)}

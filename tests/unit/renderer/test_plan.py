@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column, room
 
-from renderer import geometry, reference, transforms
-from renderer.blending import merged_parts
-from renderer.camera import look_at
-from renderer.explain import explain
-from renderer.plan import BLENDED, HARD, OUTSIDE, impenetrable, plan
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
+from seethrough.renderer import geometry, reference, transforms
+from seethrough.renderer.blending import merged_parts
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.explain import explain
+from seethrough.renderer.plan import BLENDED, HARD, OUTSIDE, impenetrable, plan
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
 
 SIZE = (400, 300)
 TECHNIQUE = DynamicTransparency()

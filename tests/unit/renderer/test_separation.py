@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from renderer import geometry, transforms
-from renderer.camera import look_at
-from renderer.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN, compare
-from renderer.plan import plan
-from renderer.scene import Object, Scene
-from renderer.separation import separate
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer import geometry, transforms
+from seethrough.renderer.camera import look_at
+from seethrough.renderer.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN, compare
+from seethrough.renderer.plan import plan
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.separation import separate
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 
 def widest(a, b):

@@ -6,18 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from experiment.looking import HEIGHT, Looking
-from renderer import geometry
-from renderer.gpu.renderer import Renderer
-from renderer.models import MODELS, proxy
-from renderer.models.simple import simplified
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
-from tasks.base import View
-from tasks.building import unique_building
-from tasks.controls import walk
-from tasks.parameters import BuildingParameters
+from seethrough.experiment.looking import HEIGHT, Looking
+from seethrough.renderer import geometry
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.models import MODELS, proxy
+from seethrough.renderer.models.simple import simplified
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.tasks.base import View
+from seethrough.tasks.building import unique_building
+from seethrough.tasks.controls import walk
+from seethrough.tasks.parameters import BuildingParameters
 
 PARAMETERS = BuildingParameters()
 BUILDING = unique_building(np.random.default_rng(3), PARAMETERS)

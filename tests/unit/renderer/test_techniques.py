@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
 
 
 @pytest.mark.parametrize(

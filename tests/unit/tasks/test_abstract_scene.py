@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from tasks.abstract_scene import RED, abstract_scene, unit_mesh
-from tasks.enclosure import bounding_radius, enclosing_pairs
-from tasks.letters import LETTERS, grid_reach, letter_points
-from tasks.parameters import SHAPES, AbstractParameters
+from seethrough.tasks.abstract_scene import RED, abstract_scene, unit_mesh
+from seethrough.tasks.enclosure import bounding_radius, enclosing_pairs
+from seethrough.tasks.letters import LETTERS, grid_reach, letter_points
+from seethrough.tasks.parameters import SHAPES, AbstractParameters
 
 SEEDS = st.integers(0, 2**32 - 1)
 

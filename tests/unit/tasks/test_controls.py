@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from tasks.abstract_scene import abstract_scene
-from tasks.controls import orbit, turned, walk
-from tasks.events import KeyPress, KeyRelease, PointerMove, Tick
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.controls import orbit, turned, walk
+from seethrough.tasks.events import KeyPress, KeyRelease, PointerMove, Tick
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ABSTRACT, BUILDING = AbstractParameters(), BuildingParameters()
 KEYS = st.sampled_from(["left", "right", "up", "down", "x"])

@@ -5,10 +5,10 @@ import hashlib
 import numpy as np
 import pytest
 
-from renderer import geometry
-from tasks.abstract_scene import abstract_scene
-from tasks.building import count_building, unique_building
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.renderer import geometry
+from seethrough.tasks.abstract_scene import abstract_scene
+from seethrough.tasks.building import count_building, unique_building
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 # Meshes of this test alone: the models that ship may grow without these scenes changing.
 _MESHES = {

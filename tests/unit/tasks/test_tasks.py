@@ -5,15 +5,22 @@ import pytest
 from numpy.testing import assert_allclose
 from played_tasks import ASPECT, begun, button, click, keys, of, play
 
-from tasks.abstract_scene import RED
-from tasks.catalog import TASKS
-from tasks.entry import NumberEntry
-from tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, PointerRelease, Tick
-from tasks.floor import room_at
-from tasks.hud import Button, Entry, FloorPlan, Inset, Label
-from tasks.letters import LETTERS
-from tasks.parameters import AbstractParameters, BuildingParameters
-from tasks.plan_mark import wall_lines
+from seethrough.tasks.abstract_scene import RED
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.entry import NumberEntry
+from seethrough.tasks.events import (
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerPress,
+    PointerRelease,
+    Tick,
+)
+from seethrough.tasks.floor import room_at
+from seethrough.tasks.hud import Button, Entry, FloorPlan, Inset, Label
+from seethrough.tasks.letters import LETTERS
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.plan_mark import wall_lines
 
 
 @pytest.mark.parametrize("name", TASKS)

@@ -6,14 +6,14 @@ import json
 import fastparquet
 import pytest
 
-from analysis.load.study import load_study
-from experiment import cli
-from experiment.chain import verify
-from experiment.config import load
-from experiment.errors import InputError
-from experiment.participants.batch import Batch
-from experiment.participants.batch_files import NAME, Results, render
-from experiment.participants.data_mode import Played
+from seethrough.analysis.load.study import load_study
+from seethrough.experiment import cli
+from seethrough.experiment.chain import verify
+from seethrough.experiment.config import load
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants.batch import Batch
+from seethrough.experiment.participants.batch_files import NAME, Results, render
+from seethrough.experiment.participants.data_mode import Played
 
 JOB = Batch("demo", 1, 2)
 STUDY = load("demo")

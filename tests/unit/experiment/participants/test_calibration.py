@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from experiment import cli
-from experiment.commands import calibrate as command
-from experiment.config import load
-from experiment.design import generator
-from experiment.errors import InputError
-from experiment.participants.calibration import (
+from seethrough.experiment import cli
+from seethrough.experiment.commands import calibrate as command
+from seethrough.experiment.config import load
+from seethrough.experiment.design import generator
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants.calibration import (
     LEVELS,
     TimeMeasure,
     measured,
@@ -21,12 +21,19 @@ from experiment.participants.calibration import (
     published,
     table,
 )
-from experiment.participants.code_hash import code_sha256
-from experiment.participants.fitting import FREE, LAST, Crowd, _slopes, calibrate, with_free
-from experiment.participants.person import TRAITS, Person, mood_for
-from experiment.participants.pool import Pool
-from experiment.participants.profile import AVERAGE
-from experiment.participants.profile_file import SHIPPED, find, read, write
+from seethrough.experiment.participants.code_hash import code_sha256
+from seethrough.experiment.participants.fitting import (
+    FREE,
+    LAST,
+    Crowd,
+    _slopes,
+    calibrate,
+    with_free,
+)
+from seethrough.experiment.participants.person import TRAITS, Person, mood_for
+from seethrough.experiment.participants.pool import Pool
+from seethrough.experiment.participants.profile import AVERAGE
+from seethrough.experiment.participants.profile_file import SHIPPED, find, read, write
 
 
 def rows_of(means, sds, r, task, n=16, seed=1):

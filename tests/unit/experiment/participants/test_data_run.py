@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import pytest
 
-from experiment import cli
-from experiment.config import load
-from experiment.errors import InputError
-from experiment.participants import data_run
-from experiment.participants.batch import Batch
-from experiment.participants.batch_files import Results, render
-from experiment.participants.data_mode import Played
+from seethrough.experiment import cli
+from seethrough.experiment.config import load
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.participants import data_run
+from seethrough.experiment.participants.batch import Batch
+from seethrough.experiment.participants.batch_files import Results, render
+from seethrough.experiment.participants.data_mode import Played
 
 OWN = """
 [study]

@@ -5,18 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from experiment.participants.participant import SimulatedParticipant
-from renderer import geometry
-from renderer.gpu.context import standalone
-from renderer.gpu.renderer import Renderer
-from renderer.scene import Object, Scene
-from renderer.techniques.dynamic import DynamicTransparency
-from renderer.techniques.standard import Standard
-from renderer.transforms import placed
-from tasks.abstract_scene import RED, unit_mesh
-from tasks.building import count_building, unique_building
-from tasks.catalog import TASKS
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.renderer import geometry
+from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.transforms import placed
+from seethrough.tasks.abstract_scene import RED, unit_mesh
+from seethrough.tasks.building import count_building, unique_building
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
 

@@ -8,16 +8,16 @@ import pytest
 from numpy.testing import assert_allclose
 from plain_trials import ASPECT, QUIET, begun, play, sight
 
-from experiment.participants.count_red import _red
-from experiment.participants.effects import EFFECTS, plan_effects
-from experiment.participants.hands import Hands
-from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.profile import PROFILES, Profile, profile
-from renderer import geometry
-from renderer.scene import Object, Scene
-from tasks.catalog import TASKS
-from tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
-from tasks.parameters import AbstractParameters
+from seethrough.experiment.participants.count_red import _red
+from seethrough.experiment.participants.effects import EFFECTS, plan_effects
+from seethrough.experiment.participants.hands import Hands
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.participants.profile import PROFILES, Profile, profile
+from seethrough.renderer import geometry
+from seethrough.renderer.scene import Object, Scene
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
+from seethrough.tasks.parameters import AbstractParameters
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -8,24 +8,30 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from experiment.pages import Choice, Page, Paragraph, Scale, TextField
-from experiment.participants.count_things import Tally
-from experiment.participants.counting import seconds_to_count, slips
-from experiment.participants.effects import plan_effects
-from experiment.participants.forms import Opinions
-from experiment.participants.glance import likely, noticed, uncrowded
-from experiment.participants.hands import Hands
-from experiment.participants.name_letter import FAR, FIT, _fit, _templates, letter_chances
-from experiment.participants.person import Mood, Person
-from experiment.participants.places import Known, apart, bearing, crossed, layout
-from experiment.participants.profile import AVERAGE
-from experiment.participants.walking import REACH, _nearby
-from renderer import geometry
-from renderer.visibility import Visibility
-from tasks.building import unique_building
-from tasks.events import PointerMove
-from tasks.letters import LETTERS, letter_points
-from tasks.parameters import BuildingParameters
+from seethrough.experiment.pages import Choice, Page, Paragraph, Scale, TextField
+from seethrough.experiment.participants.count_things import Tally
+from seethrough.experiment.participants.counting import seconds_to_count, slips
+from seethrough.experiment.participants.effects import plan_effects
+from seethrough.experiment.participants.forms import Opinions
+from seethrough.experiment.participants.glance import likely, noticed, uncrowded
+from seethrough.experiment.participants.hands import Hands
+from seethrough.experiment.participants.name_letter import (
+    FAR,
+    FIT,
+    _fit,
+    _templates,
+    letter_chances,
+)
+from seethrough.experiment.participants.person import Mood, Person
+from seethrough.experiment.participants.places import Known, apart, bearing, crossed, layout
+from seethrough.experiment.participants.profile import AVERAGE
+from seethrough.experiment.participants.walking import REACH, _nearby
+from seethrough.renderer import geometry
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.building import unique_building
+from seethrough.tasks.events import PointerMove
+from seethrough.tasks.letters import LETTERS, letter_points
+from seethrough.tasks.parameters import BuildingParameters
 
 
 def mood(task="count", seed=1, without=(), care=1.0):

@@ -5,16 +5,16 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from experiment.participants.glance import CLEAR, WINDOW_PIXELS, likely
-from experiment.participants.looks import KeptLooks
-from experiment.participants.profile import AVERAGE
-from experiment.participants.sight import sight
-from renderer import geometry
-from renderer.scene import Object, Scene
-from renderer.visibility import Visibility
-from tasks.controls import changed, walk
-from tasks.events import KeyPress, KeyRelease, PointerMove, Tick
-from tasks.parameters import BuildingParameters
+from seethrough.experiment.participants.glance import CLEAR, WINDOW_PIXELS, likely
+from seethrough.experiment.participants.looks import KeptLooks
+from seethrough.experiment.participants.profile import AVERAGE
+from seethrough.experiment.participants.sight import sight
+from seethrough.renderer import geometry
+from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.controls import changed, walk
+from seethrough.tasks.events import KeyPress, KeyRelease, PointerMove, Tick
+from seethrough.tasks.parameters import BuildingParameters
 
 THINGS = (True, False, True, True, False, True)  # what may be asked for; the others are walls
 SCENE = Scene(tuple(Object(geometry.box(), target=thing) for thing in THINGS))

@@ -7,14 +7,14 @@ import pytest
 from made_looks import random_look, same_look
 from numpy.testing import assert_allclose
 
-from experiment.config import load
-from experiment.design import generator
-from experiment.participants.data_mode import play_session, play_trial
-from experiment.participants.looks import KeptLooks
-from experiment.participants.participant import SimulatedParticipant
-from experiment.participants.places import AHEAD, STRIDES
-from experiment.participants.pool import Pool, fingerprint
-from experiment.participants.tables import (
+from seethrough.experiment.config import load
+from seethrough.experiment.design import generator
+from seethrough.experiment.participants.data_mode import play_session, play_trial
+from seethrough.experiment.participants.looks import KeptLooks
+from seethrough.experiment.participants.participant import SimulatedParticipant
+from seethrough.experiment.participants.places import AHEAD, STRIDES
+from seethrough.experiment.participants.pool import Pool, fingerprint
+from seethrough.experiment.participants.tables import (
     PITCHES,
     YAWS,
     TableEyes,
@@ -23,10 +23,10 @@ from experiment.participants.tables import (
     walk_camera,
     walk_key,
 )
-from renderer.visibility import Visibility
-from tasks.catalog import TASKS
-from tasks.controls import orbit, walk
-from tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.controls import orbit, walk
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
 
@@ -121,7 +121,7 @@ def shown(level):
 
 
 def trial_of(study, task, level):
-    from experiment.design import session_for
+    from seethrough.experiment.design import session_for
 
     sets = session_for(1, study.design.factors())
     return next(t for s in sets for t in s.trials if (t.task, t.transparency) == (task, level))

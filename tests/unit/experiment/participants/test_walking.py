@@ -7,17 +7,17 @@ import pytest
 from numpy.testing import assert_allclose
 from plain_trials import MODELS
 
-from experiment.participants.effects import plan_effects
-from experiment.participants.glance import CLEAR, Glance
-from experiment.participants.person import Mood
-from experiment.participants.places import crossed
-from experiment.participants.profile import AVERAGE
-from experiment.participants.sight import Sight, Thing
-from experiment.participants.walking import Walker
-from renderer.visibility import Visibility
-from tasks.building import count_building
-from tasks.catalog import TASKS
-from tasks.parameters import BuildingParameters
+from seethrough.experiment.participants.effects import plan_effects
+from seethrough.experiment.participants.glance import CLEAR, Glance
+from seethrough.experiment.participants.person import Mood
+from seethrough.experiment.participants.places import crossed
+from seethrough.experiment.participants.profile import AVERAGE
+from seethrough.experiment.participants.sight import Sight, Thing
+from seethrough.experiment.participants.walking import Walker
+from seethrough.renderer.visibility import Visibility
+from seethrough.tasks.building import count_building
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.parameters import BuildingParameters
 
 TASK = TASKS["count_in_building"]
 BUILDING = count_building(np.random.default_rng(1), BuildingParameters(), MODELS)
