@@ -74,7 +74,10 @@ def names(kind: str) -> tuple[str, ...]:
 
 @cache
 def get(kind: str, name: str) -> Any:
-    """The plug-in of this name. Raises KeyError if there is none, PluginError if it fails to load."""
+    """The plug-in of this name.
+
+    Raises KeyError if there is none, PluginError if it fails to load.
+    """
     place = _places(kind)[name]
     if isinstance(place, str):
         found = getattr(import_module(place), KINDS[kind].constant)
