@@ -27,12 +27,12 @@ from seethrough.benchmarks.breaking import BREAKING
 from seethrough.benchmarks.picture_errors import drawn, errors
 from seethrough.benchmarks.scenes import SCENES
 from seethrough.benchmarks.speed import Figure, row, times
-from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.plan import plan
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
-from seethrough.renderer.visibility import SEEN
+from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.scene.visibility import SEEN
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE, LOOK = (800, 600), (400, 300)
 VIEWS = 4

@@ -27,6 +27,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 PACKAGES = ("seethrough", "renderer", "tasks", "experiment", "analysis", "benchmarks")
+BEFORE = {  # where modules lay when the rooms had no common name (decisions/0013)
+    "renderer.techniques.dynamic.dynamic_transparency": "renderer.techniques.dynamic",
+    "tasks.worlds.abstract.abstract_scene": "tasks.abstract_scene",
+    "tasks.kit.controls": "tasks.controls",
+}
 SIZE, VIEWS, TURNS, DRAWN_AGAIN = (800, 600), 6, 24, 2000
 SCENES, SEEDS = ("abstract", "walkthrough", "jeep"), range(1, 9)
 
@@ -39,7 +44,7 @@ class Tree:
 
     def __init__(self, folder: Path) -> None:
         self.folder, self._modules = str(folder), dict[str, ModuleType]()
-        self._prefix = "seethrough." if (folder / "seethrough").is_dir() else ""
+        self._package = (folder / "seethrough").is_dir()
 
     @contextmanager
     def active(self) -> Iterator[None]:
@@ -49,7 +54,7 @@ class Tree:
         sys.modules.update(self._modules)
         sys.path.insert(0, self.folder)
         try:
-            if self._prefix:  # the rooms lie beside the package, in the same folder
+            if self._package:  # the rooms lie beside the package, in the same folder
                 import_module("seethrough").__path__.append(self.folder)
             yield
         finally:
@@ -62,9 +67,11 @@ class Tree:
         """What draws each view of each scene and technique with this folder's code."""
         with self.active():
             made = self._get("benchmarks.scenes", "SCENES")
-            dynamic = self._get("renderer.techniques.dynamic", "DynamicTransparency")
-            abstract_scene = self._get("tasks.abstract_scene", "abstract_scene")
-            orbit = self._get("tasks.controls", "orbit")
+            dynamic = self._get(
+                "renderer.techniques.dynamic.dynamic_transparency", "DynamicTransparency"
+            )
+            abstract_scene = self._get("tasks.worlds.abstract.abstract_scene", "abstract_scene")
+            orbit = self._get("tasks.kit.controls", "orbit")
             parameters = self._get("tasks.parameters", "AbstractParameters")()
             renderer = self._get("renderer.gpu.renderer", "Renderer")(
                 context, SIZE, without=frozenset({"still"})
@@ -91,7 +98,8 @@ class Tree:
         }
 
     def _get(self, module: str, name: str) -> Any:
-        return getattr(import_module(self._prefix + module), name)
+        module = f"seethrough.{module}" if self._package else BEFORE.get(module, module)
+        return getattr(import_module(module), name)
 
     def _draw(self, renderer: Any, scene: Any, camera: Any, technique: Any) -> Callable[[], None]:
         return lambda: renderer.draw(scene, camera, technique)
@@ -139,7 +147,7 @@ def main() -> None:
         tarfile.open(fileobj=io.BytesIO(found.stdout)).extractall(folder, filter="data")
         trees = (Tree(Path(folder)), Tree(here))
         with trees[1].active():
-            context = import_module("seethrough.renderer.gpu.context").standalone()
+            context = import_module("seethrough.renderer.gpu.device.context").standalone()
         both = [tree.draws(context) for tree in trees]
         for name in both[0]:
             seconds = spent(trees, [draws[name] for draws in both], context, args.turns)

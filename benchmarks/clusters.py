@@ -15,16 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.benchmarks.speed import times
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import Camera, look_at
-from seethrough.renderer.clusters import polygons_of
-from seethrough.renderer.geometry import Mesh
-from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.ordering import bsp
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.plan.clusters import polygons_of
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.geometry import Mesh
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SIZE, SMALL = (800, 600), (200, 150)
 VIEWS = 4

@@ -16,15 +16,15 @@ from typing import Any
 import numpy as np
 
 from seethrough.benchmarks.rows import Row, row
-from seethrough.experiment.config import load
-from seethrough.experiment.design import SIMULATED, generator, session_for
-from seethrough.experiment.participants.data_mode import play_trial
-from seethrough.experiment.participants.effects import EFFECTS, plan_effects
-from seethrough.experiment.participants.looks import KeptLooks
-from seethrough.experiment.participants.participant import STRATEGIES, SimulatedParticipant
-from seethrough.experiment.participants.pool import Pool, drawing
-from seethrough.experiment.participants.profile import Profile
-from seethrough.experiment.participants.profile_file import find
+from seethrough.experiment.people.fitted.profile import Profile
+from seethrough.experiment.people.fitted.profile_file import find
+from seethrough.experiment.people.fitted.study_effects import EFFECTS, plan_effects
+from seethrough.experiment.people.participant import STRATEGIES, SimulatedParticipant
+from seethrough.experiment.people.runs.data_mode import play_trial
+from seethrough.experiment.people.runs.pool import Pool, drawing
+from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import SIMULATED, generator, session_for
 
 STUDY, POOL, PEOPLE, SEED = "published", 40, 16, 1
 PROFILE = "calibrated"

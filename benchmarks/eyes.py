@@ -19,21 +19,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.config import Study, load
-from seethrough.experiment.design import SIMULATED, Trial, generator, session_for
-from seethrough.experiment.driver import open_context
-from seethrough.experiment.pages import Page, Paragraph
-from seethrough.experiment.participants.data_mode import play_trial
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.experiment.participants.pool import Pool, drawing
-from seethrough.experiment.participants.profile import AVERAGE
-from seethrough.experiment.world import TrialRecord
+from seethrough.experiment.pages.pages import Page, Paragraph
+from seethrough.experiment.people.fitted.profile import AVERAGE
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.runs.data_mode import play_trial
+from seethrough.experiment.people.runs.pool import Pool, drawing
+from seethrough.experiment.session.driver import open_context
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.design import SIMULATED, Trial, generator, session_for
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
-from seethrough.renderer.techniques.standard import Standard
-from seethrough.renderer.visibility import Visibility
-from seethrough.tasks.base import View
-from seethrough.tasks.events import Event, KeyPress, KeyRelease, Tick
+from seethrough.renderer.scene.visibility import Visibility
+from seethrough.renderer.techniques.standard.opaque import Standard
+from seethrough.tasks.kit.base import View
+from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, Tick
 
 ASPECT = 4 / 3
 TRIALS = 384  # of the published study: what a way to look costs there is drawn

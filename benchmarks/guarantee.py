@@ -18,17 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.benchmarks.rows import Row, row
-from seethrough.renderer.camera import Camera
-from seethrough.renderer.geometry import Mesh
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.plan import plan
-from seethrough.renderer.scene import Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.visibility import SEEN
-from seethrough.tasks.abstract_scene import abstract_scene
-from seethrough.tasks.building import unique_building
-from seethrough.tasks.controls import orbit, walk
+from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.geometry import Mesh
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.scene.visibility import SEEN
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.worlds.building.building import unique_building
 
 EXACT = DynamicTransparency(exact=True)
 MANY = 5  # pixels of a target that count as a view of it

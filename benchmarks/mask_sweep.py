@@ -22,8 +22,8 @@ from seethrough.benchmarks.picture_errors import drawn, errors
 from seethrough.benchmarks.scenes import SCENES
 from seethrough.benchmarks.speed import Figure, row, times
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 VIEWS = 4
 DEFAULT = DynamicTransparency()

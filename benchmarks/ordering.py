@@ -25,8 +25,8 @@ from seethrough.benchmarks.memory import used_by
 from seethrough.benchmarks.postprocessing import VIEWS, microseconds
 from seethrough.benchmarks.rows import Row, row
 from seethrough.renderer.models.translucent.scenes import TranslucentScene, scene
-from seethrough.renderer.ordering import boxes, bsp, feudal
-from seethrough.renderer.ordering.polygons import Polygons, polygons_from
+from seethrough.renderer.polygons import boxes, bsp, feudal
+from seethrough.renderer.polygons.polygons import Polygons, polygons_from
 
 HELP = "depth orderings: splits, relations, times, memory and image error"
 SEEDS = 100  # of the BSP baseline: the mean of 20, as in paper 002, still moves by 3 %
@@ -43,7 +43,7 @@ PICTURE = (320, 240)
 
 MEMORY = """
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.ordering import bsp
+from seethrough.renderer.polygons import bsp
 import numpy as np
 from seethrough.benchmarks.ordering import bare
 polygons = scene("soup100000").polygons
@@ -54,7 +54,7 @@ COLD = """
 import time
 import numpy as np
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.ordering import boxes, bsp, feudal
+from seethrough.renderer.polygons import boxes, bsp, feudal
 polygons = scene("fence").polygons
 start = time.process_time()
 for method in (bsp, feudal, boxes):

@@ -21,15 +21,15 @@ import numpy as np
 from seethrough.benchmarks import ordering_exactness
 from seethrough.benchmarks.painted_scene import PaintedScene as Bench
 from seethrough.benchmarks.rows import Row, row
-from seethrough.renderer.gpu.approximations import (
+from seethrough.renderer.gpu.levels.approximations import (
     PeelingPainter,
     StochasticPainter,
     WeightedPainter,
 )
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.ordering import axis_tree, boxes, bsp, distance, feudal
-from seethrough.renderer.ordering.polygons import Floats
-from seethrough.renderer.ordering.prepared import Prepared
+from seethrough.renderer.polygons import axis_tree, boxes, bsp, distance, feudal
+from seethrough.renderer.polygons.polygons import Floats
+from seethrough.renderer.polygons.prepared import Prepared
 
 SCENES = ("panels100", "boxes", "leaves", "cow", "house", "soup1000")
 SIZE = (400, 300)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.camera import Camera, look_at
-from seethrough.renderer.gpu.context import standalone
-from seethrough.renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
+from seethrough.renderer.gpu.device.context import standalone
+from seethrough.renderer.gpu.levels.polygon_painter import Corners, ExactPainter, PolygonPainter
 from seethrough.renderer.models.translucent.scenes import TranslucentScene
-from seethrough.renderer.ordering.polygons import Floats
-from seethrough.renderer.ordering.prepared import Drawable, Prepared, drawable
+from seethrough.renderer.polygons.polygons import Floats
+from seethrough.renderer.polygons.prepared import Drawable, Prepared, drawable
+from seethrough.renderer.scene.camera import Camera, look_at
 
 Picture = NDArray[np.float32]
 KEPT = 2**28  # bytes of exact pictures

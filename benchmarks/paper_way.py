@@ -7,16 +7,16 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from seethrough.renderer.camera import Camera
-from seethrough.renderer.gpu.layer import MASK, NOTHING, OBJECT, clip_from_offset
-from seethrough.renderer.gpu.meshes import MeshStore
-from seethrough.renderer.gpu.programs import Shader, program
-from seethrough.renderer.gpu.scene_table import Run, SceneTable
-from seethrough.renderer.gpu.targets import FrameTarget
-from seethrough.renderer.plan import plan
-from seethrough.renderer.scene import Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.gpu.device.meshes import MeshStore
+from seethrough.renderer.gpu.device.programs import Shader, program
+from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
+from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.levels.layer import MASK, NOTHING, OBJECT, clip_from_offset
+from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 CELLS = 128  # the paper's buffers
 _WHOLE = """#version 330 core
@@ -65,7 +65,7 @@ class PaperWay:
         self._tables: dict[int, SceneTable] = {}
 
     def _with_constant(self) -> Shader:
-        from seethrough.renderer.gpu.programs import _source
+        from seethrough.renderer.gpu.device.programs import _source
 
         fragment = (
             "#version 330 core\nuniform float opacity;\nout vec4 picture;\n"

@@ -26,13 +26,13 @@ from collections.abc import Callable
 import numba
 import numpy as np
 
-from seethrough.renderer.ordering.bsp import PreparedBsp
-from seethrough.renderer.ordering.feudal import PreparedFeudal
-from seethrough.renderer.ordering.feudal_stretches import BLOCK, Stretches
-from seethrough.renderer.ordering.feudal_stretches import emit as emit_stretches
-from seethrough.renderer.ordering.polygons import Floats
-from seethrough.renderer.ordering.tree import EITHER, Tree
-from seethrough.renderer.ordering.tree import emit as emit_tree
+from seethrough.renderer.polygons.bsp import PreparedBsp
+from seethrough.renderer.polygons.feudal import PreparedFeudal
+from seethrough.renderer.polygons.feudal_stretches import BLOCK, Stretches
+from seethrough.renderer.polygons.feudal_stretches import emit as emit_stretches
+from seethrough.renderer.polygons.polygons import Floats
+from seethrough.renderer.polygons.tree import EITHER, Tree
+from seethrough.renderer.polygons.tree import emit as emit_tree
 
 VIEWS, TURNS = 500, 40
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.renderer.camera import Camera, look_at
-from seethrough.renderer.scene import Scene
-from seethrough.tasks.abstract_scene import abstract_scene
-from seethrough.tasks.building import unique_building
-from seethrough.tasks.controls import orbit, walk
+from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.scene import Scene
+from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.worlds.building.building import unique_building
 
 Views = tuple[Scene, list[Camera]]
 
@@ -36,7 +36,7 @@ def walkthrough(aspect: float, views: int) -> Views:
 
 def jeep(aspect: float, views: int) -> Views:
     """Engine, gearbox, axles and seats inside a body, about 115k triangles, from round about."""
-    from seethrough.renderer.models.jeep import jeep_scene
+    from seethrough.renderer.models.vehicles.jeep import jeep_scene
 
     middle = np.array([0.0, 0.42, 0.0])
     turns = np.linspace(0, 2 * np.pi, views, endpoint=False) + 0.4

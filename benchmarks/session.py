@@ -17,27 +17,27 @@ from typing import Any
 import numpy as np
 
 from seethrough.benchmarks.rows import Row, row
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.config import Study, load
-from seethrough.experiment.design import SIMULATED, generator, session_for
-from seethrough.experiment.looking import Looking
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.replay import find_trial, replay
-from seethrough.experiment.world import TrialRecord
-from seethrough.renderer.gpu.context import standalone
-from seethrough.tasks.base import Outcome, View
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.replay.replayer import find_trial, replay
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.looking import Looking
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.design import SIMULATED, generator, session_for
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import PointerMove, Tick
+from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.events import PointerMove, Tick
 
 FRAMES = 3600  # a minute at 60 Hz
 DRAGGED = 10.0  # s
 FIRST_FRAME = """
 import sys, time
-from seethrough.experiment.config import load
-from seethrough.experiment.clock import RealClock
-from seethrough.experiment.pages import Page, Paragraph
-from seethrough.experiment.texts import Texts
-from seethrough.experiment.window import Window
+from seethrough.experiment.study.config import load
+from seethrough.experiment.session.clock import RealClock
+from seethrough.experiment.pages.pages import Page, Paragraph
+from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.display.window import Window
 study = load("published")
 window = Window(study.display, Texts("en"), RealClock(), "bench")
 def shown():
@@ -67,7 +67,7 @@ def figures() -> Iterator[Row]:
 
 
 def _first_view(study: Study) -> tuple[Any, View]:
-    from seethrough.experiment.scenes import StudyScenes
+    from seethrough.experiment.study.study_scenes import StudyScenes
 
     trial = session_for(1, study.design.factors())[0].trials[0]
     task = TASKS[trial.task]
@@ -100,12 +100,12 @@ def _recording(folder: Path) -> tuple[float, float]:
 
 def _replay(folder: Path) -> float:
     """How many times faster than real time a simulated demo session is replayed and looked at."""
-    from seethrough.experiment.offscreen import OffscreenDisplay
-    from seethrough.experiment.participants.participant import SimulatedParticipant
-    from seethrough.experiment.provenance import provenance
-    from seethrough.experiment.session import run_session
-    from seethrough.experiment.simulated_input import SimulatedInput
-    from seethrough.experiment.world import World
+    from seethrough.experiment.display.offscreen import OffscreenDisplay
+    from seethrough.experiment.display.simulated_input import SimulatedInput
+    from seethrough.experiment.people.participant import SimulatedParticipant
+    from seethrough.experiment.session.session import run_session
+    from seethrough.experiment.session.software import provenance
+    from seethrough.experiment.session.surroundings import World
 
     study, clock, context = load("demo"), SimulatedClock(), standalone()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)

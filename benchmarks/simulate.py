@@ -22,14 +22,14 @@ from typing import Any
 from seethrough.benchmarks import eyes
 from seethrough.benchmarks.memory import Watch
 from seethrough.benchmarks.rows import Row, row
-from seethrough.experiment.config import load
-from seethrough.experiment.participants import batch, data_run
-from seethrough.experiment.participants.calibration import FITTED, HELD_OUT, measured, published
-from seethrough.experiment.participants.fitting import Crowd
-from seethrough.experiment.participants.looks import KeptLooks
-from seethrough.experiment.participants.pool import drawing
-from seethrough.experiment.participants.profile import Profile
-from seethrough.experiment.participants.profile_file import find
+from seethrough.experiment.people.fitted.calibration import FITTED, HELD_OUT, measured, published
+from seethrough.experiment.people.fitted.fitting import Crowd
+from seethrough.experiment.people.fitted.profile import Profile
+from seethrough.experiment.people.fitted.profile_file import find
+from seethrough.experiment.people.runs import batch, data_run
+from seethrough.experiment.people.runs.pool import drawing
+from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.study.config import load
 
 STUDY = "published"
 PROFILE = "calibrated"

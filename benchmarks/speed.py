@@ -19,14 +19,14 @@ from seethrough.benchmarks.paper_way import PaperWay
 from seethrough.benchmarks.rows import Row as Figure
 from seethrough.benchmarks.rows import row
 from seethrough.benchmarks.scenes import SCENES
-from seethrough.experiment.looking import HEIGHT
-from seethrough.renderer.gpu.context import standalone
+from seethrough.experiment.session.looking import HEIGHT
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
-from seethrough.renderer.plan import plan
-from seethrough.renderer.scene import Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZES = ((800, 600), (1280, 1024))
 VIEWS, TURNS = 6, 4
@@ -191,9 +191,9 @@ def _of_looks(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
 
 _MEMORY = """
 from seethrough.benchmarks.scenes import walkthrough
-from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 scene, cameras = walkthrough(4 / 3, 4)
 renderer = Renderer(standalone(), (800, 600))
 for camera in cameras:

@@ -18,7 +18,7 @@ def machine() -> str:
     """The machine and the driver, in a line."""
     text = f"{os.cpu_count()} cores ({platform.machine()}), Python {platform.python_version()}"
     try:
-        from seethrough.renderer.gpu.context import standalone
+        from seethrough.renderer.gpu.device.context import standalone
 
         info = standalone().info
     except RuntimeError:

@@ -18,11 +18,11 @@ import numpy as np
 
 from seethrough.benchmarks.scenes import SCENES
 from seethrough.benchmarks.speed import Figure, row, times
-from seethrough.renderer.camera import Camera
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.scene import Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 VIEWS, PEELS = 2, 100
 EXACT = DynamicTransparency(exact=True)

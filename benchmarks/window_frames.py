@@ -16,16 +16,16 @@ import time
 from pathlib import Path
 from typing import Any
 
-from seethrough.experiment.clock import RealClock
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.texts import Texts
-from seethrough.experiment.trial import TrialRun
-from seethrough.experiment.window import _KEYS, Window
-from seethrough.experiment.world import World
-from seethrough.tasks.base import View
+from seethrough.experiment.display.window import _KEYS, Window
+from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.clock import RealClock
+from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.trial import TrialRun
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.base import View
 
 LEFT = 1  # pyglet's number of the left button
 AGAIN = 300  # views that the renderer draws again alone

@@ -13,22 +13,22 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from seethrough.experiment import blocks
-from seethrough.experiment.config import load
-from seethrough.experiment.design import Trial, session_for
-from seethrough.experiment.form import Form
-from seethrough.experiment.pages import Page
-from seethrough.experiment.questionnaire import after, asked, before
-from seethrough.experiment.session import _feedback, _instruction, _page
-from seethrough.experiment.stage import Stage
-from seethrough.experiment.texts import Texts
-from seethrough.experiment.trial import LEAVE, MENU, TrialRun
-from seethrough.experiment.world import TrialRecord
-from seethrough.renderer.gpu.context import standalone
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.pages import blocks
+from seethrough.experiment.pages.form import Form
+from seethrough.experiment.pages.pages import Page
+from seethrough.experiment.pages.questionnaire import after, asked, before
+from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.session.session import _feedback, _instruction, _page
+from seethrough.experiment.session.stage import Stage
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.session.trial import LEAVE, MENU, TrialRun
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import Trial, session_for
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress
-from seethrough.tasks.hud import practice_mark
+from seethrough.tasks.kit.base import Outcome
+from seethrough.tasks.kit.events import KeyPress
+from seethrough.tasks.kit.hud import practice_mark
 
 SIZE = (800, 600)
 ENTER = KeyPress(0.0, "enter")

@@ -13,16 +13,16 @@ from itertools import product
 
 import numpy as np
 
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.scenes import StudyScenes
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import Camera
-from seethrough.renderer.gpu.context import standalone
-from seethrough.renderer.gpu.few_sorter import MASKS, SLICES
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.renderer.gpu.device.context import standalone
+from seethrough.renderer.gpu.per_pixel.few_sorter import MASKS, SLICES
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.catalog import TASKS
 
 SIZE = (160, 120)

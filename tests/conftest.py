@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.device.context import standalone
 
 
 @pytest.fixture(scope="session")

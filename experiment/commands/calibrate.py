@@ -9,11 +9,11 @@ from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryFile
 
-from seethrough.experiment.config import load
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.participants.code_hash import code_sha256
-from seethrough.experiment.participants.profile_file import find, write
-from seethrough.experiment.progress import Progress
+from seethrough.experiment.people.code_hash import code_sha256
+from seethrough.experiment.people.fitted.profile_file import find, write
+from seethrough.experiment.session.progress import Progress
+from seethrough.experiment.study.config import load
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,9 +47,9 @@ def run(arguments: argparse.Namespace) -> int:
     _check_out(arguments.out)
     from dataclasses import replace
 
-    from seethrough.experiment.participants import calibration, fitting
-    from seethrough.experiment.participants.looks import KeptLooks
-    from seethrough.experiment.participants.pool import drawing
+    from seethrough.experiment.people.fitted import calibration, fitting
+    from seethrough.experiment.people.runs.pool import drawing
+    from seethrough.experiment.people.sight.looks import KeptLooks
 
     pool = drawing(study, arguments.pool, KeptLooks(arguments.tables))
     crowd = fitting.Crowd(arguments.seed, arguments.participants, pool)
@@ -89,7 +89,7 @@ def _check_out(out: Path) -> None:
 def _provenance(
     arguments: argparse.Namespace, start: str, misfit: float, table: Sequence[str]
 ) -> dict[str, object]:
-    from seethrough.experiment.participants.calibration import FITTED, HELD_OUT
+    from seethrough.experiment.people.fitted.calibration import FITTED, HELD_OUT
 
     return {
         "command": f"seethrough calibrate {arguments.study} --profile {arguments.profile} "
@@ -114,4 +114,4 @@ def _provenance(
 def _code() -> str:
     """The program's version, and what tells the participants' own code from any other."""
     version = metadata.version("seethrough")
-    return f"seethrough {version}, experiment/participants sha256 {code_sha256()}"
+    return f"seethrough {version}, experiment/people sha256 {code_sha256()}"

@@ -9,15 +9,15 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seethrough.experiment.config import Study, load
-from seethrough.experiment.design import order_of, session_for
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.texts import Texts
+from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.design import order_of, session_for
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 
 if TYPE_CHECKING:
-    from seethrough.experiment.certificate import Difficulty, Match
-    from seethrough.experiment.machine import FrameTimes
+    from seethrough.experiment.session.machine import FrameTimes
+    from seethrough.experiment.study.certificate import Difficulty, Match
 
 SECONDS = 10.0  # of the hardest scene
 LEAST_DISK = 1.0  # GiB
@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     _design(study, said)
     if arguments.config_only:
         return said.sum_up()
-    from seethrough.experiment.driver import describe, on_the_processor, open_context
+    from seethrough.experiment.session.driver import describe, on_the_processor, open_context
 
     context = open_context()
     for name, value in describe(context).items():
@@ -71,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _models(study: Study, said: Verdicts) -> None:
     """What the study brings along: read already, or there would be no study."""
     if study.walkthrough.models:
-        from seethrough.experiment.contact_sheet import described, facts_of
+        from seethrough.experiment.study.contact_sheet import described, facts_of
     for own in study.walkthrough.models:
         first, *more = described(own, facts_of(own), study)
         said.say("model", f"{own.name}: {own.file}, {first}, {own.sha256[:12]}")
@@ -84,7 +84,7 @@ def _contact_sheet(
 ) -> None:
     """The study's own models in a picture, where it has any."""
     if study.walkthrough.models:
-        from seethrough.experiment import contact_sheet
+        from seethrough.experiment.study import contact_sheet
 
         path = arguments.models or contact_sheet.default_path(arguments.study)
         contact_sheet.write(study, context, path)
@@ -111,8 +111,8 @@ def _design(study: Study, said: Verdicts) -> None:
 
 def _measured(study: Study, context: Any) -> list[Difficulty]:
     """Every trial's difficulty, with progress."""
-    from seethrough.experiment.certificate import Certifier, trials_of
-    from seethrough.experiment.progress import Progress
+    from seethrough.experiment.session.progress import Progress
+    from seethrough.experiment.study.certificate import Certifier, trials_of
 
     certifier, trials = Certifier(study, context), trials_of(study)
     measured = []
@@ -126,7 +126,7 @@ def _measured(study: Study, context: Any) -> list[Difficulty]:
 def _difficulty(
     study: Study, measured: list[Difficulty], context: Any, redraw: bool, said: Verdicts
 ) -> None:
-    from seethrough.experiment.certificate import matches, worst
+    from seethrough.experiment.study.certificate import matches, worst
 
     found = matches(study, measured)
     for task in study.design.tasks:
@@ -150,14 +150,14 @@ def _means(match: Match) -> str:
 
 def _apart(match: Match, value: float) -> str:
     """A difference as the measure's unit has it."""
-    from seethrough.experiment.certificate import SHARES
+    from seethrough.experiment.study.certificate import SHARES
 
     return f"{value:.3f}" if match.measure in SHARES else f"{100 * value:.0f} %"
 
 
 def _redraw(study: Study, measured: list[Difficulty], context: Any, said: Verdicts) -> None:
     """Draw the worst scene again until all match; print the line for the config."""
-    from seethrough.experiment.certificate import Certifier, matches, trials_of, worst
+    from seethrough.experiment.study.certificate import Certifier, matches, trials_of, worst
 
     names = list(study.design.redraw)
     for _ in range(MOST_REDRAWS):
@@ -178,7 +178,7 @@ def _redraw(study: Study, measured: list[Difficulty], context: Any, said: Verdic
 
 
 def _write(measured: list[Difficulty], path: Path) -> None:
-    from seethrough.experiment.certificate import Difficulty
+    from seethrough.experiment.study.certificate import Difficulty
 
     values = [f.name for f in fields(Difficulty) if f.name != "trial"]
     with open(path, "x", encoding="utf-8", newline="") as file:
@@ -193,8 +193,8 @@ def _machine(
     study: Study, measured: list[Difficulty], context: Any, seconds: float, said: Verdicts
 ) -> None:
     """Frame times where they are worst: the scenes with most to see through, in each scenario."""
-    from seethrough.experiment.machine import crossings, frame_times, free_disk
-    from seethrough.renderer.ordering.prepared import DENSE_CROSSINGS
+    from seethrough.experiment.session.machine import crossings, frame_times, free_disk
+    from seethrough.renderer.polygons.prepared import DENSE_CROSSINGS
 
     for scenario in study.design.factors().tasks:
         own = [d for d in measured if d.trial.scenario == scenario]
@@ -236,15 +236,15 @@ def smooth(times: FrameTimes, rate: float) -> tuple[str, str]:
 
 def _refresh(study: Study, said: Verdicts) -> None:
     """Measured against declared refresh rate, where there is a display."""
-    from seethrough.experiment.system_window import available
+    from seethrough.experiment.display.system_window import available
 
     if not available():
         why = "no display: simulated people only, and the refresh rate was not measured"
         said.say("machine", "window: none can be opened", WARNING, why)
         return
-    from seethrough.experiment import refresh
-    from seethrough.experiment.clock import RealClock
-    from seethrough.experiment.window import Window
+    from seethrough.experiment.display import refresh
+    from seethrough.experiment.display.window import Window
+    from seethrough.experiment.session.clock import RealClock
 
     window = Window(study.display, Texts("en"), RealClock(), "check")
     rate, declared = window.measured, window.declared

@@ -8,8 +8,8 @@ import webbrowser
 from pathlib import Path
 
 from seethrough.experiment import cli
-from seethrough.experiment.config import load
-from seethrough.experiment.design import SIMULATED, generator
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import SIMULATED, generator
 
 SPEED = 8.0  # watched, the simulated participant would take minutes at real speed
 
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _desktop() -> bool:
-    from seethrough.experiment.system_window import (
+    from seethrough.experiment.display.system_window import (
         available,
     )  # only here: needs no display, but costs time
 
@@ -60,13 +60,13 @@ def _next_folder(parent: Path) -> Path:
 
 
 def _in_window(data: Path, simulated: bool, speed: float) -> str:
-    from seethrough.experiment.clock import RealClock
-    from seethrough.experiment.live import play_in_window
+    from seethrough.experiment.session.clock import RealClock
+    from seethrough.experiment.session.live import play_in_window
 
     study = load("demo")
     if not simulated:
         return play_in_window(study, "P01", 1, "human", data, RealClock())
-    from seethrough.experiment.participants.participant import SimulatedParticipant
+    from seethrough.experiment.people.participant import SimulatedParticipant
 
     seed, clock = 1, RealClock(speed)
     person = SimulatedParticipant(generator(seed, (SIMULATED, 1)))

@@ -7,8 +7,8 @@ import html
 from pathlib import Path
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.gallery import sections
-from seethrough.experiment.gallery_plates import SIZE, Plate, Section
+from seethrough.experiment.gallery.gallery_plates import SIZE, Plate, Section
+from seethrough.experiment.gallery.gallery_scenes import sections
 
 HELP = "draw every mode, mask, granularity and hard case into a page"
 WIDEST = 800  # pixels of a picture on the page
@@ -47,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(f"--seed = {args.seed}: expected a number ≥ 0")
     if args.out.exists() and not args.out.is_dir():
         raise InputError(f"--out = {args.out}: expected a folder")
-    from seethrough.renderer.gpu.context import standalone
+    from seethrough.renderer.gpu.device.context import standalone
     from seethrough.renderer.gpu.renderer import Renderer
 
     args.out.mkdir(parents=True, exist_ok=True)

@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 
 from seethrough.analysis.written import write_over
-from seethrough.experiment.config import load
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.study.config import load
 
 MOST = 10_000
 LONG = 200
@@ -41,8 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
         )
     if arguments.seed < 0:
         raise InputError(f"--seed = {arguments.seed}: expected a number that is not negative")
-    from seethrough.experiment import power  # scipy: only when the command runs
-    from seethrough.experiment.power_page import page
+    from seethrough.experiment.power import power  # scipy: only when the command runs
+    from seethrough.experiment.power.power_page import page
 
     effects, what = _effects(arguments.effect)
     alpha = study.analysis.alpha
@@ -76,7 +76,7 @@ def _sizes(text: str) -> list[int]:
 
 
 def _effects(source: str):  # type: ignore[no-untyped-def]
-    from seethrough.experiment import power, power_ranks
+    from seethrough.experiment.power import power, power_ranks
 
     if source == "published":
         return [*power.published(), *power_ranks.published()], (
@@ -85,7 +85,7 @@ def _effects(source: str):  # type: ignore[no-untyped-def]
             "ratings, whose correlation is not printed, r = 0. Right answers and preference are "
             "drawn with replacement from the only 16 people that fit what is printed."
         )
-    from seethrough.experiment.power_data import sampled
+    from seethrough.experiment.power.power_data import sampled
 
     folder = Path(source)
     if not folder.is_dir():

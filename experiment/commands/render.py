@@ -12,16 +12,16 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.experiment.errors import InputError
-from seethrough.renderer.camera import Camera, look_at
-from seethrough.renderer.explain import explain
-from seethrough.renderer.plan import SHORTCUTS, Technique
-from seethrough.renderer.scene import Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
-from seethrough.tasks.abstract_scene import abstract_scene
-from seethrough.tasks.building import unique_building
-from seethrough.tasks.controls import orbit, walk
+from seethrough.renderer.plan.explain import explain
+from seethrough.renderer.plan.planner import SHORTCUTS, Technique
+from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
+from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.worlds.building.building import unique_building
 
 HELP = "draw a scene into a picture"
 
@@ -47,14 +47,14 @@ def walkthrough(seed: int, aspect: float) -> tuple[Scene, Camera]:
 
 def models(seed: int, aspect: float) -> tuple[Scene, Camera]:
     """Every model of the library once: the contact sheet, the same for every seed."""
-    from seethrough.renderer.models.sheet import contact_sheet_scene
+    from seethrough.renderer.models.forms.sheet import contact_sheet_scene
 
     return contact_sheet_scene(aspect)
 
 
 def jeep(seed: int, aspect: float) -> tuple[Scene, Camera]:
     """The jeep with its inner parts as targets, the same for every seed."""
-    from seethrough.renderer.models.jeep import jeep_scene
+    from seethrough.renderer.models.vehicles.jeep import jeep_scene
 
     return jeep_scene(), look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.47)
 
@@ -104,7 +104,7 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(f"--samples = {args.samples}: expected a number from 0 to 16")
     from PIL import Image
 
-    from seethrough.renderer.gpu.context import standalone
+    from seethrough.renderer.gpu.device.context import standalone
     from seethrough.renderer.gpu.renderer import Renderer
 
     scene, camera = SCENES[args.scene](args.seed, size[0] / size[1])

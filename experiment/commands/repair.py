@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.folders import check_participant, folder_of, taken
+from seethrough.experiment.record.folders import check_participant, folder_of, taken
 
 if TYPE_CHECKING:
-    from seethrough.experiment.ledger_lock import Locks
+    from seethrough.experiment.ledger.ledger_lock import Locks
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,8 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Repair, or say what there is to choose from: 0, or 1 where a choice is needed."""
-    from seethrough.experiment.ledger_lock import playing
-    from seethrough.experiment.repair import branches, described, repair, sessions_of
+    from seethrough.experiment.ledger.ledger_lock import playing
+    from seethrough.experiment.record.repair import branches, described, repair, sessions_of
 
     data, wanted = arguments.data, arguments.participant
     if wanted is not None and not folder_of(data, "human", check_participant(wanted)).is_dir():
@@ -58,10 +58,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _locks(data: Path, url: str) -> Locks:
-    from seethrough.experiment import ledger_place as place
-    from seethrough.experiment import ledger_store as store
-    from seethrough.experiment.ledger import Ledger
-    from seethrough.experiment.ledger_lock import Locks
+    from seethrough.experiment.ledger import ledger_place as place
+    from seethrough.experiment.ledger import ledger_store as store
+    from seethrough.experiment.ledger.ledger import Ledger
+    from seethrough.experiment.ledger.ledger_lock import Locks
 
     if place.exists(data, url):
         with Ledger.existing(data, url) as ledger:

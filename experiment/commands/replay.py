@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.replay import Frame, Recorded, find_trial, replay
-from seethrough.experiment.replay_check import Pictures, differences, has_pictures
+from seethrough.experiment.replay.replay_check import Pictures, differences, has_pictures
+from seethrough.experiment.replay.replayer import Frame, Recorded, find_trial, replay
 
 LOOKS_EVERY = 0.5  # s of session time between two rows of the visibility table
 
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.visibility:
         _visibility(recorded, arguments.visibility)
     if arguments.video:
-        from seethrough.experiment.video import write_video
+        from seethrough.experiment.replay.video import write_video
 
         write_video(recorded, arguments.video)
         print(f"video: {arguments.video}")
@@ -77,8 +77,8 @@ def _verify(recorded: Recorded) -> int:
 
 def _visibility(recorded: Recorded, path: Path) -> None:
     """One row for each look and target: how much of it could be seen, how strongly."""
-    from seethrough.experiment.driver import open_context
-    from seethrough.experiment.looking import Looking
+    from seethrough.experiment.session.driver import open_context
+    from seethrough.experiment.session.looking import Looking
 
     looking = Looking(open_context(), recorded.size)
     looking.technique = recorded.technique
@@ -106,9 +106,9 @@ def _thinned(frames: Iterable[Frame], every: float) -> Iterable[tuple[float, Fra
 
 
 def _watch(recorded: Recorded, speed: float) -> None:
-    from seethrough.experiment.clock import RealClock
-    from seethrough.experiment.texts import Texts
-    from seethrough.experiment.window import Window
+    from seethrough.experiment.display.window import Window
+    from seethrough.experiment.pages.texts import Texts
+    from seethrough.experiment.session.clock import RealClock
 
     study = recorded.study
     texts = Texts(study.study.language, study.texts)

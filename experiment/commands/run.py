@@ -8,11 +8,11 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
-from seethrough.experiment.config import Study, find, load, shipped
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.folders import check_participant, folder_of, next_free, taken
-from seethrough.experiment.interrupt import check, deferred
-from seethrough.experiment.private import make_folder
+from seethrough.experiment.record.folders import check_participant, folder_of, next_free, taken
+from seethrough.experiment.record.private import make_folder
+from seethrough.experiment.session.interrupt import check, deferred
+from seethrough.experiment.study.config import Study, find, load, shipped
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -53,9 +53,9 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
     """A pilot run takes no slot from anybody."""
-    from seethrough.experiment import ledger_place as place
-    from seethrough.experiment import ledger_store as store
-    from seethrough.experiment.ledger_lock import Locks, playing
+    from seethrough.experiment.ledger import ledger_place as place
+    from seethrough.experiment.ledger import ledger_store as store
+    from seethrough.experiment.ledger.ledger_lock import Locks, playing
 
     participant = arguments.participant or next_free(data, "pilot")
     slot = arguments.slot or len(taken(data, "pilot")) + 1
@@ -67,13 +67,15 @@ def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
 
 def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
     """A participant's session in the slot that the ledger gives."""
-    from seethrough.experiment import ledger_place as place
-    from seethrough.experiment.ledger import Ledger  # SQLAlchemy: only where a ledger is needed
-    from seethrough.experiment.ledger_files import reconcile
-    from seethrough.experiment.ledger_lock import playing
-    from seethrough.experiment.ledger_place import note_study
-    from seethrough.experiment.ledger_plan import plan_of
-    from seethrough.experiment.network_drive import network_drive
+    from seethrough.experiment.ledger import ledger_place as place
+    from seethrough.experiment.ledger.ledger import (
+        Ledger,  # SQLAlchemy: only where a ledger is needed
+    )
+    from seethrough.experiment.ledger.ledger_files import reconcile
+    from seethrough.experiment.ledger.ledger_lock import playing
+    from seethrough.experiment.ledger.ledger_place import note_study
+    from seethrough.experiment.ledger.ledger_plan import plan_of
+    from seethrough.experiment.record.network_drive import network_drive
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
     if not place.exists_elsewhere(data, url) and (kind := network_drive(data)):
@@ -119,8 +121,10 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
 def _play(
     study: Study, participant: str, slot: int, source: str, data: Path, guard: Callable[[], None]
 ) -> str:
-    from seethrough.experiment.clock import RealClock
-    from seethrough.experiment.live import play_in_window  # OpenGL and the window: not for --help
+    from seethrough.experiment.session.clock import RealClock
+    from seethrough.experiment.session.live import (
+        play_in_window,  # OpenGL and the window: not for --help
+    )
 
     check()
     what = "pilot run, " if source == "pilot" else ""

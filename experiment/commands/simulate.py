@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.config import Study, load
-from seethrough.experiment.design import SIMULATED, generator, session_for
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.participants.effects import EFFECTS, checked
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.experiment.participants.profile import AVERAGE, Profile
-from seethrough.experiment.participants.profile_file import find, names
-from seethrough.experiment.progress import Progress
+from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
+from seethrough.experiment.people.fitted.profile_file import find, names
+from seethrough.experiment.people.fitted.study_effects import EFFECTS, checked
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.progress import Progress
+from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.tasks.catalog import TASKS
 
 MOST_WORKERS = 256
@@ -84,7 +84,7 @@ def simulate(
     explain: bool = False,
 ) -> None:
     """Play `count` sessions into the data folder `out`. Raises InputError if they are there."""
-    from seethrough.experiment.driver import open_context
+    from seethrough.experiment.session.driver import open_context
 
     context = open_context()
     trials = sum(len(s.trials) for s in session_for(1, study.design.factors())) * count
@@ -97,13 +97,13 @@ def simulate(
 def _one(  # type: ignore[no-untyped-def]
     study: Study, slot: int, seed: int, out: Path, context, progress, person, explain: bool
 ) -> None:
-    from seethrough.experiment.offscreen import OffscreenDisplay
-    from seethrough.experiment.own_models import keep
-    from seethrough.experiment.provenance import provenance
-    from seethrough.experiment.recorder import FileRecorder, Who
-    from seethrough.experiment.session import run_session
-    from seethrough.experiment.simulated_input import SimulatedInput
-    from seethrough.experiment.world import World
+    from seethrough.experiment.display.offscreen import OffscreenDisplay
+    from seethrough.experiment.display.simulated_input import SimulatedInput
+    from seethrough.experiment.record.recorder import FileRecorder, Who
+    from seethrough.experiment.session.session import run_session
+    from seethrough.experiment.session.software import provenance
+    from seethrough.experiment.session.surroundings import World
+    from seethrough.experiment.study.own_model_files import keep
 
     clock = SimulatedClock()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
@@ -125,8 +125,8 @@ def _watch(
     study: Study, count: int, seed: int, out: Path, profile: Profile, without: frozenset[str]
 ) -> int:
     """Play the sessions in a window until somebody leaves one."""
-    from seethrough.experiment.clock import RealClock
-    from seethrough.experiment.live import play_in_window
+    from seethrough.experiment.session.clock import RealClock
+    from seethrough.experiment.session.live import play_in_window
 
     for slot in range(1, count + 1):
         person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
@@ -149,8 +149,8 @@ def _explain(trial: str, person: SimulatedParticipant) -> None:
 def _data_mode(
     arguments: argparse.Namespace, count: int, profile: Profile, without: frozenset[str]
 ) -> None:
-    from seethrough.experiment.participants import data_run
-    from seethrough.experiment.participants.batch import Batch
+    from seethrough.experiment.people.runs import data_run
+    from seethrough.experiment.people.runs.batch import Batch
 
     a = arguments
     if not 1 <= a.workers <= MOST_WORKERS:

@@ -14,11 +14,11 @@ from seethrough.analysis.load.ledger import differences
 from seethrough.analysis.load.whole import examined
 from seethrough.experiment.commands.withdraw import WITHDRAWN
 from seethrough.experiment.errors import one_line
-from seethrough.experiment.folders import folder_of, taken
-from seethrough.experiment.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
+from seethrough.experiment.ledger.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
+from seethrough.experiment.record.folders import folder_of, taken
 
 if TYPE_CHECKING:
-    from seethrough.experiment.ledger import Ledger
+    from seethrough.experiment.ledger.ledger import Ledger
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the ledger and what was changed in the files; 0, or 1 if something was."""
-    from seethrough.experiment.ledger import Ledger
-    from seethrough.experiment.ledger_files import reconcile
+    from seethrough.experiment.ledger.ledger import Ledger
+    from seethrough.experiment.ledger.ledger_files import reconcile
 
     now = datetime.now(UTC)
     with Ledger.existing(arguments.data, arguments.ledger) as ledger:
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
 def notes_of(entries: Sequence[Entry], data: Path) -> tuple[list[str], set[str]]:
     """What the ledger knows and the files here do not, where that may be as it should be; and who
     was played into another station's folder."""
-    from seethrough.experiment.ledger_place import POINTER
+    from seethrough.experiment.ledger.ledger_place import POINTER
 
     notes: list[str] = []
     elsewhere: set[str] = set()
@@ -78,8 +78,8 @@ def _changed(data: Path, entries: Mapping[str, str]) -> list[str]:
 
 def study_words(data: Path, name: str) -> str:
     """The study as `seethrough run` takes it: as noted by the last run, else a shipped one."""
-    from seethrough.experiment.config import shipped
-    from seethrough.experiment.ledger_place import noted_study
+    from seethrough.experiment.ledger.ledger_place import noted_study
+    from seethrough.experiment.study.config import shipped
 
     noted = noted_study(data) or (name if name in shipped() else "")
     return shlex.quote(noted) if noted else f"[the file of the study {name}]"

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from seethrough.experiment.errors import InputError
 from seethrough.renderer.models.translucent.scenes import SCENES, scene
-from seethrough.renderer.ordering.fragments import TooManyPieces
-from seethrough.renderer.ordering.methods import METHODS, prepare
+from seethrough.renderer.polygons.fragments import TooManyPieces
+from seethrough.renderer.polygons.methods import METHODS, prepare
 
 HELP = "look at a scene of translucent polygons, ordered by a method"
 SIZE = (960, 720)
@@ -38,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
     if prepared.stats.dense and args.picture is None:
         print(f"{args.scene}: {prepared.stats.dense}")
     if args.picture is None:
-        from seethrough.experiment.viewer_window import show
+        from seethrough.experiment.display.viewer_window import show
 
         show(made, prepared, args.order, SIZE)
         return 0
@@ -47,8 +47,8 @@ def run(args: argparse.Namespace) -> int:
     import numpy as np
     from PIL import Image
 
-    from seethrough.experiment.viewer import Viewer, ViewState
-    from seethrough.renderer.gpu.context import standalone
+    from seethrough.experiment.display.viewer import Viewer, ViewState
+    from seethrough.renderer.gpu.device.context import standalone
 
     viewer = Viewer(standalone(), SIZE, made, prepared)
     picture = viewer.picture(ViewState())

@@ -9,8 +9,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.folders import check_participant, folder_of
-from seethrough.experiment.repair import set_aside
+from seethrough.experiment.record.folders import check_participant, folder_of
+from seethrough.experiment.record.repair import set_aside
 
 WITHDRAWN = "withdrawn"
 SOURCES = ("human", "pilot", "simulated")
@@ -68,9 +68,9 @@ def _without_slot(arguments: argparse.Namespace, source: str, folder: Path) -> i
 
 
 def _human(arguments: argparse.Namespace, data: Path, participant: str, folder: Path) -> int:
-    from seethrough.experiment.ledger import Ledger
-    from seethrough.experiment.ledger_files import mark_withdrawn, reconcile
-    from seethrough.experiment.ledger_lock import playing
+    from seethrough.experiment.ledger.ledger import Ledger
+    from seethrough.experiment.ledger.ledger_files import mark_withdrawn, reconcile
+    from seethrough.experiment.ledger.ledger_lock import playing
 
     now = datetime.now(UTC)
     with Ledger.existing(data, arguments.ledger) as ledger:

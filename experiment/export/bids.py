@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from seethrough.analysis.load.files import read_json
-from seethrough.experiment.columns import TRIALS, Column
 from seethrough.experiment.export.dataset import Dataset, Row, as_json, check_labels, harmless, put
 from seethrough.experiment.export.wide import item_name
+from seethrough.experiment.record.columns import TRIALS, Column
 
 VERSION = "1.10.0"
 TASK = "seethrough"

@@ -16,11 +16,11 @@ from typing import Any
 
 from seethrough.analysis.load.chain import read_rows
 from seethrough.analysis.load.whole import verified
-from seethrough.experiment.columns import TABLES, Column
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.folders import PARTICIPANT, plain
-from seethrough.experiment.private import make_folder, write_new
-from seethrough.experiment.record_files import csv_line
+from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.folders import PARTICIPANT, plain
+from seethrough.experiment.record.private import make_folder, write_new
+from seethrough.experiment.record.record_files import csv_line
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "'")
 HARMLESS = "a text that begins with one of = + - @ ' or a tab has one ' more before it"

@@ -8,10 +8,10 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
-from seethrough.experiment.columns import TABLES, Column
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.dataset import Dataset
-from seethrough.experiment.private import FILE, make_folder
+from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.private import FILE, make_folder
 
 TYPES = {"text": "VARCHAR", "integer": "BIGINT", "number": "DOUBLE", "boolean": "BOOLEAN"}
 INSTALL = "pip install 'seethrough[parquet]'"
@@ -51,7 +51,7 @@ class ParquetWriter:
 
     def write(self, table: str, paths: Sequence[Path], target: Path) -> None:
         """One file of all rows of these files of a table. Raises InputError."""
-        # Those from before a column was added (experiment/columns.py) lie in a run of their own.
+        # Those from before a column was added (record/columns.py) lie in a run of their own.
         runs = [
             _read(TABLES[table], [path for path, _ in run], old)
             for old, run in groupby(((p, _is_old(TABLES[table], p)) for p in paths), itemgetter(1))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from seethrough.experiment.dataset import FILE
 from seethrough.experiment.export.dataset import Dataset, check_labels, put
+from seethrough.experiment.record.dataset import FILE
 
 
 def psychds(data: Dataset, out: Path) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from seethrough.experiment.columns import QUESTIONNAIRE, TRIALS
 from seethrough.experiment.export.dataset import (
     HARMLESS,
     Dataset,
@@ -16,6 +15,7 @@ from seethrough.experiment.export.dataset import (
     latest_attempts,
     put,
 )
+from seethrough.experiment.record.columns import QUESTIONNAIRE, TRIALS
 
 MEASURES = ("time", "time_clean", "timed_out", "correct", "count_error", "distance")
 NUMBERS = {"true": "1", "false": "0"}

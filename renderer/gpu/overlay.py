@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.gpu.reused import spoil
+from seethrough.renderer.gpu.device.reused import spoil
 
 _VERTEX = """
 #version 330 core

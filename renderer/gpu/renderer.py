@@ -9,16 +9,16 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.camera import Camera
-from seethrough.renderer.gpu.layer import FrameStats, Layer
-from seethrough.renderer.gpu.meshes import MeshStore
-from seethrough.renderer.gpu.programs import program
-from seethrough.renderer.gpu.scene_table import SceneTable
-from seethrough.renderer.gpu.targets import FrameTarget
-from seethrough.renderer.plan import SHORTCUTS, FramePlan, Technique, plan
-from seethrough.renderer.scene import Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.visibility import Drawn, Visibility, visibility, visibility_of_shares
+from seethrough.renderer.gpu.device.meshes import MeshStore
+from seethrough.renderer.gpu.device.programs import program
+from seethrough.renderer.gpu.device.scene_table import SceneTable
+from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.levels.layer import FrameStats, Layer
+from seethrough.renderer.plan.planner import SHORTCUTS, FramePlan, Technique, plan
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.scene.visibility import Drawn, Visibility, visibility, visibility_of_shares
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SCENES_KEPT = 4  # a trial's own, its inset's, and the last ones of both
 

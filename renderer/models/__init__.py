@@ -11,20 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
-from seethrough.renderer.geometry import Mesh
-from seethrough.renderer.models import (
-    animals,
-    cars,
-    craft,
-    cycles,
-    furniture,
-    helicopter,
-    motorbikes,
-    plant,
-    seats,
-    wildlife,
-)
-from seethrough.renderer.models.shapes import Shape, shade
+from seethrough.renderer.models import furniture, seats
+from seethrough.renderer.models.forms.shapes import Shape, shade
+from seethrough.renderer.models.nature import animals, plant, wildlife
+from seethrough.renderer.models.vehicles import cars, craft, cycles, helicopter, motorbikes
+from seethrough.renderer.scene.geometry import Mesh
 
 BUILDERS: tuple[Callable[[], Shape], ...] = (
     animals.cat,

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.models.seats import OAK, WALNUT, turned_leg
-from seethrough.renderer.models.shapes import Array, Color, Shape, assemble, join
-from seethrough.renderer.models.surfaces import (
+from seethrough.renderer.models.forms.shapes import Array, Color, Shape, assemble, join
+from seethrough.renderer.models.forms.surfaces import (
     ball,
     box,
     boxes,
@@ -20,6 +19,7 @@ from seethrough.renderer.models.surfaces import (
     slab,
     sweep,
 )
+from seethrough.renderer.models.seats import OAK, WALNUT, turned_leg
 
 BRASS: Color = (0.80, 0.62, 0.25)
 BLACK: Color = (0.07, 0.07, 0.08)

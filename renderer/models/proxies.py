@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.geometry import Mesh
-from seethrough.renderer.models.outline import outline, square, view_axes
-from seethrough.renderer.models.shapes import Shape, shade, shape
+from seethrough.renderer.models.forms.outline import outline, square, view_axes
+from seethrough.renderer.models.forms.shapes import Shape, shade, shape
+from seethrough.renderer.scene.geometry import Mesh
 
 FILE = Path(__file__).with_name("proxies.npz")
 BUDGETS = (300, 400, 600, 900)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.models.shapes import Color, Shape, assemble, join
-from seethrough.renderer.models.surfaces import (
+from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join
+from seethrough.renderer.models.forms.surfaces import (
     box,
     copies,
     curve,

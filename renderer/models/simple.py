@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from seethrough.renderer.models import MODELS, proxy
-from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.scene.scene import Object, Scene
 
 SCENES_KEPT = 8
 

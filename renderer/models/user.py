@@ -12,7 +12,6 @@ from pathlib import Path
 
 import numpy as np
 
-from seethrough.renderer.geometry import Mesh
 from seethrough.renderer.models.files.part import GREY, MOST_TRIANGLES, Array, Found, to_shown
 from seethrough.renderer.models.files.refine import Carried, refined
 from seethrough.renderer.models.files.source import Refused, Source
@@ -23,7 +22,8 @@ from seethrough.renderer.models.files.surface import (
     joined,
     shown_from_outside,
 )
-from seethrough.renderer.models.shapes import assemble, shade, shape
+from seethrough.renderer.models.forms.shapes import assemble, shade, shape
+from seethrough.renderer.scene.geometry import Mesh
 
 READERS = {".glb": "gltf", ".gltf": "gltf", ".obj": "obj", ".ply": "ply", ".stl": "stl"}
 KINDS = tuple(READERS)

@@ -11,8 +11,9 @@ import pytest
 from seethrough.analysis import exclude, plan
 from seethrough.analysis.load import schema
 from seethrough.analysis.load.chain import link, seal_of, start_of
-from seethrough.experiment import chain, study_tables
-from seethrough.experiment.columns import TABLES
+from seethrough.experiment.record import chain
+from seethrough.experiment.record.columns import TABLES
+from seethrough.experiment.study import study_tables
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from seethrough.experiment.columns import TABLES, Column
-from seethrough.experiment.dictionary import BEGIN, END, dictionary, with_dictionary
+from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.dictionary import BEGIN, END, dictionary, with_dictionary
 
 EVERY = [(table, column) for table, columns in TABLES.items() for column in columns]
 
@@ -52,7 +52,7 @@ def test_the_dictionary_names_every_column() -> None:
 
 
 def test_the_readme_holds_the_dictionary(root: Path) -> None:
-    """data/README.md is what `python -m seethrough.experiment.dictionary` makes of it."""
+    """data/README.md is what `python -m seethrough.experiment.record.dictionary` makes of it."""
     text = (root / "data" / "README.md").read_text("utf-8")
     assert text == with_dictionary(text)
 

@@ -9,20 +9,20 @@ from math import pi
 import numpy as np
 import pytest
 
-from seethrough.experiment.design import generator
-from seethrough.renderer import geometry
-from seethrough.renderer.camera import Camera, look_at
-from seethrough.renderer.gpu.context import standalone
+from seethrough.experiment.study.design import generator
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models import MODELS
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.standard import Standard
-from seethrough.renderer.transforms import rotation_y, translation
-from seethrough.renderer.visibility import shares
-from seethrough.tasks.abstract_scene import abstract_scene
-from seethrough.tasks.controls import orbit, turned, walk
-from seethrough.tasks.events import KeyPress, PointerMove, Tick
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.transforms import rotation_y, translation
+from seethrough.renderer.scene.visibility import shares
+from seethrough.renderer.techniques.standard.opaque import Standard
+from seethrough.tasks.kit.controls import orbit, turned, walk
+from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 
 AHEAD = np.array([0.0, 0.0, -1.0])
 LEFT = np.array([-1.0, 0.0, 0.0])

@@ -62,9 +62,9 @@ print("FOUND", json.dumps(found))
 OWNERS = {
     "moderngl": ("renderer/gpu/", "experiment/", "benchmarks/"),
     "pyglet": (
-        "experiment/window.py",
-        "experiment/system_window.py",
-        "experiment/viewer_window.py",
+        "experiment/display/window.py",
+        "experiment/display/system_window.py",
+        "experiment/display/viewer_window.py",
     ),
     "imgui_bundle": ("experiment/",),
     "pandas": ("analysis/", "experiment/", "benchmarks/"),
@@ -80,12 +80,12 @@ OWNERS = {
 HEAVY = ("numba", "scipy.stats", "statsmodels", "pandas", "matplotlib", "moderngl", "pyglet")
 LIGHT = {
     "seethrough.experiment.cli": (*HEAVY, "numpy", "imgui_bundle", "rich", "pydantic"),
-    "seethrough.experiment.columns": (*HEAVY, "numpy"),
-    "seethrough.experiment.config": (*HEAVY, "imgui_bundle"),
-    "seethrough.experiment.recorder": (*HEAVY, "imgui_bundle"),
-    "seethrough.renderer.scene": HEAVY,
+    "seethrough.experiment.record.columns": (*HEAVY, "numpy"),
+    "seethrough.experiment.study.config": (*HEAVY, "imgui_bundle"),
+    "seethrough.experiment.record.recorder": (*HEAVY, "imgui_bundle"),
+    "seethrough.renderer.scene.scene": HEAVY,
     "seethrough.renderer.models": HEAVY,
-    "seethrough.tasks.base": (*HEAVY, "imgui_bundle"),
+    "seethrough.tasks.kit.base": (*HEAVY, "imgui_bundle"),
 }
 
 

@@ -12,7 +12,7 @@ import pytest
 from recorded import record
 
 from seethrough.experiment import cli
-from seethrough.experiment.columns import TABLES
+from seethrough.experiment.record.columns import TABLES
 
 # "keys can be any sequence of lowercase alphabetic characters (a-z)", "values can be any sequence
 # of upper- and lowercase alphanumeric characters", joined by underscores, ending in _data.csv

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.ledger import Ledger
-from seethrough.experiment.ledger_plan import Plan
+from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_plan import Plan
 
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
 LATER = NOW + timedelta(hours=3)

@@ -18,14 +18,14 @@ from pathlib import Path
 import pytest
 from disks import nobody, small_disk
 
-from seethrough.experiment.chain import verify
-from seethrough.experiment.columns import TRIALS, Column
-from seethrough.experiment.design import Trial
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record_files import Table
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.world import TrialRecord
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.record.chain import verify
+from seethrough.experiment.record.columns import TRIALS, Column
+from seethrough.experiment.record.record_files import Table
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.design import Trial
+from seethrough.tasks.kit.base import Outcome
 
 STEM = "study-test_subject-P01_session-1"
 
@@ -35,13 +35,13 @@ import os, resource, signal, sys
 from pathlib import Path
 import numpy as np
 from seethrough.experiment import cli
-from seethrough.experiment.design import Trial
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.world import TrialRecord
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.scene import Scene
-from seethrough.tasks.base import Outcome, View
-from seethrough.tasks.events import PointerMove
+from seethrough.experiment.study.design import Trial
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Scene
+from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.events import PointerMove
 
 data, largest, user = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 if user:  # root, whom no permission stops, becomes somebody else
@@ -139,7 +139,7 @@ def test_a_row_that_does_not_fit_is_taken_back_wherever_the_disk_ends(tmp_path, 
     table.append(row)
     before, chain = table.path.read_bytes(), table.chain
     length = len(before) - len("text,chain\n")
-    monkeypatch.setattr("seethrough.experiment.private.os.write", write)
+    monkeypatch.setattr("seethrough.experiment.record.private.os.write", write)
     for room in range(length):
         disk["room"] = room
         with pytest.raises(InputError, match=r"t_data\.csv: cannot be written: No space left"):

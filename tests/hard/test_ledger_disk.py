@@ -10,8 +10,8 @@ import pytest
 from disks import read_only, small_disk
 
 from seethrough.experiment import cli
-from seethrough.experiment.ledger import Ledger
-from seethrough.experiment.ledger_plan import Plan
+from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_plan import Plan
 
 PLAN = Plan("t", "d" * 64, 4, 2000, 86400.0, {})
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
@@ -22,8 +22,8 @@ import argparse, os, resource, sys
 from datetime import UTC, datetime
 from pathlib import Path
 from seethrough.experiment import cli
-from seethrough.experiment.ledger import Ledger
-from seethrough.experiment.ledger_plan import Plan
+from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_plan import Plan
 
 data, largest, user = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 if user:
@@ -52,8 +52,8 @@ import resource, sys
 from pathlib import Path
 from seethrough.experiment import cli
 from seethrough.experiment.commands import run
-from seethrough.experiment.config import load
-from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.study.config import load
+from seethrough.experiment.record.recorder import FileRecorder, Who
 
 def play(study, participant, slot, source, data, guard):
     provenance = {"study_sha256": study.digest()}

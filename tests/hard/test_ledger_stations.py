@@ -10,8 +10,8 @@ import pytest
 from postgres import Postgres
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.ledger import Ledger
-from seethrough.experiment.ledger_plan import Plan
+from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_plan import Plan
 
 STATIONS, SLOTS = 8, 1000
 ROWS = 7  # does not divide the number of slots: the rows may differ by one, and must not by two
@@ -23,8 +23,8 @@ LAUNCHER = f"""
 import json, multiprocessing, sys, time
 from datetime import datetime, UTC
 from pathlib import Path
-from seethrough.experiment.ledger import Ledger
-from seethrough.experiment.ledger_plan import Plan
+from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_plan import Plan
 
 STATIONS, EACH = {STATIONS}, {SLOTS // STATIONS}
 PLAN = Plan("many", "d" * 64, {ROWS}, {SLOTS}, 86_400.0, {{}})

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import Camera, look_at
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE = (96, 72)
 TECHNIQUE = DynamicTransparency(width=6)
@@ -256,7 +256,7 @@ def test_an_empty_scene_is_its_background(context):
 
 def test_slices_lose_no_fragment(context):
     """Drivers have lost writes: the fragments in all slices are as many as the reference has."""
-    from seethrough.renderer.fragments import fragments
+    from seethrough.renderer.reference.pixel_fragments import fragments
 
     scene, camera = column(9, count=12), before_column(9)
     renderer = Renderer(context, SIZE)

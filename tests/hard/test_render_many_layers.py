@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from sample_scenes import before_column, column
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.gpu import exact_painter
-from seethrough.renderer.gpu.cells import MOST, Cells
-from seethrough.renderer.gpu.exact_painter import bands
+from seethrough.renderer.gpu.per_pixel import exact_painter
+from seethrough.renderer.gpu.per_pixel.exact_painter import bands
+from seethrough.renderer.gpu.per_pixel.pixel_cells import MOST, Cells
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SIZE = (36, 27)
 CAMERA = look_at(np.array([0, 0, 9.0]), np.zeros(3), fov_y=0.7, near=0.5, far=60)
@@ -119,7 +119,7 @@ def test_parts_are_cut_to_fit_into_a_texture(context, monkeypatch):
     painter = renderer._layer._exact
     heights = []
     arrange = Cells._arrange
-    monkeypatch.setattr("seethrough.renderer.gpu.cells.WIDTH", 96)
+    monkeypatch.setattr("seethrough.renderer.gpu.per_pixel.pixel_cells.WIDTH", 96)
     painter._tallest = 60
     painter._slices = painter._entries = None
 
@@ -155,7 +155,7 @@ def test_ring_masks_of_two_hundred_targets(context, monkeypatch):
     some = Scene((wall, *balls[90:120]))
     pictures = []
     for width in (128, 2048):
-        monkeypatch.setattr("seethrough.renderer.gpu.tiles.WIDTH", width)
+        monkeypatch.setattr("seethrough.renderer.gpu.device.tiles.WIDTH", width)
         renderer = Renderer(context, (120, 90))
         renderer.draw(some, CAMERA, technique)
         pictures.append(renderer.read())

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from seethrough.renderer.geometry import torus
-from seethrough.renderer.scene import Object
-from seethrough.renderer.transforms import moved, placed, random_rotation
-from seethrough.tasks.abstract_scene import abstract_scene, unit_mesh
-from seethrough.tasks.enclosure import encloses, enclosing_pairs
+from seethrough.renderer.scene.geometry import torus
+from seethrough.renderer.scene.scene import Object
+from seethrough.renderer.scene.transforms import moved, placed, random_rotation
 from seethrough.tasks.parameters import AbstractParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene, unit_mesh
+from seethrough.tasks.worlds.building.enclosure import encloses, enclosing_pairs
 
 
 def thing(shape, place=(0, 0, 0), scale=1.0, turn=None):
@@ -93,7 +93,9 @@ def test_a_crowded_scene_is_redrawn_until_nothing_is_hidden_inside():
 
 
 def test_a_scene_that_never_comes_free_is_refused(monkeypatch):
-    monkeypatch.setattr("seethrough.tasks.abstract_scene.enclosing_pairs", lambda _: [(0, 1)])
+    monkeypatch.setattr(
+        "seethrough.tasks.worlds.abstract.abstract_scene.enclosing_pairs", lambda _: [(0, 1)]
+    )
     with pytest.raises(ValueError, match=r"objects = 9, radius = \[2.5, 5.0\], expected room in a"):
         abstract_scene(
             np.random.default_rng(1), AbstractParameters(objects=9, target_share=(0.0, 0.2))

@@ -4,10 +4,10 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seethrough.renderer.transforms import moved
-from seethrough.tasks.floor import random_floor
+from seethrough.renderer.scene.transforms import moved
 from seethrough.tasks.parameters import BuildingParameters
-from seethrough.tasks.walls import inner_walls, shell
+from seethrough.tasks.worlds.building.floor import random_floor
+from seethrough.tasks.worlds.building.walls import inner_walls, shell
 
 
 def footprints(objects):

@@ -66,7 +66,7 @@ def test_a_consent_text_lies_beside_its_study(folder, name, said):
 
 @pytest.mark.parametrize("name", ["texts/consent.txt", "in.txt"])
 def test_a_consent_text_in_a_folder_beside_the_study_is_read(folder, name):
-    from seethrough.experiment.config import load
+    from seethrough.experiment.study.config import load
 
     study = copy.deepcopy(BASE)
     study["session"]["consent"] = name
@@ -137,7 +137,7 @@ def test_a_study_that_would_take_minutes_is_refused_at_once(tmp_path, name):
 
 
 def test_texts_and_comments_may_hold_what_keys_may_not(tmp_path):
-    from seethrough.experiment.toml_file import read_toml
+    from seethrough.experiment.study.toml_file import read_toml
 
     path = tmp_path / "s.toml"
     dots = ".".join("a" * 99)

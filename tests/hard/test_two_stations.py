@@ -16,25 +16,26 @@ import pytest
 from desktop import wait_until
 from postgres import Postgres
 
-from seethrough.experiment import ledger_lock
-from seethrough.experiment import ledger_store as store
-from seethrough.experiment.chain import verify
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.ledger_lock import Guard, Holder, LockLost, Locks, acquire
+from seethrough.experiment.ledger import ledger_lock
+from seethrough.experiment.ledger import ledger_store as store
+from seethrough.experiment.ledger.ledger_lock import Guard, Holder, LockLost, Locks, acquire
+from seethrough.experiment.record.chain import verify
 
 BEAT, LEASE, DEAD = 0.2, 0.6, 2.5  # s, in place of 2, 6, 15: heartbeats are as they are, but faster
 
 STATION = f"""
 import sys, time
 from pathlib import Path
-from seethrough.experiment import cli, ledger_lock
+from seethrough.experiment import cli
+from seethrough.experiment.ledger import ledger_lock
 from seethrough.experiment.commands import run
-from seethrough.experiment.config import load
-from seethrough.experiment.design import Trial
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.resume import starting_point
-from seethrough.experiment.world import TrialRecord
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import Trial
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.resume import starting_point
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.tasks.kit.base import Outcome
 
 ledger_lock.BEAT, ledger_lock.LEASE, ledger_lock.DEAD = {BEAT}, {LEASE}, {DEAD}
 end = Path(sys.argv[2])

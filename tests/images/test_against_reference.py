@@ -7,9 +7,9 @@ import pytest
 from sample_scenes import before_column, column
 
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE = (160, 120)
 # Issue 2: half a step of rounding, and what 16-bit alpha and 32-bit shading add.

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import look_at
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE = (200, 150)
 CAMERA = look_at(np.array([0, 0, 12.0]), np.zeros(3), fov_y=0.6, near=1, far=40)

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.gpu.approximations import (
+from seethrough.renderer.gpu.device.context import standalone
+from seethrough.renderer.gpu.levels.approximations import (
     PeelingPainter,
     StochasticPainter,
     WeightedPainter,
 )
-from seethrough.renderer.gpu.context import standalone
-from seethrough.renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
-from seethrough.renderer.ordering.polygons import polygons_from
-from seethrough.renderer.ordering.prepared import drawable
+from seethrough.renderer.gpu.levels.polygon_painter import Corners, ExactPainter, PolygonPainter
+from seethrough.renderer.polygons.polygons import polygons_from
+from seethrough.renderer.polygons.prepared import drawable
+from seethrough.renderer.scene.camera import look_at
 
 SIZE = (48, 36)
 BACKGROUND = (0.2, 0.4, 0.6)

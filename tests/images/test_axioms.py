@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.fragments import fragments
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.reference.pixel_fragments import fragments
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE = (120, 90)
 TECHNIQUE = DynamicTransparency(width=6)

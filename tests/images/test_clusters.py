@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.gpu import cluster_painter
+from seethrough.renderer.gpu.levels import cluster_painter
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.visibility import SEEN
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.visibility import SEEN
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SIZE = (120, 90)
 POLYGONS = DynamicTransparency(order="polygons", doubt=0.0, width=7)

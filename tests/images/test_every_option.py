@@ -10,9 +10,14 @@ import pytest
 from sample_scenes import before_column, column
 
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES, DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
+    GRANULARITIES,
+    MASKS,
+    MODES,
+    DynamicTransparency,
+)
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE = (96, 72)
 BASE = DynamicTransparency(width=7, pointer=(0.65, 0.5), radius=0.25, softness=0.2)

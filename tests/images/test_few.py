@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES
 
-from seethrough.renderer import transforms
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.gpu import exact_painter
-from seethrough.renderer.gpu.few_sorter import MASKS, SLICES, FewSorter
+from seethrough.renderer.gpu.per_pixel import exact_painter
+from seethrough.renderer.gpu.per_pixel.few_sorter import MASKS, SLICES, FewSorter
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SIZE = (101, 77)  # ends within a block on two sides
 EXACT = DynamicTransparency(width=6, exact=True)

@@ -17,12 +17,12 @@ from seethrough.benchmarks.guarantee import (
     building_views,
     orbit_path,
 )
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import Camera, look_at
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 DEFAULT = DynamicTransparency()
 

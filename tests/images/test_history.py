@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.renderer.gpu.context import standalone
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.plan import plan
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from instruction_pictures import SIZE, sights
 
-from seethrough.experiment.viewpoint import best, shown
-from seethrough.renderer.camera import Camera
-from seethrough.renderer.fragments import fragments
-from seethrough.renderer.geometry import box
+from seethrough.experiment.session.viewpoint import best, shown
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.transforms import translation
-from seethrough.tasks.base import Example
+from seethrough.renderer.reference.pixel_fragments import fragments
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.geometry import box
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.transforms import translation
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.base import Example
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 # Ours; `python tests/support/instruction_pictures.py SEEDS` prints the least over more seeds.

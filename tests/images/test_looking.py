@@ -9,9 +9,9 @@ import pytest
 
 from seethrough.benchmarks.breaking import crossings, small_crossings
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.visibility import SEEN
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene.visibility import SEEN
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SIZE = (120, 90)
 TECHNIQUE = DynamicTransparency(width=5)

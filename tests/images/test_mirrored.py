@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import Camera
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import MASKS, DynamicTransparency
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import MASKS, DynamicTransparency
 
 SIZE = (128, 96)
 SIGNS = list(product((1, -1), repeat=3))

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from screen import Screen, button, fields, seen
 
-from seethrough.experiment import blocks
-from seethrough.experiment.form import Form
-from seethrough.experiment.page_blocks import COLORS
-from seethrough.experiment.pages import Choice, Page, Paragraph, TextField
+from seethrough.experiment.pages import blocks
+from seethrough.experiment.pages.form import Form
+from seethrough.experiment.pages.page_blocks import COLORS
+from seethrough.experiment.pages.pages import Choice, Page, Paragraph, TextField
 
 RED = np.array([COLORS["wrong"] >> shift & 255 for shift in (0, 8, 16)])
 AGE = Page(

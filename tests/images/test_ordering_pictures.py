@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.gpu.context import standalone
-from seethrough.renderer.gpu.polygons import Corners, ExactPainter, PolygonPainter
+from seethrough.renderer.gpu.device.context import standalone
+from seethrough.renderer.gpu.levels.polygon_painter import Corners, ExactPainter, PolygonPainter
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.ordering.methods import prepare
-from seethrough.renderer.ordering.polygons import polygons_from
-from seethrough.renderer.ordering.prepared import drawable
+from seethrough.renderer.polygons.methods import prepare
+from seethrough.renderer.polygons.polygons import polygons_from
+from seethrough.renderer.polygons.prepared import drawable
+from seethrough.renderer.scene.camera import look_at
 
 SIZE = (200, 150)
 # Issue 3: 1/255 at every pixel but the one in a thousand along cuts.

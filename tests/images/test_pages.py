@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from screen import Screen, button, fields, seen
 
-from seethrough.experiment import blocks
-from seethrough.experiment.form import Form
-from seethrough.experiment.hud_drawing import ACCENT, PILOT
-from seethrough.experiment.pages import Page, Paragraph, TextField
+from seethrough.experiment.pages import blocks
+from seethrough.experiment.pages.form import Form
+from seethrough.experiment.pages.hud_drawing import ACCENT, PILOT
+from seethrough.experiment.pages.pages import Page, Paragraph, TextField
 
 
 @pytest.fixture

@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import Camera
-from seethrough.renderer.gpu import reused
+from seethrough.renderer.gpu.device import reused
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
-from seethrough.renderer.reference import exact
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import MASKS, DynamicTransparency
-from seethrough.tasks.building import unique_building
-from seethrough.tasks.controls import walk
+from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import MASKS, DynamicTransparency
+from seethrough.tasks.kit.controls import walk
 from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building import unique_building
 
 SIZE = (76, 60)  # ends within a block, on both sides
 SORTED = DynamicTransparency(width=8, exact=True)
@@ -157,8 +157,8 @@ def test_everything_that_frames_fill_is_made_loud(context, monkeypatch):
         spoil(*things)
 
     monkeypatch.setattr(reused, "spoil", noted)
-    monkeypatch.setattr("seethrough.renderer.gpu.cells.spoil", noted)
-    monkeypatch.setattr("seethrough.renderer.gpu.targets.spoil", noted)
+    monkeypatch.setattr("seethrough.renderer.gpu.per_pixel.pixel_cells.spoil", noted)
+    monkeypatch.setattr("seethrough.renderer.gpu.device.targets.spoil", noted)
     watched = Watched(context)
     renderer = Renderer(watched, SIZE)
     for _ in range(2):  # what the first frame made is loud before the second

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from sample_scenes import before_column, column, room
 
-from seethrough.renderer import transforms
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.plan import SHORTCUTS
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.plan.planner import SHORTCUTS
+from seethrough.renderer.scene import transforms
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE = (160, 120)
 TECHNIQUE = DynamicTransparency(width=8, min_transmittance=0.2, doubt=0.0)

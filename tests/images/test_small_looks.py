@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.looking import HEIGHT, Looking
-from seethrough.experiment.participants.pool import LazyDraw
-from seethrough.experiment.scenes import StudyScenes
+from seethrough.experiment.people.runs.pool import LazyDraw
+from seethrough.experiment.session.looking import HEIGHT, Looking
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
-from seethrough.tasks.base import View
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.base import View
 
 STUDY = load("published")
 WINDOW = (800, 600)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.viewer import Viewer, ViewState
-from seethrough.renderer.gpu.context import standalone
+from seethrough.experiment.display.viewer import Viewer, ViewState
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.ordering.methods import prepare
+from seethrough.renderer.polygons.methods import prepare
 
 SIZE = (160, 120)
 EMPTY = 1 / 255  # of a channel: the background, as half floats hold it

@@ -12,10 +12,10 @@ from distributed import LocalCluster
 from small_study import SMALL
 
 from seethrough.experiment import cli
-from seethrough.experiment.config import load
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.participants import batch, cluster
-from seethrough.experiment.participants.batch_files import Results
+from seethrough.experiment.people.runs import batch, cluster
+from seethrough.experiment.people.runs.batch_files import Results
+from seethrough.experiment.study.config import load
 
 PEOPLE = 3
 
@@ -49,7 +49,7 @@ def dask():
 
 @pytest.fixture(autouse=True)
 def small_chunks(monkeypatch):
-    monkeypatch.setattr("seethrough.experiment.participants.batch_files.CHUNK", 1)
+    monkeypatch.setattr("seethrough.experiment.people.runs.batch_files.CHUNK", 1)
 
 
 def files(out):
@@ -65,9 +65,9 @@ def held_back(folder):
         import os
         import time
 
-        from seethrough.experiment.participants import (
-            cluster,
-        )  # the worker's own: nobody has patched it
+        from seethrough.experiment.people.runs import (
+            cluster,  # the worker's own: nobody has patched it
+        )
 
         (folder / f"{slots[0]}-{os.getpid()}").touch()
         while slots[0] > 1 and not (folder / "gate").exists():

@@ -3,17 +3,17 @@
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.config import load
-from seethrough.experiment.design import SIMULATED, generator
-from seethrough.experiment.offscreen import OffscreenDisplay
-from seethrough.experiment.participants import batch
-from seethrough.experiment.participants.data_mode import Played, play_session
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.experiment.participants.pool import LazyDraw, Pool
-from seethrough.experiment.session import run_session
-from seethrough.experiment.simulated_input import SimulatedInput
-from seethrough.experiment.world import World
+from seethrough.experiment.display.offscreen import OffscreenDisplay
+from seethrough.experiment.display.simulated_input import SimulatedInput
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.runs import batch
+from seethrough.experiment.people.runs.data_mode import Played, play_session
+from seethrough.experiment.people.runs.pool import LazyDraw, Pool
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.session import run_session
+from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import SIMULATED, generator
 from seethrough.tasks.catalog import TASKS
 
 LATTICE = frozenset({"motor_noise"})  # without it a participant stands on the lattice: exact tables
@@ -49,7 +49,7 @@ def test_where_tables_are_exact_a_whole_session_is_the_same_event_for_event(cont
 
 def test_a_study_of_sixteen_in_data_mode_is_the_same_on_two_workers(tmp_path, monkeypatch):
     """What CI plays: 16 participants, two processes against one, down to the last byte."""
-    monkeypatch.setattr("seethrough.experiment.participants.batch_files.CHUNK", 4)
+    monkeypatch.setattr("seethrough.experiment.people.runs.batch_files.CHUNK", 4)
     tables = tmp_path / "tables.db"
     folders = []
     for workers in ("1", "2"):
@@ -76,7 +76,7 @@ def test_without_opengl_a_command_that_draws_says_so_in_one_line(
     def none():
         raise RuntimeError("OpenGL 3.3: not available, expected a graphics driver")
 
-    monkeypatch.setattr("seethrough.renderer.gpu.context.standalone", none)
+    monkeypatch.setattr("seethrough.renderer.gpu.device.context.standalone", none)
     monkeypatch.setattr(batch, "_ready", {})
     assert cli.main(words.format(t=tmp_path).split()) == 2
     told = [line for line in capsys.readouterr().err.splitlines() if " after " not in line]

@@ -7,8 +7,8 @@ import pytest
 from desktop import Desktop, wait_until
 from player import START, answer, open_session
 
-from seethrough.experiment.config import load
-from seethrough.experiment.resume import starting_point
+from seethrough.experiment.session.resume import starting_point
+from seethrough.experiment.study.config import load
 
 TITLE = "A session that breaks off"
 STUDY = f"""

@@ -11,7 +11,7 @@ from recorded_session import DrawnDisplay, play_recorded
 from seethrough.experiment import cli
 from seethrough.experiment.commands.replay import _verify as verify
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.replay import find_trial, replay
+from seethrough.experiment.replay.replayer import find_trial, replay
 
 
 @pytest.fixture(scope="module")

@@ -21,7 +21,7 @@ def tables(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def small_chunks(monkeypatch):
-    monkeypatch.setattr("seethrough.experiment.participants.batch_files.CHUNK", 2)
+    monkeypatch.setattr("seethrough.experiment.people.runs.batch_files.CHUNK", 2)
 
 
 def data_mode(tables, out, *more):

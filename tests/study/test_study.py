@@ -9,8 +9,8 @@ from collections import Counter
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.config import load
-from seethrough.experiment.replay import find_trial, replay
+from seethrough.experiment.replay.replayer import find_trial, replay
+from seethrough.experiment.study.config import load
 
 PARTICIPANTS = 4  # one pass through the Latin square
 

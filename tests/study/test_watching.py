@@ -7,7 +7,7 @@ from desktop import Desktop, Program, wait_until
 from player import ARTEFACTS, START, has_window
 from small_study import SMALL
 
-from seethrough.experiment.config import load
+from seethrough.experiment.study.config import load
 
 TITLE = load("demo").study.title
 

@@ -41,11 +41,11 @@ types = ["chair", "table", "cat"]
 HASTY = """
 import gc
 from pyglet.window import key
-from seethrough.experiment.clock import RealClock
-from seethrough.experiment.config import load
-from seethrough.experiment.pages import Page
-from seethrough.experiment.texts import Texts
-from seethrough.experiment.window import Window
+from seethrough.experiment.session.clock import RealClock
+from seethrough.experiment.study.config import load
+from seethrough.experiment.pages.pages import Page
+from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.display.window import Window
 
 window = Window(load("demo").display, Texts("en"), RealClock(), "hasty")
 frames = 0

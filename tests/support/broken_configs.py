@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.config import find
-from seethrough.experiment.keys import TABLES, keys_of
+from seethrough.experiment.study.config import find
+from seethrough.experiment.study.keys import TABLES, keys_of
 
 Table = dict[str, Any]
 BASE = tomllib.loads(find("published").read_text("utf-8"))

@@ -3,18 +3,18 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-from seethrough.experiment import blocks
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.questionnaire import after, asked, before
-from seethrough.experiment.scenes import StudyScenes
-from seethrough.experiment.session import _feedback, _instruction, _page
-from seethrough.experiment.trial import LEAVE, MENU, TrialRun
-from seethrough.experiment.world import TrialRecord
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.pages import blocks
+from seethrough.experiment.pages.questionnaire import after, asked, before
+from seethrough.experiment.session.session import _feedback, _instruction, _page
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.session.trial import LEAVE, MENU, TrialRun
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress, PointerPress
-from seethrough.tasks.hud import FloorPlan, practice_mark
+from seethrough.tasks.kit.base import Outcome
+from seethrough.tasks.kit.events import KeyPress, PointerPress
+from seethrough.tasks.kit.hud import FloorPlan, practice_mark
 
 
 class Keeping:

@@ -17,15 +17,15 @@ from pathlib import Path
 
 import numpy as np
 
-from seethrough.experiment.chain import verify
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.config import parse
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.resume import starting_point
-from seethrough.experiment.session import run_session
-from seethrough.experiment.world import World
+from seethrough.experiment.record.chain import verify
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.resume import starting_point
+from seethrough.experiment.session.session import run_session
+from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.study.config import parse
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress, PointerMove, Tick
+from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
 STUDY = parse(
     {

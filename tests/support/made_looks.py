@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from seethrough.renderer.visibility import Visibility
+from seethrough.renderer.scene.visibility import Visibility
 
 ARRAYS = ("pixels", "weight", "position", "contrast", "area")
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.renderer.models import MODELS
-from seethrough.renderer.models.jeep import jeep
+from seethrough.renderer.models.vehicles.jeep import jeep
 
 FIGURES = Path(__file__).resolve().parents[1] / "data" / "models" / "figures.json"
 

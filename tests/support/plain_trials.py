@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.renderer import geometry
-from seethrough.renderer.visibility import Visibility
-from seethrough.tasks.building import count_building, unique_building
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.building.building import count_building, unique_building
 
 ASPECT = 4 / 3
 _MESHES = {

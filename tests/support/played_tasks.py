@@ -3,8 +3,8 @@
 import numpy as np
 
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress, PointerPress, PointerRelease
-from seethrough.tasks.hud import Button
+from seethrough.tasks.kit.events import KeyPress, PointerPress, PointerRelease
+from seethrough.tasks.kit.hud import Button
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.provenance import provenance
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.world import TrialRecord
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.scene import Scene
-from seethrough.tasks.base import Outcome, View
-from seethrough.tasks.events import KeyPress, PointerMove, Tick
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.software import provenance
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Scene
+from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
 STUDY = load("demo")
 VIEW = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))

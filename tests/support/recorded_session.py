@@ -2,18 +2,18 @@
 
 import numpy as np
 
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.config import parse
-from seethrough.experiment.driver import describe
-from seethrough.experiment.provenance import provenance
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.session import run_session
-from seethrough.experiment.stage import Stage
-from seethrough.experiment.texts import Texts
-from seethrough.experiment.world import World
-from seethrough.renderer.gpu.context import standalone
+from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.driver import describe
+from seethrough.experiment.session.session import run_session
+from seethrough.experiment.session.software import provenance
+from seethrough.experiment.session.stage import Stage
+from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.study.config import parse
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
+from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
 
 STUDY = {
     "study": {"name": "t", "title": "t", "description": "t", "participants": 4, "seed": 1},

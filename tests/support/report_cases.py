@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.design import Trial
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.study.design import Trial
+from seethrough.tasks.kit.base import Outcome
 
 SECONDS = {"count": 50.0, "pattern": 20.0, "unique": 55.0, "count_in_building": 120.0}
 ITEMS = ("efficiency", "ease", "enjoy")

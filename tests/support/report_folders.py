@@ -19,13 +19,13 @@ from seethrough.analysis.load.schema import CERTIFICATE
 from seethrough.analysis.published.grim import fitting_whole_numbers
 from seethrough.analysis.published.numbers import load_published
 from seethrough.analysis.published.report import reconstructed
-from seethrough.experiment.config import Study, find, parse
-from seethrough.experiment.design import session_for
-from seethrough.experiment.participants.batch import Batch
-from seethrough.experiment.participants.batch_files import CHUNK, Results, render
-from seethrough.experiment.participants.data_mode import Played
-from seethrough.experiment.recorder import FileRecorder, Who, trial_row
-from seethrough.experiment.world import TrialRecord
+from seethrough.experiment.people.runs.batch import Batch
+from seethrough.experiment.people.runs.batch_files import CHUNK, Results, render
+from seethrough.experiment.people.runs.data_mode import Played
+from seethrough.experiment.record.recorder import FileRecorder, Who, trial_row
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.config import Study, find, parse
+from seethrough.experiment.study.design import session_for
 
 NOW = "2026-01-02T03:04:05.000Z"
 KEPT = ("_trials_data.csv", "_questionnaire_data.csv", "certificate.csv")

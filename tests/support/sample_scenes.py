@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import Camera, look_at
-from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.scene import Object, Scene
 
 SHAPES = (
     geometry.sphere(1.0, 1),

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass, field
 
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.config import parse
-from seethrough.experiment.session import run_session
-from seethrough.experiment.world import World
-from seethrough.tasks.base import View
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.session import run_session
+from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.study.config import parse
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress, Tick
+from seethrough.tasks.kit.base import View
+from seethrough.tasks.kit.events import KeyPress, Tick
 
 FRAME = 0.25  # s between the frames of the fake display: a binary fraction, so sums are exact
 

@@ -27,11 +27,12 @@ from desktop import Desktop, wait_until
 from player import has_window
 from xserver import XServer
 
-from seethrough.experiment import cli, live  # imported before the forks: a start costs them less
-from seethrough.experiment.config import load
-from seethrough.tasks import pattern
-from seethrough.tasks.entry import MOST_DIGITS, NumberEntry
-from seethrough.tasks.letters import LETTERS
+from seethrough.experiment import cli
+from seethrough.experiment.session import live  # imported before the forks: a start costs them less
+from seethrough.experiment.study.config import load
+from seethrough.tasks.kit.entry import MOST_DIGITS, NumberEntry
+from seethrough.tasks.kit.letters import LETTERS
+from seethrough.tasks.pattern import pattern_task as pattern
 
 TITLE = "Stalls"
 STUDY = f"""

@@ -23,10 +23,10 @@ from PIL import Image, ImageGrab
 from player import START, open_session, trials_of
 
 from seethrough.experiment import cli
-from seethrough.experiment.config import load
-from seethrough.tasks import pattern
-from seethrough.tasks.entry import NumberEntry
-from seethrough.tasks.plan_mark import PlanMark
+from seethrough.experiment.study.config import load
+from seethrough.tasks.kit.entry import NumberEntry
+from seethrough.tasks.kit.plan_mark import PlanMark
+from seethrough.tasks.pattern import pattern_task as pattern
 
 STUDY = "published"
 KILLED = (8, 16)  # after so many trials of the design, in the middle of the next one

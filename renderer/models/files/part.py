@@ -103,8 +103,8 @@ def cut_polygons(
 
     `loops` are rows of `vertices`. Fans where they are convex, clipped ears where not.
     """
-    from seethrough.renderer.ordering.polygons import Polygons, newell
-    from seethrough.renderer.ordering.triangulation import triangulate
+    from seethrough.renderer.polygons.polygons import Polygons, newell
+    from seethrough.renderer.polygons.triangulation import triangulate
 
     counts = np.array([len(loop) for loop in loops], np.int64)
     if len(counts) and counts.max() > MOST_CORNERS:

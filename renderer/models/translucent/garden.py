@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from seethrough.renderer.models.translucent.solids import Faces, box, disc, prism, turned
-from seethrough.renderer.ordering.polygons import Floats, Polygons, join, polygons_from
+from seethrough.renderer.polygons.polygons import Floats, Polygons, join, polygons_from
 
 HALF = 0.5
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])

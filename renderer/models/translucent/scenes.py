@@ -9,7 +9,7 @@ import numpy as np
 
 from seethrough.renderer.models.translucent import garden, house, vise
 from seethrough.renderer.models.translucent.solids import Faces, box
-from seethrough.renderer.ordering.polygons import (
+from seethrough.renderer.polygons.polygons import (
     Floats,
     Polygons,
     newell,

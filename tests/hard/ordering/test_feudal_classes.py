@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from seethrough.renderer.ordering import feudal
-from seethrough.renderer.ordering.polygons import polygons_from
+from seethrough.renderer.polygons import feudal
+from seethrough.renderer.polygons.polygons import polygons_from
 
 
 @dataclass

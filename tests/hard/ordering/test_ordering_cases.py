@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.renderer.ordering import bsp, feudal
-from seethrough.renderer.ordering.polygons import Polygons, polygons_from, triangles_from
-from seethrough.renderer.ordering.predicates import paper_sides, plane_corners
+from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons.polygons import Polygons, polygons_from, triangles_from
+from seethrough.renderer.polygons.predicates import paper_sides, plane_corners
 
 
 def first(polygons):
@@ -288,7 +288,7 @@ def test_a_convex_ball_is_deep_but_needs_no_recursion():
 
 def test_equal_distances_lose_no_polygon():
     """A map keyed by distance, as paper 003 writes it, keeps one polygon of each distance."""
-    from seethrough.renderer.ordering import distance
+    from seethrough.renderer.polygons import distance
 
     ring = [
         TRIANGLE @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])

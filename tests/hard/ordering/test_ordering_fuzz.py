@@ -13,9 +13,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from seethrough.renderer.ordering import bsp, feudal
-from seethrough.renderer.ordering.polygons import triangles_from
-from seethrough.renderer.ordering.predicates import plane_corners
+from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons.polygons import triangles_from
+from seethrough.renderer.polygons.predicates import plane_corners
 
 corner = st.tuples(*[st.integers(-2, 2)] * 3)
 

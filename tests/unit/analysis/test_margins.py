@@ -17,7 +17,7 @@ from seethrough.analysis.plan import make_plan
 from seethrough.analysis.report import Options, make_report
 from seethrough.analysis.stats.paired import ratio_of_means, ratio_within
 from seethrough.analysis.stats.undefined import Undefined
-from seethrough.experiment.config import parse, shipped
+from seethrough.experiment.study.config import parse, shipped
 
 RNG = np.random.default_rng(8)
 FIRST = RNG.gamma(9, 3, 14)

@@ -12,8 +12,8 @@ from scipy import stats
 from seethrough.analysis.exclude import apply_rules, focus_lost
 from seethrough.analysis.stats.ranks import friedman, post_hoc, ranks, sign_test, signed_rank
 from seethrough.analysis.stats.ties import difference_signs, is_constant, levels, slack
-from seethrough.experiment.power import SampledEffect
-from seethrough.experiment.power_ranks import RankEffect
+from seethrough.experiment.power.power import SampledEffect
+from seethrough.experiment.power.power_ranks import RankEffect
 
 # Ten people, three ratings each: the sums of the other condition's are smaller by D, so the means
 # differ by ±2/3, computed in many ways.

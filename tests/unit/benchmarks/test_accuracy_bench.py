@@ -11,11 +11,11 @@ import pytest
 from seethrough.benchmarks import accuracy, vtk_peeling
 from seethrough.benchmarks.breaking import BREAKING
 from seethrough.benchmarks.speed import row
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import look_at
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 CENTERS = DynamicTransparency(order="centers")
 

@@ -12,9 +12,9 @@ from seethrough.benchmarks import ordering_accuracy, ordering_exactness, paper_f
 from seethrough.benchmarks.ordering_advice import advice
 from seethrough.benchmarks.ordering_exactness import edge_distance
 from seethrough.experiment import cli
-from seethrough.renderer.camera import look_at
 from seethrough.renderer.models.translucent.scenes import panels
-from seethrough.renderer.ordering.polygons import polygons_from
+from seethrough.renderer.polygons.polygons import polygons_from
+from seethrough.renderer.scene.camera import look_at
 
 TINY = ("fence",)
 KEYS = {"figure", "scene", "value", "unit", "must", "aim", "met"}

@@ -8,16 +8,23 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seethrough.experiment import cli, machine
-from seethrough.experiment.certificate import Certifier, Difficulty, matches, walking_path, worst
+from seethrough.experiment import cli
 from seethrough.experiment.commands.check import smooth
-from seethrough.experiment.config import parse
-from seethrough.experiment.design import Trial, session_for
-from seethrough.experiment.machine import FrameTimes
-from seethrough.renderer import geometry
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.gpu.context import standalone
-from seethrough.renderer.scene import Object, Scene
+from seethrough.experiment.session import machine
+from seethrough.experiment.session.machine import FrameTimes
+from seethrough.experiment.study.certificate import (
+    Certifier,
+    Difficulty,
+    matches,
+    walking_path,
+    worst,
+)
+from seethrough.experiment.study.config import parse
+from seethrough.experiment.study.design import Trial, session_for
+from seethrough.renderer.gpu.device.context import standalone
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
 
 STUDY = """
 [study]

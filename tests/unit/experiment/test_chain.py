@@ -9,14 +9,14 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from seethrough.experiment.chain import verify
-from seethrough.experiment.design import Trial
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.world import TrialRecord
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.scene import Scene
-from seethrough.tasks.base import Outcome, View
-from seethrough.tasks.events import KeyPress, Tick
+from seethrough.experiment.record.chain import verify
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.design import Trial
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Scene
+from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.events import KeyPress, Tick
 
 VIEW = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
 STEM = "study-test_subject-P01_session-1"

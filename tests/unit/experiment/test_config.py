@@ -5,9 +5,9 @@ import tomllib
 
 import pytest
 
-from seethrough.experiment.config import find, load, parse, shipped
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.keys import TABLES, keys_of
+from seethrough.experiment.study.config import find, load, parse, shipped
+from seethrough.experiment.study.keys import TABLES, keys_of
 
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from seethrough.experiment.design import (
+from seethrough.experiment.study.design import (
     Factors,
     generator,
     order_of,

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from seethrough.experiment.driver import open_context, samples_for
 from seethrough.experiment.errors import InputError
-from seethrough.renderer.gpu import context as gpu
+from seethrough.experiment.session.driver import open_context, samples_for
+from seethrough.renderer.gpu.device import context as gpu
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from seethrough.experiment.event_time import RESOLUTION, WRAP, EventTime, x11_stamp
+from seethrough.experiment.display.event_time import RESOLUTION, WRAP, EventTime, x11_stamp
 
 OFFSET = 73.0  # s that the session's clock is behind the server's
 

@@ -13,10 +13,10 @@ from recorded import REMARK, record
 
 from seethrough.analysis.load.study import load_study
 from seethrough.experiment import cli
-from seethrough.experiment.columns import TABLES, TRIALS
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.dataset import _rows, harmless
 from seethrough.experiment.export.parquet import ParquetWriter
+from seethrough.experiment.record.columns import TABLES, TRIALS
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,11 @@ import tomllib
 
 import pytest
 
-from seethrough.experiment.config import Study, find, parse
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.keys import REFERENCE, REQUIRED, TABLES, keys_of, reference
+from seethrough.experiment.study.config import Study, find, parse
+from seethrough.experiment.study.keys import REFERENCE, REQUIRED, TABLES, keys_of, reference
 from seethrough.renderer.declared import Of, declared
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
 
 FOUND_OUT = {"folder"}  # of a model, when the study is read
@@ -18,7 +18,7 @@ PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 
 
 def test_the_page_is_what_the_code_declares():
-    """`python -m seethrough.experiment.keys` makes it anew."""
+    """`python -m seethrough.experiment.study.keys` makes it anew."""
     assert REFERENCE.read_text(encoding="utf-8") == reference()
 
 

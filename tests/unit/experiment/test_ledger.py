@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from seethrough.experiment import ledger_place, ledger_store
-from seethrough.experiment.config import load, parse
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.ledger import Ledger
-from seethrough.experiment.ledger_plan import Plan, plan_of
-from seethrough.experiment.ledger_slots import last_open, next_slot
-from seethrough.experiment.private import write_new
+from seethrough.experiment.ledger import ledger_place, ledger_store
+from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_plan import Plan, plan_of
+from seethrough.experiment.ledger.ledger_slots import last_open, next_slot
+from seethrough.experiment.record.private import write_new
+from seethrough.experiment.study.config import load, parse
 
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
 STALE = 3600.0

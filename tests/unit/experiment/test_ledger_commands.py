@@ -7,14 +7,15 @@ from datetime import UTC, datetime
 
 import pytest
 
-from seethrough.experiment import cli, ledger_lock
-from seethrough.experiment.chain import seal_of
+from seethrough.experiment import cli
 from seethrough.experiment.commands import withdraw as withdraw_module
-from seethrough.experiment.config import find, load
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.ledger import Ledger
-from seethrough.experiment.ledger_plan import plan_of
-from seethrough.experiment.recorder import FileRecorder, Who
+from seethrough.experiment.ledger import ledger_lock
+from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_plan import plan_of
+from seethrough.experiment.record.chain import seal_of
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.study.config import find, load
 
 STUDY = load("demo")
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
@@ -37,7 +38,7 @@ def sessions(monkeypatch, tmp_path):
         return how
 
     ends = []
-    monkeypatch.setattr("seethrough.experiment.live.play_in_window", session)
+    monkeypatch.setattr("seethrough.experiment.session.live.play_in_window", session)
 
     def run(*words, how="complete"):
         ends[:] = [how]

@@ -6,15 +6,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from seethrough.experiment import live
-from seethrough.experiment.clock import RealClock
 from seethrough.experiment.commands import simulate
-from seethrough.experiment.config import load
-from seethrough.experiment.design import Trial
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.participants.profile_file import find
-from seethrough.experiment.world import TrialRecord
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.people.fitted.profile_file import find
+from seethrough.experiment.session import live
+from seethrough.experiment.session.clock import RealClock
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import Trial
+from seethrough.tasks.kit.base import Outcome
 
 STUDY = load("demo")
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.config import load, parse
-from seethrough.experiment.design import session_for
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.own_models import keep, kept
-from seethrough.experiment.scenes import StudyScenes
+from seethrough.experiment.study.config import load, parse
+from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.own_model_files import keep, kept
+from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.tasks.catalog import TASKS
 
 WEDGE = """
@@ -167,8 +167,8 @@ def test_check_lists_the_models(tmp_path, capsys):
 def test_check_puts_a_picture_of_each_model_into_a_sheet(tmp_path):
     from PIL import Image
 
-    from seethrough.experiment.contact_sheet import write
-    from seethrough.experiment.driver import open_context
+    from seethrough.experiment.session.driver import open_context
+    from seethrough.experiment.study.contact_sheet import write
 
     study, sheet = load(str(written(tmp_path))), tmp_path / "own-models.png"
     context = open_context()

@@ -7,13 +7,11 @@ from scipy import stats
 
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.ranks import friedman
-from seethrough.experiment import power_ranks
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.participants.batch import Batch
-from seethrough.experiment.participants.batch_files import Results, render
-from seethrough.experiment.participants.data_mode import Played
-from seethrough.experiment.power import (
+from seethrough.experiment.people.runs.batch import Batch
+from seethrough.experiment.people.runs.batch_files import Results, render
+from seethrough.experiment.people.runs.data_mode import Played
+from seethrough.experiment.power import power_ranks
+from seethrough.experiment.power.power import (
     NormalEffect,
     SampledEffect,
     closed_form,
@@ -23,8 +21,10 @@ from seethrough.experiment.power import (
     published,
     rejections,
 )
-from seethrough.experiment.power_data import sampled
-from seethrough.experiment.power_ranks import RankEffect, trinomial_power
+from seethrough.experiment.power.power_data import sampled
+from seethrough.experiment.power.power_ranks import RankEffect, trinomial_power
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
 
 SHIFT = NormalEffect("shift", (0.5, 0.0), (1.0, 1.0), 0.5)
 

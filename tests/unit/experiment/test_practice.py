@@ -7,19 +7,19 @@ import pytest
 from every_page import begun, ended
 from every_page import marked as mark
 
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.pages import PlanPicture
-from seethrough.experiment.session import _feedback
-from seethrough.experiment.texts import Texts
-from seethrough.experiment.trial import TrialRun
-from seethrough.experiment.waiting import PATIENCE, meanwhile
-from seethrough.experiment.world import TrialRecord, World
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.pages.pages import PlanPicture
+from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.session import _feedback
+from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.trial import TrialRun
+from seethrough.experiment.session.waiting import PATIENCE, meanwhile
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress, Tick
-from seethrough.tasks.hud import Label
+from seethrough.tasks.kit.base import Outcome
+from seethrough.tasks.kit.events import KeyPress, Tick
+from seethrough.tasks.kit.hud import Label
 
 STUDY = load("published")
 SETS = session_for(1, STUDY.design.factors())

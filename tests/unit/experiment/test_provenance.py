@@ -5,8 +5,8 @@ import json
 import platform
 from importlib import metadata
 
-from seethrough.experiment.config import load
-from seethrough.experiment.provenance import program_sha256, provenance
+from seethrough.experiment.session.software import program_sha256, provenance
+from seethrough.experiment.study.config import load
 
 STUDY = load("published")
 

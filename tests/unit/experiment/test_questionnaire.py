@@ -5,15 +5,15 @@ from itertools import chain
 import numpy as np
 import pytest
 
-from seethrough.experiment import blocks, questionnaire
-from seethrough.experiment.config import load, parse
-from seethrough.experiment.depth_test import RATIO, depth_test
-from seethrough.experiment.display import Leave
+from seethrough.experiment.display.display import Leave
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.form import Form
-from seethrough.experiment.pages import Choice, PlatePicture, Scale, TextField
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.experiment.plates import FIGURE, GROUND, plates
+from seethrough.experiment.pages import blocks, questionnaire
+from seethrough.experiment.pages.color_plates import FIGURE, GROUND, plates
+from seethrough.experiment.pages.depth_test import RATIO, depth_test
+from seethrough.experiment.pages.form import Form
+from seethrough.experiment.pages.pages import Choice, PlatePicture, Scale, TextField
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.study.config import load, parse
 
 PUBLISHED = load("published")
 

@@ -5,9 +5,9 @@ import io
 
 import pytest
 
-from seethrough.experiment.columns import NOTES, QUESTIONNAIRE
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record_files import Table, Trace, csv_line, mend, whole_rows
+from seethrough.experiment.record.columns import NOTES, QUESTIONNAIRE
+from seethrough.experiment.record.record_files import Table, Trace, csv_line, mend, whole_rows
 
 TEXTS = ("one\ntwo", "one\r\ntwo", "\r", "\n", 'a "quoted"\nline', "comma, and\nbreak", "plain")
 

@@ -7,17 +7,17 @@ import shutil
 import numpy as np
 import pytest
 
-from seethrough.experiment.columns import TABLES, TRIALS
-from seethrough.experiment.design import Trial
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.folders import check_participant, next_free, stem_of
-from seethrough.experiment.record_files import cell
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.world import TrialRecord
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.scene import Scene
-from seethrough.tasks.base import Outcome, View
-from seethrough.tasks.events import KeyPress, PointerMove, Tick
+from seethrough.experiment.record.columns import TABLES, TRIALS
+from seethrough.experiment.record.folders import check_participant, next_free, stem_of
+from seethrough.experiment.record.record_files import cell
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.design import Trial
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Scene
+from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
 TRIAL = Trial(5, 1, 2, 2, "dynamic", "abstract", "count", "stream-1", (1, 1))
 RECORD = TrialRecord(

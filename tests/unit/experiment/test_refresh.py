@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seethrough.experiment import refresh, system_window, window
 from seethrough.experiment.commands import check
-from seethrough.experiment.config import load
+from seethrough.experiment.display import refresh, system_window, window
+from seethrough.experiment.study.config import load
 from seethrough.experiment.verdicts import Verdicts
 
 RATES = [59.94, 60.0, 74.97, 120.0, 143.98, 240.0]

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from seethrough.experiment import gallery_hard
 from seethrough.experiment.cli import main
-from seethrough.experiment.gallery import sections
-from seethrough.experiment.gallery_plates import Section
+from seethrough.experiment.gallery import gallery_hard
+from seethrough.experiment.gallery.gallery_plates import Section
+from seethrough.experiment.gallery.gallery_scenes import sections
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.techniques.dynamic import GRANULARITIES, MASKS, MODES
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import GRANULARITIES, MASKS, MODES
 
 
 def test_a_picture_is_written_and_explained(tmp_path, capsys):

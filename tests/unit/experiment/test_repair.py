@@ -9,14 +9,14 @@ import pytest
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load.study import load_study
 from seethrough.experiment import cli
-from seethrough.experiment.chain import verify
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.resume import starting_point
-from seethrough.experiment.world import TrialRecord
-from seethrough.tasks.base import Outcome
-from seethrough.tasks.events import Tick
+from seethrough.experiment.record.chain import verify
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.resume import starting_point
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
+from seethrough.tasks.kit.base import Outcome
+from seethrough.tasks.kit.events import Tick
 
 STUDY = load("demo")
 TRIALS = [t for s in session_for(1, STUDY.design.factors()) for t in s.trials]
@@ -119,9 +119,9 @@ def test_the_branch_that_counts_is_whole_and_the_folder_as_it_was_is_kept(
 
 
 def test_what_was_set_aside_is_withdrawn_too(twice, capsys):
-    from seethrough.experiment.ledger import Ledger
-    from seethrough.experiment.ledger_plan import plan_of
-    from seethrough.experiment.ledger_slots import moment
+    from seethrough.experiment.ledger.ledger import Ledger
+    from seethrough.experiment.ledger.ledger_plan import plan_of
+    from seethrough.experiment.ledger.ledger_slots import moment
 
     now = moment("2026-01-02T03:04:05Z")
     with Ledger.open(twice, "", plan_of(STUDY), now) as ledger:

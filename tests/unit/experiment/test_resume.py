@@ -2,13 +2,13 @@
 
 import pytest
 
-from seethrough.experiment.config import load
-from seethrough.experiment.design import session_for
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.recorder import FileRecorder, Who
-from seethrough.experiment.resume import already_done, going_on, past, starting_point
-from seethrough.experiment.world import TrialRecord
-from seethrough.tasks.base import Outcome
+from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.session.resume import already_done, going_on, past, starting_point
+from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import session_for
+from seethrough.tasks.kit.base import Outcome
 
 STUDY = load("published")
 SLOT = 3

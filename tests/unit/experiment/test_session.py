@@ -5,12 +5,12 @@ from collections import Counter
 import pytest
 from scripted_session import ANSWERS, FRAME, FakeDisplay, MemoryRecorder, ScriptedInput, play, study
 
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.display import DisplayLost, Leave
-from seethrough.experiment.session import run_session
-from seethrough.experiment.world import World
+from seethrough.experiment.display.display import DisplayLost, Leave
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.session import run_session
+from seethrough.experiment.session.surroundings import World
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import FocusChange, KeyPress, PointerPress, Tick
+from seethrough.tasks.kit.events import FocusChange, KeyPress, PointerPress, Tick
 
 
 def test_every_task_set_has_its_instruction_training_and_trials_in_that_order():

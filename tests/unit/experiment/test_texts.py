@@ -5,7 +5,7 @@ import re
 import pytest
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.texts import Texts
+from seethrough.experiment.pages.texts import Texts
 from seethrough.renderer.models import MODELS
 
 LANGUAGES = ["en", "de"]

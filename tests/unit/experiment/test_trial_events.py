@@ -6,12 +6,12 @@ from types import SimpleNamespace
 import pytest
 from scripted_session import ANSWERS, FRAME, FakeDisplay, MemoryRecorder, ScriptedInput, study
 
-from seethrough.experiment.clock import SimulatedClock
-from seethrough.experiment.session import run_session
-from seethrough.experiment.window import Window
-from seethrough.experiment.world import World
+from seethrough.experiment.display.window import Window
+from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.session.session import run_session
+from seethrough.experiment.session.surroundings import World
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import (
+from seethrough.tasks.kit.events import (
     FocusChange,
     KeyPress,
     KeyRelease,

@@ -7,8 +7,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seethrough.renderer.blocks import BLOCK, NONE, covered, grouped, mark, most, runs, shape, shown
-from seethrough.renderer.gpu.mask_maker import _tiles
+from seethrough.renderer.gpu.masks.mask_maker import _tiles
+from seethrough.renderer.plan.blocks import (
+    BLOCK,
+    NONE,
+    covered,
+    grouped,
+    mark,
+    most,
+    runs,
+    shape,
+    shown,
+)
 
 SHAPE = (9, 13)
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer import clusters, geometry, transforms
-from seethrough.renderer.clusters import fitting, polygons_of, unite
-from seethrough.renderer.ordering.polygons import newell
-from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.plan import clusters
+from seethrough.renderer.plan.clusters import fitting, polygons_of, unite
+from seethrough.renderer.polygons.polygons import newell
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.scene import Object, Scene
 
 
 def known(n, pairs=(), fronts=()):

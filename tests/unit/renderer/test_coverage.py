@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer import blocks, coverage, geometry, transforms
-from seethrough.renderer.blocks import BLOCK
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.projection import screen_boxes
-from seethrough.renderer.reference import fragments
-from seethrough.renderer.scene import Object, Scene
+from seethrough.renderer.plan import blocks, coverage
+from seethrough.renderer.plan.blocks import BLOCK
+from seethrough.renderer.reference.reference import fragments
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.projection import screen_boxes
+from seethrough.renderer.scene.scene import Object, Scene
 
 SIZE = (90, 70)  # not whole blocks
 EVERYWHERE = np.array([0, 0, *SIZE])

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from seethrough.benchmarks.ordering import crossing
-from seethrough.renderer import clusters
-from seethrough.renderer.explain import of_cluster
-from seethrough.renderer.geometry import merged, quad, transformed
-from seethrough.renderer.ordering import bsp, feudal
-from seethrough.renderer.ordering.fragments import TooManyPieces
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.transforms import random_rotation
+from seethrough.renderer.plan import clusters
+from seethrough.renderer.plan.explain import of_cluster
+from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons.fragments import TooManyPieces
+from seethrough.renderer.scene.geometry import merged, quad, transformed
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.transforms import random_rotation
 
 
 def test_what_crosses_densely_is_said_with_figures():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer.doubt import RAMP, chosen, union
+from seethrough.renderer.plan.doubt import RAMP, chosen, union
 
 SIZE, SHARE = (800, 600), 0.05
 

@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.ordering import bsp, feudal
-from seethrough.renderer.ordering.feudal_stretches import SWITCHES, knot_roots
-from seethrough.renderer.ordering.polygons import polygons_from, triangles_from
+from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons.feudal_stretches import SWITCHES, knot_roots
+from seethrough.renderer.polygons.polygons import polygons_from, triangles_from
 
 
 def soup(count, seed):

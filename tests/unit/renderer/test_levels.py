@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer.levels import levels
-from seethrough.renderer.order import BEHIND, IN_FRONT, decide, doubtful
+from seethrough.renderer.plan.levels import levels
+from seethrough.renderer.plan.order import BEHIND, IN_FRONT, decide, doubtful
 
 WIDE = np.tile([0.0, 0, 100, 100], (6, 1))  # every box overlaps every other
 

@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 from sample_scenes import SHAPES
 from scipy.spatial import ConvexHull
 
-from seethrough.renderer import contours, masks, transforms
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.fragments import distances, fragments
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.silhouettes import topology
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.masks import contours, masks
+from seethrough.renderer.masks.silhouettes import topology
+from seethrough.renderer.reference.pixel_fragments import distances, fragments
+from seethrough.renderer.scene import transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 
 def test_the_gradient_jumps_at_the_border_and_rises_to_one():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from seethrough.renderer.models.jeep import INSIDE, jeep, jeep_scene
-from seethrough.renderer.models.outline import outline, square, view_axes
-from seethrough.renderer.silhouettes import topology
+from seethrough.renderer.masks.silhouettes import topology
+from seethrough.renderer.models.forms.outline import outline, square, view_axes
+from seethrough.renderer.models.vehicles.jeep import INSIDE, jeep, jeep_scene
 
 PIECES = dict(jeep())
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from seethrough.renderer.models.blend import Limb, body
-from seethrough.renderer.models.outline import outline
-from seethrough.renderer.models.shapes import assemble, join, shade
-from seethrough.renderer.models.surfaces import (
+from seethrough.renderer.models.forms.blend import Limb, body
+from seethrough.renderer.models.forms.outline import outline
+from seethrough.renderer.models.forms.shapes import assemble, join, shade
+from seethrough.renderer.models.forms.surfaces import (
     ball,
     box,
     boxes,
@@ -24,7 +24,7 @@ from seethrough.renderer.models.surfaces import (
     sweep,
     tube,
 )
-from seethrough.renderer.transforms import rotation
+from seethrough.renderer.scene.transforms import rotation
 
 RED = (1.0, 0.0, 0.0)
 BLUE = (0.0, 0.0, 1.0)

@@ -13,10 +13,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer.ordering.feudal_kernels import BEHIND, COPLANAR, CUT, IN_FRONT, UNKNOWN
-from seethrough.renderer.ordering.feudal_list import priority_list, program
-from seethrough.renderer.ordering.feudal_relations import Relations
-from seethrough.renderer.ordering.feudal_tree import build_dynamic, build_static
+from seethrough.renderer.polygons.feudal_kernels import BEHIND, COPLANAR, CUT, IN_FRONT, UNKNOWN
+from seethrough.renderer.polygons.feudal_list import priority_list, program
+from seethrough.renderer.polygons.feudal_relations import Relations
+from seethrough.renderer.polygons.feudal_tree import build_dynamic, build_static
 
 OUTWARD = (1, 2, 5, 8, 9, 10)
 # Front, back, cut (tables 1, 2 and 5).

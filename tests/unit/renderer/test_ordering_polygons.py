@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.renderer.ordering import axis_tree, bsp, distance, feudal
-from seethrough.renderer.ordering.methods import METHODS, prepare
-from seethrough.renderer.ordering.polygons import Polygons, polygons_from, triangles_from
-from seethrough.renderer.ordering.triangulation import clip_ears
+from seethrough.renderer.polygons import axis_tree, bsp, distance, feudal
+from seethrough.renderer.polygons.methods import METHODS, prepare
+from seethrough.renderer.polygons.polygons import Polygons, polygons_from, triangles_from
+from seethrough.renderer.polygons.triangulation import clip_ears
 
 TRIANGLE = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]
 

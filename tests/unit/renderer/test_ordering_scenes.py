@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.ordering import bsp, feudal
-from seethrough.renderer.ordering.polygons import newell
+from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons.polygons import newell
 
 # Polygons, and the splits of the paper's BSP trees (tables 6 and 7).
 PUBLISHED = {"vise": (304, 275), "house": (736, 554)}

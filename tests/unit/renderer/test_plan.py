@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column, room
 
-from seethrough.renderer import geometry, reference, transforms
-from seethrough.renderer.blending import merged_parts
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.explain import explain
-from seethrough.renderer.plan import BLENDED, HARD, OUTSIDE, impenetrable, plan
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
+from seethrough.renderer.plan.blending import merged_parts
+from seethrough.renderer.plan.explain import explain
+from seethrough.renderer.plan.planner import BLENDED, HARD, OUTSIDE, impenetrable, plan
+from seethrough.renderer.reference import reference
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZE = (400, 300)
 TECHNIQUE = DynamicTransparency()

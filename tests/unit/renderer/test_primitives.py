@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from seethrough.renderer import geometry as g
-from seethrough.renderer import transforms as t
+from seethrough.renderer.scene import geometry as g
+from seethrough.renderer.scene import transforms as t
 
 
 def volume(mesh):

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from seethrough.renderer import geometry, transforms
-from seethrough.renderer.camera import look_at
-from seethrough.renderer.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN, compare
-from seethrough.renderer.plan import plan
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.separation import separate
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.plan.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN, compare
+from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.plan.separation import separate
+from seethrough.renderer.scene import geometry, transforms
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 
 def widest(a, b):

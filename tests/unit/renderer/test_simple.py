@@ -6,18 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.experiment.looking import HEIGHT, Looking
-from seethrough.renderer import geometry
+from seethrough.experiment.session.looking import HEIGHT, Looking
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models import MODELS, proxy
 from seethrough.renderer.models.simple import simplified
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
-from seethrough.tasks.base import View
-from seethrough.tasks.building import unique_building
-from seethrough.tasks.controls import walk
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
+from seethrough.tasks.kit.base import View
+from seethrough.tasks.kit.controls import walk
 from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building import unique_building
 
 PARAMETERS = BuildingParameters()
 BUILDING = unique_building(np.random.default_rng(3), PARAMETERS)

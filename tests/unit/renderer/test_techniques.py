@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 
 @pytest.mark.parametrize(

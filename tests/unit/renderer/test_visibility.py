@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.visibility import SEEN, shares, visibility
+from seethrough.renderer.scene.visibility import SEEN, shares, visibility
 
 
 def layer(ids, alpha):

@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from seethrough.renderer import geometry
-from seethrough.renderer.transforms import moved
-from seethrough.tasks.building import count_building, unique_building
-from seethrough.tasks.floor import random_floor, room_at
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.transforms import moved
 from seethrough.tasks.parameters import BuildingParameters
-from seethrough.tasks.walls import wall_with_doorway
+from seethrough.tasks.worlds.building.building import count_building, unique_building
+from seethrough.tasks.worlds.building.floor import random_floor, room_at
+from seethrough.tasks.worlds.building.walls import wall_with_doorway
 
 SEEDS = st.integers(0, 2**32 - 1)
 _MESHES = {

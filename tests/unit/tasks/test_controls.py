@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from seethrough.tasks.abstract_scene import abstract_scene
-from seethrough.tasks.controls import orbit, turned, walk
-from seethrough.tasks.events import KeyPress, KeyRelease, PointerMove, Tick
+from seethrough.tasks.kit.controls import orbit, turned, walk
+from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, Tick
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 
 ABSTRACT, BUILDING = AbstractParameters(), BuildingParameters()
 KEYS = st.sampled_from(["left", "right", "up", "down", "x"])

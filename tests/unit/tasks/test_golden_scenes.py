@@ -5,10 +5,10 @@ import hashlib
 import numpy as np
 import pytest
 
-from seethrough.renderer import geometry
-from seethrough.tasks.abstract_scene import abstract_scene
-from seethrough.tasks.building import count_building, unique_building
+from seethrough.renderer.scene import geometry
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.worlds.building.building import count_building, unique_building
 
 # Meshes of this test alone: the models that ship may grow without these scenes changing.
 _MESHES = {

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from played_tasks import begun, button, click, keys, of, play
 
-from seethrough.tasks.events import KeyPress, PointerPress
-from seethrough.tasks.floor import room_at
-from seethrough.tasks.hud import FloorPlan, Label
+from seethrough.tasks.kit.events import KeyPress, PointerPress
+from seethrough.tasks.kit.hud import FloorPlan, Label
 from seethrough.tasks.parameters import METRES
+from seethrough.tasks.worlds.building.floor import room_at
 
 ENTER = [KeyPress(1.0, "enter")]
 

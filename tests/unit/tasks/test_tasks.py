@@ -5,10 +5,9 @@ import pytest
 from numpy.testing import assert_allclose
 from played_tasks import ASPECT, begun, button, click, keys, of, play
 
-from seethrough.tasks.abstract_scene import RED
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.entry import NumberEntry
-from seethrough.tasks.events import (
+from seethrough.tasks.kit.entry import NumberEntry
+from seethrough.tasks.kit.events import (
     KeyPress,
     KeyRelease,
     PointerMove,
@@ -16,11 +15,12 @@ from seethrough.tasks.events import (
     PointerRelease,
     Tick,
 )
-from seethrough.tasks.floor import room_at
-from seethrough.tasks.hud import Button, Entry, FloorPlan, Inset, Label
-from seethrough.tasks.letters import LETTERS
+from seethrough.tasks.kit.hud import Button, Entry, FloorPlan, Inset, Label
+from seethrough.tasks.kit.letters import LETTERS
+from seethrough.tasks.kit.plan_mark import wall_lines
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
-from seethrough.tasks.plan_mark import wall_lines
+from seethrough.tasks.worlds.abstract.abstract_scene import RED
+from seethrough.tasks.worlds.building.floor import room_at
 
 
 @pytest.mark.parametrize("name", TASKS)

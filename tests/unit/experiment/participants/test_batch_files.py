@@ -8,12 +8,12 @@ import pytest
 
 from seethrough.analysis.load.study import load_study
 from seethrough.experiment import cli
-from seethrough.experiment.chain import verify
-from seethrough.experiment.config import load
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.participants.batch import Batch
-from seethrough.experiment.participants.batch_files import NAME, Results, render
-from seethrough.experiment.participants.data_mode import Played
+from seethrough.experiment.people.runs.batch import Batch
+from seethrough.experiment.people.runs.batch_files import NAME, Results, render
+from seethrough.experiment.people.runs.data_mode import Played
+from seethrough.experiment.record.chain import verify
+from seethrough.experiment.study.config import load
 
 JOB = Batch("demo", 1, 2)
 STUDY = load("demo")

@@ -10,10 +10,9 @@ from numpy.testing import assert_allclose
 
 from seethrough.experiment import cli
 from seethrough.experiment.commands import calibrate as command
-from seethrough.experiment.config import load
-from seethrough.experiment.design import generator
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.participants.calibration import (
+from seethrough.experiment.people.code_hash import code_sha256
+from seethrough.experiment.people.fitted.calibration import (
     LEVELS,
     TimeMeasure,
     measured,
@@ -21,8 +20,7 @@ from seethrough.experiment.participants.calibration import (
     published,
     table,
 )
-from seethrough.experiment.participants.code_hash import code_sha256
-from seethrough.experiment.participants.fitting import (
+from seethrough.experiment.people.fitted.fitting import (
     FREE,
     LAST,
     Crowd,
@@ -30,10 +28,12 @@ from seethrough.experiment.participants.fitting import (
     calibrate,
     with_free,
 )
-from seethrough.experiment.participants.person import TRAITS, Person, mood_for
-from seethrough.experiment.participants.pool import Pool
-from seethrough.experiment.participants.profile import AVERAGE
-from seethrough.experiment.participants.profile_file import SHIPPED, find, read, write
+from seethrough.experiment.people.fitted.profile import AVERAGE
+from seethrough.experiment.people.fitted.profile_file import SHIPPED, find, read, write
+from seethrough.experiment.people.person import TRAITS, Person, mood_for
+from seethrough.experiment.people.runs.pool import Pool
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import generator
 
 
 def rows_of(means, sds, r, task, n=16, seed=1):

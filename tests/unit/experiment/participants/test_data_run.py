@@ -5,12 +5,12 @@ from dataclasses import replace
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.config import load
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.participants import data_run
-from seethrough.experiment.participants.batch import Batch
-from seethrough.experiment.participants.batch_files import Results, render
-from seethrough.experiment.participants.data_mode import Played
+from seethrough.experiment.people.runs import data_run
+from seethrough.experiment.people.runs.batch import Batch
+from seethrough.experiment.people.runs.batch_files import Results, render
+from seethrough.experiment.people.runs.data_mode import Played
+from seethrough.experiment.study.config import load
 
 OWN = """
 [study]

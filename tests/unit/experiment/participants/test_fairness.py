@@ -5,18 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.renderer import geometry
-from seethrough.renderer.gpu.context import standalone
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
-from seethrough.renderer.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic import DynamicTransparency
-from seethrough.renderer.techniques.standard import Standard
-from seethrough.renderer.transforms import placed
-from seethrough.tasks.abstract_scene import RED, unit_mesh
-from seethrough.tasks.building import count_building, unique_building
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.transforms import placed
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import RED, unit_mesh
+from seethrough.tasks.worlds.building.building import count_building, unique_building
 
 ASPECT = 4 / 3
 

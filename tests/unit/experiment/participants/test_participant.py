@@ -8,15 +8,15 @@ import pytest
 from numpy.testing import assert_allclose
 from plain_trials import ASPECT, QUIET, begun, play, sight
 
-from seethrough.experiment.participants.count_red import _red
-from seethrough.experiment.participants.effects import EFFECTS, plan_effects
-from seethrough.experiment.participants.hands import Hands
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.experiment.participants.profile import PROFILES, Profile, profile
-from seethrough.renderer import geometry
-from seethrough.renderer.scene import Object, Scene
+from seethrough.experiment.people.count_red import _red
+from seethrough.experiment.people.fitted.profile import PROFILES, Profile, profile
+from seethrough.experiment.people.fitted.study_effects import EFFECTS, plan_effects
+from seethrough.experiment.people.hands import Hands
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
+from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
 from seethrough.tasks.parameters import AbstractParameters
 
 

@@ -8,30 +8,30 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from seethrough.experiment.pages import Choice, Page, Paragraph, Scale, TextField
-from seethrough.experiment.participants.count_things import Tally
-from seethrough.experiment.participants.counting import seconds_to_count, slips
-from seethrough.experiment.participants.effects import plan_effects
-from seethrough.experiment.participants.forms import Opinions
-from seethrough.experiment.participants.glance import likely, noticed, uncrowded
-from seethrough.experiment.participants.hands import Hands
-from seethrough.experiment.participants.name_letter import (
+from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, TextField
+from seethrough.experiment.people.count_things import Tally
+from seethrough.experiment.people.counting import seconds_to_count, slips
+from seethrough.experiment.people.fitted.profile import AVERAGE
+from seethrough.experiment.people.fitted.study_effects import plan_effects
+from seethrough.experiment.people.forms import Opinions
+from seethrough.experiment.people.hands import Hands
+from seethrough.experiment.people.name_letter import (
     FAR,
     FIT,
     _fit,
     _templates,
     letter_chances,
 )
-from seethrough.experiment.participants.person import Mood, Person
-from seethrough.experiment.participants.places import Known, apart, bearing, crossed, layout
-from seethrough.experiment.participants.profile import AVERAGE
-from seethrough.experiment.participants.walking import REACH, _nearby
-from seethrough.renderer import geometry
-from seethrough.renderer.visibility import Visibility
-from seethrough.tasks.building import unique_building
-from seethrough.tasks.events import PointerMove
-from seethrough.tasks.letters import LETTERS, letter_points
+from seethrough.experiment.people.person import Mood, Person
+from seethrough.experiment.people.sight.glance import likely, noticed, uncrowded
+from seethrough.experiment.people.sight.places import Known, apart, bearing, crossed, layout
+from seethrough.experiment.people.walking import REACH, _nearby
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.kit.events import PointerMove
+from seethrough.tasks.kit.letters import LETTERS, letter_points
 from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building import unique_building
 
 
 def mood(task="count", seed=1, without=(), care=1.0):

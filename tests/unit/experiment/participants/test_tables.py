@@ -7,14 +7,9 @@ import pytest
 from made_looks import random_look, same_look
 from numpy.testing import assert_allclose
 
-from seethrough.experiment.config import load
-from seethrough.experiment.design import generator
-from seethrough.experiment.participants.data_mode import play_session, play_trial
-from seethrough.experiment.participants.looks import KeptLooks
-from seethrough.experiment.participants.participant import SimulatedParticipant
-from seethrough.experiment.participants.places import AHEAD, STRIDES
-from seethrough.experiment.participants.pool import Pool, fingerprint
-from seethrough.experiment.participants.tables import (
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.runs.data_mode import play_session, play_trial
+from seethrough.experiment.people.runs.look_tables import (
     PITCHES,
     YAWS,
     TableEyes,
@@ -23,9 +18,14 @@ from seethrough.experiment.participants.tables import (
     walk_camera,
     walk_key,
 )
-from seethrough.renderer.visibility import Visibility
+from seethrough.experiment.people.runs.pool import Pool, fingerprint
+from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.people.sight.places import AHEAD, STRIDES
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import generator
+from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.controls import orbit, walk
+from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
@@ -121,7 +121,7 @@ def shown(level):
 
 
 def trial_of(study, task, level):
-    from seethrough.experiment.design import session_for
+    from seethrough.experiment.study.design import session_for
 
     sets = session_for(1, study.design.factors())
     return next(t for s in sets for t in s.trials if (t.task, t.transparency) == (task, level))

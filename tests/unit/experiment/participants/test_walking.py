@@ -7,17 +7,17 @@ import pytest
 from numpy.testing import assert_allclose
 from plain_trials import MODELS
 
-from seethrough.experiment.participants.effects import plan_effects
-from seethrough.experiment.participants.glance import CLEAR, Glance
-from seethrough.experiment.participants.person import Mood
-from seethrough.experiment.participants.places import crossed
-from seethrough.experiment.participants.profile import AVERAGE
-from seethrough.experiment.participants.sight import Sight, Thing
-from seethrough.experiment.participants.walking import Walker
-from seethrough.renderer.visibility import Visibility
-from seethrough.tasks.building import count_building
+from seethrough.experiment.people.fitted.profile import AVERAGE
+from seethrough.experiment.people.fitted.study_effects import plan_effects
+from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.sight.glance import CLEAR, Glance
+from seethrough.experiment.people.sight.places import crossed
+from seethrough.experiment.people.sight.sight import Sight, Thing
+from seethrough.experiment.people.walking import Walker
+from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building import count_building
 
 TASK = TASKS["count_in_building"]
 BUILDING = count_building(np.random.default_rng(1), BuildingParameters(), MODELS)

@@ -1,0 +1,1 @@
+"""Windows, framebuffers without one, and when events happened."""

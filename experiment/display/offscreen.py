@@ -1,0 +1,51 @@
+"""A display without a window: keeps the view and draws only when somebody looks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from seethrough.experiment.session.clock import Clock
+from seethrough.experiment.session.driver import describe
+from seethrough.experiment.session.looking import Looking
+from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.kit.base import View
+
+
+class OffscreenDisplay:
+    """Shows nothing to nobody; `look` tells what could be seen."""
+
+    def __init__(self, context: Any, size: tuple[int, int], clock: Clock) -> None:
+        self.size = size
+        self.clock = clock
+        self.looking = Looking(context, size, simple=True)
+        self._context = context
+        self._shown: View | None = None
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of the view."""
+        return self.size[0] / self.size[1]
+
+    def show(self, view: View, technique: Any) -> float:
+        """Keep the view; the time now."""
+        self._shown = view
+        self.looking.technique = technique
+        return self.clock.now()
+
+    def digest(self) -> str:
+        """Nothing is drawn for nobody."""
+        return ""
+
+    def progress(self, fraction: float) -> None:
+        """Nobody sees the progress line."""
+
+    def describe(self) -> Mapping[str, str]:
+        """Driver and size."""
+        return {**describe(self._context), "size": f"{self.size[0]}x{self.size[1]}", "window": "no"}
+
+    def look(self) -> Visibility:
+        """What can be seen in the view shown last. Raises RuntimeError before the first."""
+        if self._shown is None:
+            raise RuntimeError("nothing has been shown yet")
+        return self.looking.look(self._shown)

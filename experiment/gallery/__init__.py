@@ -1,0 +1,1 @@
+"""Pictures of every mode, mask, granularity and hard case."""

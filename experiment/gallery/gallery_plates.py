@@ -1,0 +1,36 @@
+"""A gallery is sections of plates: what a picture is of, and what is said about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from seethrough.renderer.plan.planner import Technique
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+
+DYNAMIC = DynamicTransparency()
+SIZE, LARGE = (400, 300), (800, 600)
+
+
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """One picture: its file name, what it shows in words, and how large it is drawn."""
+
+    name: str
+    caption: str
+    scene: Scene
+    camera: Camera
+    technique: Technique
+    size: tuple[int, int] = SIZE
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """Pictures under one heading, with a line about them; `refused` are inputs and the message
+    that each one got."""
+
+    title: str
+    about: str
+    plates: tuple[Plate, ...]
+    refused: tuple[tuple[str, str], ...] = field(default=())

@@ -1,0 +1,1 @@
+"""Which slot is whose, on one disk or in PostgreSQL."""

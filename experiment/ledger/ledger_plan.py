@@ -1,0 +1,54 @@
+"""What a ledger knows of its study, and how to tell two studies apart."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from seethrough.experiment.study.config import Study
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The study's name, digest and config; rows of the design, target number, seconds to stale."""
+
+    study: str
+    digest: str
+    rows: int
+    participants: int
+    stale_after: float
+    resolved: Mapping[str, Any]
+
+
+def plan_of(study: Study) -> Plan:
+    """The plan of a study's config."""
+    # Not above: a station that has its plan needs neither numpy nor the config.
+    from seethrough.experiment.study.design import williams_rows
+
+    rows = len(williams_rows(len(study.design.factors().conditions)))
+    table, stale_after = study.study, study.session.stale_after
+    digest, resolved = study.digest(), study.resolved()
+    return Plan(table.name, digest, rows, table.participants, stale_after, resolved)
+
+
+def difference(known: Plan, plan: Plan) -> str:
+    """Which key of the config is not as it was when the ledger began."""
+    old, new = _flat(known.resolved), _flat(plan.resolved)
+    key = next((k for k in sorted(old | new) if old.get(k) != new.get(k)), "study")
+    return (
+        f"{key} = {json.dumps(new.get(key))}: expected {json.dumps(old.get(key))}, as in the study "
+        f"that this ledger began with ({known.digest[:12]}); choose another folder with --data"
+    )
+
+
+def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            flat |= _flat(value, f"{prefix}{key}.")
+        else:
+            flat[prefix + key] = value
+    return flat

@@ -1,0 +1,1 @@
+"""What a participant reads and answers, and how it is drawn."""

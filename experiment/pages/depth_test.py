@@ -1,0 +1,138 @@
+"""The static depth test (004 §VI-G): a still of the building with dynamic transparency on, and
+three pairs of things in it: which is nearer?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture
+from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.design import STUDY_SCENES, generator
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Object
+from seethrough.renderer.scene.transforms import rotation_y
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.base import View
+from seethrough.tasks.parameters import BuildingParameters
+
+PAIRS = 3
+RATIO = 1.2  # the farther of a pair is at least this much farther: ours
+STREAM = (STUDY_SCENES, 99)
+MOST_SCENES = 60
+HEADINGS = 24
+SMALLEST = 0.08  # of half the picture's height: radius of a thing that can be recognised
+APART = 0.6  # of the sum of two radii: things that stand apart in the picture
+
+
+@dataclass(frozen=True, eq=False)
+class DepthTest:
+    """A still, and pairs of kinds in it, each with the position (0 or 1) of the nearer."""
+
+    view: View
+    pairs: tuple[tuple[str, str], ...]
+    nearer: tuple[int, ...]
+
+    def pages(self, technique: object) -> list[Page]:
+        """The picture once for each pair, large."""
+        picture = Picture(lambda: self.view, technique, height=0.56)
+        return [
+            Page(
+                f"depth test {n}",
+                "depth.title",
+                (
+                    picture,
+                    Choice(f"pair_{n}", "depth.question", tuple(f"kind.{kind}" for kind in pair)),
+                ),
+            )
+            for n, pair in enumerate(self.pairs)
+        ]
+
+    def right(self, number: int, answers: dict[str, str]) -> bool:
+        """Whether the answers of a pair's page (from 0) name the nearer one."""
+        return answers[f"pair_{number}"] == str(self.nearer[number])
+
+
+def depth_test(study: Study) -> DepthTest:
+    """The study's own test, the same for everybody. Raises ValueError if no scene shows six kinds.
+
+    Each kind in a pair occurs once in the picture, so that its name is enough to point at it, and
+    is large enough to be recognised. The window's shape plays no part: every picture on
+    a page has the same.
+    """
+    return _made(study.study.seed, study.walkthrough)
+
+
+@lru_cache(maxsize=4)
+def _made(seed: int, building: BuildingParameters) -> DepthTest:
+    task = TASKS["unique"]
+    for number in range(MOST_SCENES):
+        rng = generator(seed, (*STREAM, number))
+        scene = task.make_scene(rng, building)
+        shown = task.view(task.begin(rng, building, PICTURE_ASPECT, scene))
+        for camera in _around(shown.camera):
+            view = View(shown.scene, camera)
+            depths = _depths(view)
+            names = [str(name) for name in rng.permutation(sorted(depths))]
+            pairs = _pairs(names, depths)
+            if len(pairs) == PAIRS:
+                nearer = tuple(int(depths[a] > depths[b]) for a, b in pairs)
+                return DepthTest(view, pairs, nearer)
+    raise ValueError(f"walkthrough: expected a scene with {2 * PAIRS} kinds in one view")
+
+
+def _around(camera: Camera) -> list[Camera]:
+    """The start's view turned to every side."""
+    lens = {"fov_y": camera.fov_y, "near": camera.near, "far": camera.far}
+    turns = [rotation_y(2 * np.pi * k / HEADINGS)[:3, :3] for k in range(HEADINGS)]
+    return [Camera(camera.eye, turn @ camera.rotation, **lens) for turn in turns]
+
+
+def _depths(view: View) -> dict[str, float]:
+    """View depth of each kind that occurs just once in the picture, large, whole and by itself."""
+    things = [i for i, o in enumerate(view.scene.objects) if o.target]
+    centers = view.scene.centers[things]
+    kinds = np.array([view.scene.objects[i].kind for i in things])
+    depth = view.camera.depth(centers)
+    ahead = depth > view.camera.near
+    size = np.array([_radius(view.scene.objects[i]) for i in things]) / np.where(ahead, depth, 1)
+    size /= np.tan(view.camera.fov_y / 2)  # half-heights of the picture
+    place = on_picture(view.camera, centers)
+    shown = ahead & (np.abs(place) < [PICTURE_ASPECT * 1.15, 1.15]).all(axis=1)
+    whole = shown & (np.abs(place) + size[:, None] < [PICTURE_ASPECT, 1.0]).all(axis=1)
+    found = {}
+    for i in np.nonzero(whole & (size >= SMALLEST))[0]:
+        apart = np.linalg.norm(place - place[i], axis=1) >= APART * (size + size[i])
+        apart[i] = True
+        if apart[shown].all() and (kinds[shown] == kinds[i]).sum() == 1:
+            found[str(kinds[i])] = float(depth[i])
+    return found
+
+
+def _radius(thing: Object) -> float:
+    return thing.mesh.radius * float(np.linalg.norm(thing.transform[:3, 0]))
+
+
+def on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 2) places in half-heights of the picture from its middle."""
+    seen = (points - camera.eye) @ camera.rotation
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
+
+
+def _pairs(names: list[str], depths: dict[str, float]) -> tuple[tuple[str, str], ...]:
+    """Up to three disjoint pairs that differ clearly in depth."""
+    pairs: list[tuple[str, str]] = []
+    left = list(names)
+    while left and len(pairs) < PAIRS:
+        first = left.pop(0)
+        for other in left:
+            near, far = sorted((depths[first], depths[other]))
+            if far >= RATIO * near:
+                left.remove(other)
+                pairs.append((first, other))
+                break
+    return tuple(pairs)

@@ -1,0 +1,259 @@
+"""Draws what a page is made of: texts, scales, choices, fields and pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+
+from seethrough.experiment.pages.color_plates import Plate
+from seethrough.experiment.pages.form import Form
+from seethrough.experiment.pages.hud_drawing import (
+    ACCENT,
+    INK,
+    PAPER,
+    draw_mark,
+    draw_place,
+    draw_plan,
+    rgba,
+)
+from seethrough.experiment.pages.interface import Interface
+from seethrough.experiment.pages.pages import (
+    PICTURE_ASPECT,
+    Choice,
+    Paragraph,
+    Picture,
+    PlanPicture,
+    PlatePicture,
+    Scale,
+    TextField,
+)
+from seethrough.experiment.pages.texts import Texts
+from seethrough.tasks.kit.hud import Inset
+
+MOST_RADIOS = 10  # a scale of more steps is a slider
+COLORS = {
+    "accent": rgba(*ACCENT),
+    "ink": rgba(*INK),
+    "wrong": rgba(0.75, 0.07, 0.07),
+    "paper": rgba(*PAPER),
+    "pale": rgba(0.90, 0.93, 0.97),
+}
+
+
+class Blocks:
+    """Draws blocks one below the other; `unit` is the height of a screen, scaled, in pixels."""
+
+    def __init__(
+        self,
+        interface: Interface,
+        texts: Texts,
+        picture: Callable[[Picture, int, int], int],
+        inset: Callable[[int, Inset, float], int],
+    ) -> None:
+        self.interface = interface
+        self.texts = texts
+        self.picture = picture
+        self.inset = inset
+        self.on_slider = False  # whether the keyboard is on one
+
+    def draw(self, form: Form, unit: float, measured: bool) -> None:
+        """All of a form's blocks. `measured`: only their sizes are wanted."""
+        missing = form.missing if form.insisted else ()
+        for block in form.page.blocks:
+            named = getattr(block, "name", "")
+            marked = bool(named) and named in missing
+            top = imgui.get_cursor_screen_pos()
+            if marked and named == form.sought and not measured:
+                imgui.set_scroll_here_y(0.3)
+                form.sought = ""
+            self._block(block, form, unit, measured, marked)
+            if marked:
+                _bar(top, imgui.get_item_rect_max().y, unit)
+
+    def _block(self, block: object, form: Form, unit: float, measured: bool, marked: bool) -> None:
+        match block:
+            case Paragraph():
+                imgui.text_wrapped(self.texts.fill(block.text, block.values))
+            case Scale():
+                self._question(self.texts.fill(block.text, block.values), marked)
+                slider = block.steps > MOST_RADIOS
+                self._slider(block, form) if slider else self._radios(block, form)
+            case Choice():
+                if block.text:
+                    self._question(self.texts.get(block.text), marked)
+                self._choice(block, form)
+            case TextField():
+                self._question(self.texts.get(block.text), marked)
+                self._text_field(block, form, unit, measured)
+            case PlatePicture():
+                _plate(block.plate, 0.42 * unit, measured)
+            case PlanPicture():
+                self._plan(block, block.height * unit)
+            case Picture():
+                self._picture(block, int(block.height * unit), measured)
+
+    def _question(self, text: str, marked: bool) -> None:
+        if marked:
+            imgui.push_style_color(imgui.Col_.text, COLORS["wrong"])
+        imgui.text_wrapped(text)
+        if marked:
+            imgui.pop_style_color()
+
+    def _radios(self, scale: Scale, form: Form) -> None:
+        """A scale's steps between its ends; the ends above it where all do not fit in a line."""
+        low, high = self.texts.get(scale.low), self.texts.get(scale.high)
+        gap = imgui.get_style().item_spacing.x
+        step = imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x + gap
+        wide = scale.steps * (step + imgui.calc_text_size("9").x)
+        ends = imgui.calc_text_size(low).x + imgui.calc_text_size(high).x + 2 * gap
+        beside = wide + ends <= imgui.get_content_region_avail().x
+        if beside:
+            imgui.align_text_to_frame_padding()
+            imgui.text_disabled(low)
+        else:
+            _disabled_wrapped(f"0: {low}   {scale.steps - 1}: {high}")
+        for number in range(scale.steps):
+            if number or beside:
+                imgui.same_line()
+            chosen = form.answers.get(scale.name) == str(number)
+            if imgui.radio_button(f"{number}##{scale.name}", chosen):
+                form.answers[scale.name] = str(number)
+        if beside:
+            imgui.same_line()
+            imgui.text_disabled(high)
+
+    def _slider(self, scale: Scale, form: Form) -> None:
+        """A scale of many steps: unanswered until it was touched."""
+        low, high = self.texts.get(scale.low), self.texts.get(scale.high)
+        gap, room = imgui.get_style().item_spacing.x, imgui.get_content_region_avail().x
+        left = room - imgui.calc_text_size(low).x - imgui.calc_text_size(high).x - 2 * gap
+        beside = left >= 0.3 * room
+        if beside:
+            imgui.align_text_to_frame_padding()
+            imgui.text_disabled(low)
+            imgui.same_line()
+        else:
+            _disabled_wrapped(f"0: {low}   {scale.steps - 1}: {high}")
+        imgui.set_next_item_width(min(0.5 * room, left) if beside else room)
+        answered = scale.name in form.answers
+        value = int(form.answers.get(scale.name, (scale.steps - 1) // 2))
+        changed, value = imgui.slider_int(
+            f"##{scale.name}",
+            value,
+            0,
+            scale.steps - 1,
+            "%d" if answered else "?",
+            imgui.SliderFlags_.always_clamp,  # a number may be typed as well
+        )
+        if changed or imgui.is_item_activated():
+            form.answers[scale.name] = str(value)
+        self.on_slider |= imgui.is_item_focused() and self.interface.io.nav_visible
+        if beside:
+            imgui.same_line()
+            imgui.text_disabled(high)
+
+    def _choice(self, choice: Choice, form: Form) -> None:
+        """Options side by side where they fit, else one below the other."""
+        gap = imgui.get_frame_height() + 3 * imgui.get_style().item_spacing.x
+        widths = [imgui.calc_text_size(self.texts.get(o)).x + gap for o in choice.options]
+        beside = sum(widths) <= imgui.get_content_region_avail().x
+        for number, option in enumerate(choice.options):
+            if number and beside:
+                imgui.same_line(0, 2 * imgui.get_style().item_spacing.x)
+            chosen = form.answers.get(choice.name) == str(number)
+            if _option(self.texts.get(option), f"{choice.name}{number}", chosen):
+                form.answers[choice.name] = str(number)
+
+    def _text_field(self, field_: TextField, form: Form, unit: float, measured: bool) -> None:
+        """A field; beside one for a number stands what is wrong with it."""
+        name, text = f"##{field_.name}", form.answers.get(field_.name, "")
+        room = imgui.get_content_region_avail().x
+        if field_.lines == 1:
+            imgui.set_next_item_width(0.3 * room)
+            _, text = imgui.input_text(name, text)
+        else:
+            size = imgui.ImVec2(room, 0.05 * field_.lines * unit)
+            _, text = imgui.input_text_multiline(name, text, size)
+        form.answers[field_.name] = text
+        wrong = form.insisted and not field_.takes(text)
+        if wrong or (measured and field_.most is not None):
+            values = ((field_.name, text.strip()[:20]), ("most", str(field_.most)))
+            imgui.same_line()
+            imgui.push_style_color(imgui.Col_.text, COLORS["wrong"])
+            imgui.text_wrapped(self.texts.fill(field_.wrong, values))
+            imgui.pop_style_color()
+
+    def _picture(self, picture: Picture, high: int, measured: bool) -> None:
+        wide = round(high * PICTURE_ASPECT)
+        size = imgui.ImVec2(wide, high)
+        if measured:
+            imgui.dummy(size)
+            return
+        corner = imgui.get_cursor_screen_pos()
+        upside, down = imgui.ImVec2(0, 1), imgui.ImVec2(1, 0)  # row 0 of a texture is its lowest
+        imgui.image(imgui.ImTextureRef(self.picture(picture, wide, high)), size, upside, down)
+        lines = imgui.get_window_draw_list()
+        insets = [e for e in picture.view.hud if isinstance(e, Inset)]
+        for number, inset in enumerate(insets):
+            name, r = self.inset(number, inset, high), inset.rect
+            low = imgui.ImVec2(corner.x + r.x * high, corner.y + r.y * high)
+            far = imgui.ImVec2(low.x + r.width * high, low.y + r.height * high)
+            lines.add_image(imgui.ImTextureRef(name), low, far, upside, down)
+            lines.add_rect(low, far, rgba(0.55, 0.58, 0.62), thickness=2.0)
+
+    def _plan(self, picture: PlanPicture, side: float) -> None:
+        """The plan, and beside it what its signs mean."""
+        corner, lines = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
+        rect = picture.plan.rect
+        scale = side / rect.height
+        draw_plan(
+            lines, picture.plan, scale, (corner.x - rect.x * scale, corner.y - rect.y * scale)
+        )
+        imgui.dummy(imgui.ImVec2(rect.width * scale, side))
+        imgui.same_line()
+        imgui.begin_group()
+        radius, high = 0.018 * scale, imgui.get_text_line_height()
+        for text, draw_sign in (("plan.place", draw_place), ("plan.mark", draw_mark)):
+            at = imgui.get_cursor_screen_pos()
+            draw_sign(lines, imgui.ImVec2(at.x + 1.5 * radius, at.y + high / 2), radius)
+            imgui.dummy(imgui.ImVec2(3 * radius, high))
+            imgui.same_line()
+            imgui.text_wrapped(self.texts.get(text))
+        imgui.end_group()
+
+
+def _option(text: str, name: str, chosen: bool) -> bool:
+    """A circle and its words, which are wrapped where they are too long for a line."""
+    gap = imgui.get_style().item_inner_spacing.x
+    room = imgui.get_content_region_avail().x - imgui.get_frame_height() - gap
+    if imgui.calc_text_size(text).x <= room:
+        return bool(imgui.radio_button(f"{text}##{name}", chosen))
+    pressed = imgui.radio_button(f"##{name}", chosen)
+    imgui.same_line(0, gap)
+    imgui.align_text_to_frame_padding()
+    imgui.text_wrapped(text)
+    return bool(pressed or imgui.is_item_clicked())
+
+
+def _disabled_wrapped(text: str) -> None:
+    imgui.push_style_color(imgui.Col_.text, imgui.get_style_color_vec4(imgui.Col_.text_disabled))
+    imgui.text_wrapped(text)
+    imgui.pop_style_color()
+
+
+def _bar(top: imgui.ImVec2, bottom: float, unit: float) -> None:
+    """A bar in the margin, beside what is missing: not by colour alone."""
+    low = imgui.ImVec2(top.x - 0.022 * unit, top.y)
+    high = imgui.ImVec2(top.x - 0.014 * unit, bottom)
+    imgui.get_window_draw_list().add_rect_filled(low, high, COLORS["wrong"])
+
+
+def _plate(plate: Plate, side: float, measured: bool) -> None:
+    """A plate of dots at the cursor, `side` pixels wide."""
+    corner, dots = imgui.get_cursor_screen_pos(), imgui.get_window_draw_list()
+    if not measured:
+        for (x, y), radius, color in zip(plate.places, plate.radii, plate.colors, strict=True):
+            center = imgui.ImVec2(corner.x + x * side, corner.y + y * side)
+            dots.add_circle_filled(center, radius * side, rgba(*color), 20)
+    imgui.dummy(imgui.ImVec2(side, side))

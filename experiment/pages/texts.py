@@ -1,0 +1,72 @@
+"""Texts by key, from a language file; a study may replace any of them."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from importlib import resources
+from typing import Any
+
+from seethrough.experiment.errors import InputError, short, shown, unknown
+from seethrough.experiment.study.study_tables import languages
+
+
+class Texts:
+    """All texts of a session, in one language. Lookup of an unknown key raises KeyError."""
+
+    def __init__(self, language: str, replaced: Mapping[str, str] | None = None) -> None:
+        folder = resources.files("seethrough.experiment.pages")
+        file = folder.joinpath("languages", f"{language}.toml")
+        if not file.is_file():
+            raise InputError(
+                f"study.language = {shown(language)}: expected one of {', '.join(languages())}"
+            )
+        self._texts = _flat(tomllib.loads(file.read_text(encoding="utf-8")))
+        for key, text in (replaced or {}).items():
+            if key not in self._texts:
+                raise InputError(f"texts.{short(key)}: {self.unknown(key)}")
+            self._texts[key] = text
+
+    def __getitem__(self, key: str) -> str:
+        return self._texts[key]
+
+    def get(self, key: str) -> str:
+        """The text, or the key itself for what needs no translation: letters, numbers, the names
+        of a study's own models."""
+        return self._texts.get(key, key.removeprefix("kind."))
+
+    def fill(self, key: str, values: Iterable[tuple[str, str | float]] = ()) -> str:
+        """The text with its {placeholders} filled; values that are keys are looked up too."""
+        text = self.get(key)
+        for name, value in values:
+            shown = self.get(value) if isinstance(value, str) else self.number(value)
+            text = text.replace("{" + name + "}", shown)
+        return text
+
+    def number(self, value: float) -> str:
+        """A measured number as people write it: from ten on without a fraction."""
+        digits = 1 if round(abs(value), 1) < 10 else 0
+        return f"{value:.{digits}f}".replace(".", self["decimal"])
+
+    def unknown(self, key: str) -> str:
+        """What to say of a text that there is not: those of its table, or the tables."""
+        table = key.partition(".")[0]
+        known = [k for k in self._texts if k.partition(".")[0] == table]
+        tables = dict.fromkeys(k.partition(".")[0] for k in self._texts)
+        return unknown(
+            key, known or (f"{t}.…" if t not in self._texts else t for t in tables), "text"
+        )
+
+    def keys(self) -> frozenset[str]:
+        """Every key there is."""
+        return frozenset(self._texts)
+
+
+def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
+    flat: dict[str, str] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            flat |= _flat(value, f"{prefix}{key}.")
+        else:
+            flat[prefix + key] = value
+    return flat

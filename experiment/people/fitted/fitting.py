@@ -1,0 +1,198 @@
+"""Fitting: a profile whose times come near the published ones.
+
+Every evaluation uses the same random streams, trial by trial, so that profiles differ and luck
+does not. Means come first: times are nearly proportional to the pace.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
+from math import exp, log
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.special import ndtri
+from scipy.stats.qmc import Halton
+
+from seethrough.experiment.people.fitted.calibration import (
+    FITTED,
+    TimeMeasure,
+    measured,
+    misfit,
+    published,
+    residuals,
+)
+from seethrough.experiment.people.fitted.profile import Profile
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.person import TRAITS
+from seethrough.experiment.people.runs.data_mode import play_trial
+from seethrough.experiment.people.runs.pool import Pool
+from seethrough.experiment.study.design import SIMULATED, generator, session_for
+
+Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
+
+# What may be fitted, each within a factor of the starting profile's value.
+FREE = {
+    "pace": 3.0,  # decisions: all mental times
+    "recheck": 4.0,  # thoroughness: telling a thing as counted already
+    "patience": 3.0,  # thoroughness: views without news before a count is believed
+    "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
+    "trust": 1.6,  # caution: how far a view through walls is believed
+    "trust_cloud": 2.4,  # caution: patience saved by seeing things through others, up to .96
+    "sd_person": 4.0,
+    "sd_task": 4.0,
+    "sd_trial": 4.0,
+    "sd_care": 4.0,
+    "sd_task_walking": 4.0,
+    "sd_trial_walking": 4.0,
+}
+STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
+PACES = 1  # evaluations that correct the pace alone
+STEPS = 6  # evaluations of the larger crowd, once its derivatives are there
+LAST = 1 + len(FREE) + STEPS  # all evaluations of the larger crowd
+LOOSE = 1.0  # logarithm of the factor by which a constant may move for one tolerance of misfit
+
+
+class Crowd:
+    """The same people playing a study in data mode again and again, with one profile or another.
+
+    They are spread evenly over what people are like (a scrambled Halton sequence), not drawn: a
+    few very slow people more or less would move a standard deviation by a tenth. Scenes and tables
+    are those of `pool`, which draws what it lacks.
+    """
+
+    def __init__(self, seed: int, count: int, pool: Pool) -> None:
+        self.seed, self.slots = seed, range(1, count + 1)
+        self.study, self.pool = pool.study, pool
+        even = Halton(TRAITS, seed=generator(seed, (SIMULATED,)))
+        self.traits = ndtri(even.random(count))
+
+    def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, Any]]:
+        """Who, which task and level, and how long: every trial of `tasks`, after its training.
+
+        What is drawn on the way is kept person by person: an interrupted fit goes on with it.
+        """
+        rows = []
+        for slot in self.slots:
+            person = SimulatedParticipant(
+                generator(self.seed, (SIMULATED, slot)), profile, traits=self.traits[slot - 1]
+            )
+            for task_set in session_for(slot, self.study.design.factors()):
+                if task_set.trials[0].task not in tasks:
+                    continue
+                for trial in task_set.training:
+                    play_trial(person, self.pool, trial)
+                for trial in task_set.trials:
+                    time = play_trial(person, self.pool, trial)[0].time
+                    rows.append(
+                        {"participant": slot, "task": trial.task,
+                         "transparency": trial.transparency, "time": time}
+                    )  # fmt: skip
+            self.pool.looks.flush()
+        return rows
+
+
+def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
+    """The profile with its free constants scaled by exp(x), within their bounds."""
+    changes = {}
+    for (name, factor), value in zip(FREE.items(), x, strict=True):
+        scale = exp(float(np.clip(value, -log(factor), log(factor))))
+        changes[name] = getattr(profile, name) * scale
+    for share in ("diligence", "trust", "trust_cloud"):
+        changes[share] = min(changes[share], 1.0)
+    return replace(profile, **changes)
+
+
+class _Search:
+    """Evaluations of one crowd: the best so far, and all of them told to `say`."""
+
+    def __init__(self, start: Profile, play: Play, say: Callable[[float], None]) -> None:
+        self.start, self.play, self.say = start, play, say
+        self.value, self.best, self.x = np.inf, start, np.zeros(len(FREE))
+        self.count = 0
+
+    def found(self, x: NDArray[np.float64]) -> dict[str, TimeMeasure]:
+        """What the crowd does with the constants at `x`."""
+        profile = with_free(self.start, x)
+        simulated = measured(self.play(profile))
+        value = misfit(simulated)
+        self.count += 1
+        if value < self.value:
+            self.value, self.best, self.x = value, profile, np.array(x)
+        self.say(self.value)
+        return simulated
+
+    def residuals(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Tolerances off; and how far the constants have moved, so that none moves for nothing."""
+        return np.concatenate([residuals(self.found(x)), x / LOOSE])
+
+
+def calibrate(
+    start: Profile,
+    play: Play,
+    evaluations: int,
+    say: Callable[[float], None] = lambda value: None,
+    last: Play | None = None,
+) -> tuple[Profile, float]:
+    """The best profile found in about so many evaluations of `play`, and its misfit.
+
+    First the pace is corrected by how far the fitted means are off; where there are evaluations
+    for derivatives, scipy's least squares (trust region reflective) moves all of `FREE`, with
+    derivatives over `STEP`. Then a larger crowd (`last`) corrects what was peculiar to the first
+    one: `STEPS` with its own derivatives, which change little from one to the next.
+    """
+    search = _Search(start, play, say)
+    x = np.zeros(len(FREE))
+    if evaluations - PACES <= len(FREE):  # too few for derivatives: the pace alone
+        for _ in range(evaluations):
+            x[0] -= _too_slow(search.found(x))
+        return search.best, float(search.value)
+    for _ in range(PACES):
+        x[0] -= _too_slow(search.found(x))
+    _least_squares(search.residuals, x, (evaluations - search.count) // (1 + len(FREE)))
+    if last is not None:
+        x, search = search.x, _Search(start, last, say)
+        _least_squares(search.residuals, x, STEPS, _slopes(search.residuals, x))
+    return search.best, float(search.value)
+
+
+def _too_slow(simulated: Mapping[str, TimeMeasure]) -> float:
+    """By how much the fitted means are too long: the mean logarithm of their ratios."""
+    ratios = [
+        ours / theirs
+        for task in FITTED
+        for ours, theirs in zip(simulated[task].means, published()[task].means, strict=True)
+    ]
+    return float(np.mean(np.log(ratios)))
+
+
+def _slopes(
+    found: Callable[[NDArray[np.float64]], NDArray[np.float64]], x: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(residuals, constants) forward differences of `found` at `x`."""
+    here = found(x)
+    return np.stack([(found(x + step) - here) / STEP for step in STEP * np.eye(len(x))], axis=1)
+
+
+def _least_squares(
+    found: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    x: NDArray[np.float64],
+    steps: int,
+    slopes: NDArray[np.float64] | None = None,
+) -> None:
+    """Go down from `x` in so many steps, with new derivatives in each unless `slopes` are given."""
+    bounds = np.log(list(FREE.values()))
+    # Its steps of derivation are shares of x: those of 1 + x are about `STEP` everywhere.
+    least_squares(
+        lambda z: found(z - 1),
+        np.clip(x, -0.99 * bounds, 0.99 * bounds) + 1,
+        jac="2-point" if slopes is None else lambda z: slopes,
+        bounds=(1 - bounds, 1 + bounds),
+        diff_step=STEP,
+        max_nfev=max(1, steps),
+        xtol=0.01,
+        ftol=0.01,
+    )

@@ -1,0 +1,100 @@
+"""A simulated participant: sees what the display shows, answers with the events of a person.
+
+It knows what is on the view: the texts of the HUD, and of the scene only what `look` reports as
+visible strongly enough. It is a tool for planning studies, never evidence about people.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterable
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+from numpy.random import Generator as Random
+from numpy.typing import NDArray
+
+from seethrough.experiment.pages.pages import Page
+from seethrough.experiment.people.code_hash import code_sha256
+from seethrough.experiment.people.count_red import count_red
+from seethrough.experiment.people.count_things import count_things
+from seethrough.experiment.people.find_unique import find_unique
+from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
+from seethrough.experiment.people.fitted.study_effects import EffectUse, checked
+from seethrough.experiment.people.forms import Opinions
+from seethrough.experiment.people.name_letter import name_letter
+from seethrough.experiment.people.person import Mood, Person, mood_for
+from seethrough.experiment.people.sight.glance import Glance
+from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.kit.base import View
+from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease
+
+STRATEGIES: dict[str, Callable[[Mood, Glance], Generator[list[Event], Glance, None]]] = {
+    "count": count_red,
+    "pattern": name_letter,
+    "unique": find_unique,
+    "count_in_building": count_things,
+}
+
+
+class SimulatedParticipant:
+    """Sits through a session: `begin_trial`, then `events` again and again; `answer` for pages."""
+
+    def __init__(
+        self,
+        rng: Random,
+        profile: Profile = AVERAGE,
+        without: Iterable[str] = (),
+        traits: NDArray[np.float64] | None = None,
+    ) -> None:
+        self.person = Person(rng, profile, checked(without), traits)
+        self.opinions = Opinions(self.person)
+        self.effects: dict[str, EffectUse] = {}
+        self._strategy: Generator[list[Event], Glance, None] | None = None
+        self._task, self._began = "", 0.0
+        self._mood: Mood | None = None
+
+    def about(self, seed: int) -> dict[str, Any]:
+        """What a sidecar says of it, so that anybody can simulate it again."""
+        return {
+            "simulation_seed": seed,
+            "profile": asdict(self.person.profile),
+            "without": sorted(self.person.without),
+            "code": code_sha256(),
+        }
+
+    def begin_trial(self, task: str, now: float) -> None:
+        """Meet a new trial. Raises ValueError for a task nobody has taught it."""
+        if task not in STRATEGIES:
+            raise ValueError(f"task = {task}, expected one of {', '.join(STRATEGIES)}")
+        self._mood = mood_for(self.person, task, now)
+        self.effects = self._mood.effects
+        self._strategy = None
+        self._task, self._began = task, now
+        self.opinions.begin(task)
+
+    def events(
+        self, view: View, look: Callable[[], Visibility], now: float, task: str
+    ) -> list[Event]:
+        """What it does next, at times from `now` on. It may think first: the times say so."""
+        glance = Glance(view, look, now)
+        if self._strategy is None:
+            self._strategy = STRATEGIES[task](self._begun(task, now), glance)
+            return next(self._strategy)
+        try:
+            events = self._strategy.send(glance)
+        except StopIteration:
+            # The answer did not count (a key lost, a limit changed): press enter again.
+            events = [KeyPress(now + 1.0, "enter"), KeyRelease(now + 1.1, "enter")]
+        self.opinions.spent(self._task, events[-1].time - self._began)
+        return events
+
+    def answer(self, page: Page) -> tuple[dict[str, str], float]:
+        """Read and fill in a page: answers by name, and the seconds it took."""
+        return self.opinions.answer(page)
+
+    def _begun(self, task: str, now: float) -> Mood:
+        if self._mood is None or self._task != task:
+            self.begin_trial(task, now)
+        assert self._mood is not None
+        return self._mood

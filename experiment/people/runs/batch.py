@@ -1,0 +1,143 @@
+"""Many participants in data mode: chunks of slots, played by any worker, handed over in order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from seethrough.experiment.people.code_hash import code_sha256
+from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
+from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Slots, render
+from seethrough.experiment.people.runs.data_mode import Played, play_session
+from seethrough.experiment.people.runs.look_tables import views_of
+from seethrough.experiment.people.runs.pool import Pool, drawing
+from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.design import Trial, session_for
+from seethrough.experiment.workers import ordered_map
+from seethrough.tasks.catalog import TASKS
+
+
+@dataclass(frozen=True)
+class Batch:
+    """What a worker needs to know; everything in it can be sent to another process."""
+
+    study: str
+    seed: int
+    pool: int
+    tables: Path | None = None
+    profile: Profile = AVERAGE
+    without: frozenset[str] = frozenset()
+    draws: bool = True
+    code: str = field(default_factory=code_sha256)  # of the process that began the run
+
+    def about(self, study: Study) -> dict[str, Any]:
+        """The sidecar of every chunk: what the rows depend on."""
+        return {
+            "mode": "data: decisions from visibility tables; a tool for planning, never evidence",
+            "source": "simulated",
+            "provenance": {
+                "study": study.resolved(),
+                "study_sha256": study.digest(),
+                "seed": study.study.seed,
+                "versions": {name: metadata.version(name) for name in ("seethrough", "numpy")},
+                "simulation_seed": self.seed,
+                "profile": asdict(self.profile),
+                "without": sorted(self.without),
+                "pool": self.pool,
+                "code": self.code,
+            },
+        }
+
+
+_ready: dict[str, Any] = {}  # this process's study and pool: made once by `prepare`
+
+
+def prepare(batch: Batch, study: Study | None = None, tables: bytes = b"") -> None:
+    """Make this process ready for `play_chunk`.
+
+    `study` and the content of the tables' file are given where their files are on another machine.
+    """
+    study = study or load(batch.study)
+    looks = KeptLooks(batch.tables, tables)
+    pool = (drawing if batch.draws else Pool)(study, batch.pool, looks=looks)
+    _ready.update(batch=batch, study=study, pool=pool)
+
+
+def play_chunk(slots: Sequence[int], profile: Profile | None = None) -> list[dict[str, Any]]:
+    """Rows of the trial table of these slots, in order; `profile` instead of the batch's."""
+    return [row for played in _sessions(slots, profile) for row in played.trials]
+
+
+def play_files(slots: Slots) -> Chunk:
+    """The same as the files of a chunk, questionnaires included.
+
+    What was drawn on the way is in the tables' file, or in the chunk where there is no such file.
+    """
+    batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    chunk = render(batch.about(study), study, slots, _sessions(slots))
+    drawn = pool.looks.flush()
+    return chunk if batch.tables is not None else replace(chunk, looks=drawn)
+
+
+def _sessions(slots: Sequence[int], profile: Profile | None = None) -> list[Played]:
+    batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    person = profile or batch.profile
+    return [play_session(study, s, batch.seed, pool, person, batch.without) for s in slots]
+
+
+def in_chunks(slots: Sequence[int]) -> list[tuple[int, ...]]:
+    """What one worker plays at a time."""
+    return [tuple(slots[i : i + CHUNK]) for i in range(0, len(slots), CHUNK)]
+
+
+def play(batch: Batch, slots: Sequence[int], workers: int) -> Iterator[list[dict[str, Any]]]:
+    """Rows chunk by chunk, the same whatever the number of workers."""
+    return ordered_map(play_chunk, in_chunks(slots), workers, prepare, (batch,))
+
+
+def keep_tables() -> None:
+    """Write what this process has drawn into the tables' file."""
+    _ready["pool"].looks.flush()
+
+
+def fill(batch: Batch, progress: Any = None) -> None:
+    """Draw what the tables lack of every abstract scene of the pool.
+
+    Each scene is drawn from the viewpoints that a participant of this profile looks from. What was
+    drawn is kept scene by scene: who is interrupted goes on there.
+    """
+    prepare(batch)
+    study, pool = _ready["study"], _ready["pool"]
+    aspect = study.display.width / study.display.height
+    for trial in abstract_trials(study):
+        for which in range(batch.pool):
+            view = TASKS[trial.task].view(pool.world(trial, which, aspect))
+            eyes = pool.eyes(view.scene, trial.transparency)
+            for camera in views_of(trial.task, view.camera):
+                eyes.look(view.scene, camera)
+            pool.looks.flush()
+            if progress is not None:
+                progress.step(f"{trial.task} {trial.transparency}")
+
+
+def make_worlds() -> None:
+    """Make every world of this process's pool now, instead of when somebody first plays in it."""
+    batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    aspect = study.display.width / study.display.height
+    for trial in abstract_trials(study):
+        for which in range(batch.pool):
+            pool.world(trial, which, aspect)
+
+
+def abstract_trials(study: Study) -> list[Trial]:
+    """One trial of each abstract task at each transparency level."""
+    trials = {}
+    for task_set in session_for(1, study.design.factors()):
+        trial = task_set.trials[0]
+        if trial.scenario == "abstract":
+            trials[trial.task, trial.transparency] = trial
+    return list(trials.values())

@@ -1,0 +1,90 @@
+"""A run of data mode: tables made, participants simulated, results written as they come."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from pathlib import Path
+
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.people.runs import batch as b
+from seethrough.experiment.people.runs.batch_files import Chunk, Results, Slots
+from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.session.progress import Progress
+from seethrough.experiment.study.config import Study, find, load
+from seethrough.experiment.workers import ordered_map
+
+
+def run(
+    job: b.Batch, out: Path, count: int, workers: int = 1, scheduler: str | None = None
+) -> None:
+    """Simulate what `out` lacks of `count` participants. Raises InputError.
+
+    The numbers are the same whoever simulates: this process, `workers` of them, or the Dask
+    cluster of a scheduler. KeptLooks that nobody had drawn before are added to the tables' file.
+    """
+    assert job.tables is not None
+    study = load(job.study)
+    if scheduler is not None:
+        _check_models(job, study)
+    if job.tables.exists():
+        KeptLooks(job.tables).close()  # a file that holds something else is refused before anything
+    with Results(out, study, job.about(study)) as results:
+        chunks = results.missing(count)
+        if results.note:
+            print(results.note, file=sys.stderr)
+        if not chunks:
+            print(f"{out}: all {count} participants are there", file=sys.stderr)
+            return
+        make_tables(job, min(count, b.CHUNK))
+        with (
+            Progress("simulating", sum(map(len, chunks))) as progress,
+            closing(KeptLooks(job.tables)) as tables,
+        ):
+            for chunk in _played(job, chunks, workers, scheduler):
+                results.add(chunk)
+                tables.add(chunk.looks)  # of machines that share no disk with this one
+                progress.step(f"S{chunk.slots[-1]:02d}", len(chunk.slots))
+
+
+def _check_models(job: b.Batch, study: Study) -> None:
+    """Workers of a cluster share no disk with this machine, where a study's own models lie."""
+    own = [model.name for model in study.walkthrough.models]
+    if own:
+        raise InputError(
+            f"{find(job.study)}: walkthrough.models = {own}: expected none with --scheduler, whose "
+            "workers have no files of this machine: use --workers"
+        )
+
+
+def make_tables(job: b.Batch, walkers: int) -> bool:
+    """Draw every abstract viewpoint, and of the buildings those that so many people look from.
+
+    False where the tables' file says that this was done before. A building has too many viewpoints
+    to draw them all beforehand.
+    """
+    study = load(job.study)
+    what = f"{study.digest()}, {job.pool} scenes a task"
+    with closing(KeptLooks(job.tables)) as looks:
+        if looks.is_filled(what, walkers):
+            return False
+        worlds = len(b.abstract_trials(study)) * job.pool
+        with Progress("making tables", worlds + walkers) as progress:
+            b.fill(job, progress)
+            for slot in range(1, walkers + 1):
+                b.play_chunk([slot])
+                b.keep_tables()
+                progress.step(f"buildings, S{slot:02d}")
+        looks.mark_filled(what, walkers)
+    return True
+
+
+def _played(
+    job: b.Batch, chunks: Sequence[Slots], workers: int, scheduler: str | None
+) -> Iterator[Chunk]:
+    if scheduler is not None:
+        from seethrough.experiment.people.runs import cluster
+
+        return cluster.play(job, chunks, scheduler)
+    return ordered_map(b.play_files, chunks, workers, b.prepare, (job,))

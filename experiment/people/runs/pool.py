@@ -1,0 +1,139 @@
+"""Scenes for data mode, made once: a pool of abstract worlds for each task, the study's buildings.
+
+Every abstract trial draws its world from the pool by its own stream; buildings are those of the
+study, the same for everybody, as in the real session.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from typing import Any
+
+import numpy as np
+
+from seethrough.experiment.people.runs.look_tables import Draw, TableEyes
+from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.design import STUDY_SCENES, Trial, generator
+from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.base import Task, View
+
+SIMPLE = "simple models, "  # what tables were looked at with
+POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
+
+
+class Pool(StudyScenes):
+    """Scenes by name, and their visibility tables by scene and transparency level, in `looks`.
+
+    `draw(level)` makes the function that draws for a level; without it only what the tables hold
+    can be looked at. A pool of no worlds plays every trial in its own, as the real session does.
+    """
+
+    def __init__(
+        self, study: Study, size: int, draw: Any = None, looks: KeptLooks | None = None
+    ) -> None:
+        if size < 0:
+            raise ValueError(f"pool = {size}: expected at least 1 scene a task, 0 for the study's")
+        super().__init__(study)
+        self.size, self._draw = size, draw
+        self.looks = looks or KeptLooks()
+        self._scenes: dict[str, Any] = {}
+        self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, its scenario
+        self._draws: dict[str, Draw | None] = {}
+        self._eyes: dict[tuple[int, str], TableEyes] = {}
+
+    def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
+        """The first state of a trial."""
+        rng = generator(self.study.study.seed, trial.stream)
+        stream = trial.stream
+        if trial.scenario == "abstract" and self.size:
+            stream = self._stream(trial.task, int(rng.integers(self.size)))
+        return self._begun(task, trial, aspect, stream)
+
+    def world(self, trial: Trial, which: int, aspect: float) -> Any:
+        """As `begin`, in the pool's world number `which` of an abstract task."""
+        stream = self._stream(trial.task, which)
+        return self._begun(TASKS[trial.task], trial, aspect, stream)
+
+    def look(self, view: View, level: str) -> Visibility:
+        """What is seen in a view of one of the pool's scenes, at a transparency level."""
+        return self.eyes(view.scene, level).look(view.scene, view.camera)
+
+    def eyes(self, scene: Scene, level: str) -> TableEyes:
+        """Eyes for one of the pool's scenes at a transparency level."""
+        key = (id(scene), level)
+        if key not in self._eyes:
+            self._eyes[key] = self._open(scene, level)
+        return self._eyes[key]
+
+    def _stream(self, task: str, which: int) -> tuple[int, ...]:
+        return (STUDY_SCENES, POOL, sorted(TASKS).index(task), which)
+
+    def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> Any:
+        study = self.study
+        parameters: Any = study.abstract if trial.scenario == "abstract" else study.walkthrough
+        name = f"{trial.task}-" + "-".join(map(str, stream))
+        if name not in self._scenes:
+            made = task.make_scene(generator(study.study.seed, stream), parameters)
+            self._scenes[name] = made
+            self._names[id(getattr(made, "scene", made))] = (name, trial.scenario)
+        rng = generator(study.study.seed, trial.stream)
+        return task.begin(rng, parameters, aspect, self._scenes[name])
+
+    def _open(self, scene: Scene, level: str) -> TableEyes:
+        name, scenario = self._names[id(scene)]
+        table = f"{name}-{fingerprint(scene, self.study.dynamic, window_of(self.study))}/{level}"
+        if level not in self._draws:
+            self._draws[level] = None if self._draw is None else self._draw(level)
+        return TableEyes(self.looks, table, len(scene.objects), scenario, self._draws[level])
+
+
+def drawing(study: Study, size: int, looks: KeptLooks | None = None) -> Pool:
+    """A pool that draws what its tables lack, in the study's window's shape."""
+    return Pool(study, size, LazyDraw(study), looks)
+
+
+def window_of(study: Study) -> tuple[int, int]:
+    """(width, height) in pixels of the window that people would look at."""
+    return (study.display.width, study.display.height)
+
+
+def fingerprint(scene: Scene, technique: object, window: tuple[int, int]) -> str:
+    """What a table depends on besides its viewpoints: objects, their meshes, the technique, and the
+    window, whose pixels the technique counts."""
+    digest = hashlib.sha256(f"{SIMPLE}{technique!r}, {window[0]} × {window[1]}".encode())
+    digest.update((np.round(scene.transforms, 6) + 0.0).astype("<f8").tobytes())
+    for thing in scene.objects:
+        digest.update(f"{thing.kind},{thing.color},{len(thing.mesh.triangles)};".encode())
+    return digest.hexdigest()[:12]
+
+
+class LazyDraw:
+    """`draw` for a pool: looks as `Looking` has them, in the study's window.
+
+    The context is made when something must be drawn for the first time.
+    """
+
+    def __init__(self, study: Study) -> None:
+        self.study = study
+        self._looking: Any = None
+
+    def __call__(self, level: str) -> Draw:
+        """What draws for a transparency level."""
+        from seethrough.renderer.techniques.standard.opaque import Standard
+
+        technique = self.study.dynamic if level == "dynamic" else Standard()
+        return lambda scene, camera: self._look(scene, camera, technique)
+
+    def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:
+        if self._looking is None:
+            from seethrough.experiment.session.driver import open_context
+            from seethrough.experiment.session.looking import Looking
+
+            self._looking = Looking(open_context(), window_of(self.study), simple=True)
+        self._looking.technique = technique
+        return self._looking.look(View(scene, camera))

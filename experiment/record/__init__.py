@@ -1,0 +1,1 @@
+"""What is recorded, how it stays whole, and who may read it."""

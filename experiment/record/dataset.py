@@ -1,0 +1,60 @@
+"""Psych-DS: the file that says what a data folder holds."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.private import make_folder, write_new
+
+FILE = "dataset_description.json"
+
+
+def describe_dataset(data: Path, study: str) -> None:
+    """Make the folder and its description, or check that it is this study's. Raises InputError."""
+    path = data / FILE
+    columns = {c.name: c for table in TABLES.values() for c in table}
+    content = description(
+        study, f"Trials and questionnaires of the study {study}, recorded by Seethrough.", columns
+    )
+    try:
+        make_folder(data)
+        if not path.exists():
+            write_new(path, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+    except FileExistsError:
+        pass  # another station described it first: checked below
+    except OSError as error:
+        raise InputError(f"{data}: cannot be written: {error.strerror}") from None
+    _check_name(path, study)
+
+
+def description(study: str, text: str, columns: Mapping[str, Column]) -> dict[str, Any]:
+    """Global metadata of a dataset with these columns."""
+    return {
+        "@context": "https://schema.org",
+        "@type": "Dataset",
+        "name": study,
+        "description": text,
+        "variableMeasured": [
+            {
+                "@type": "PropertyValue",
+                "name": name,
+                "description": c.description,
+                **({"unitText": c.unit} if c.unit else {}),
+            }
+            for name, c in columns.items()
+        ],
+    }
+
+
+def _check_name(path: Path, study: str) -> None:
+    try:
+        name = json.loads(path.read_text(encoding="utf-8"))["name"]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        raise InputError(f"{path}: expected a JSON object with the study's name") from None
+    if name != study:
+        raise InputError(f"{path}: name = {name!r}: expected {study!r}; choose another folder")

@@ -1,0 +1,56 @@
+"""Makes the data dictionary of data/README.md from the columns."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from seethrough.experiment.record.columns import TABLES, Column
+
+README = Path(__file__).resolve().parents[2] / "data" / "README.md"
+BEGIN = (
+    "<!-- made by `python -m seethrough.experiment.record.dictionary`: "
+    "change experiment/record/columns.py, not this -->"
+)
+END = "<!-- end of what is made -->"
+
+
+def _row(column: Column) -> str:
+    """A line of the table: levels belong to the meaning."""
+    levels = f": {', '.join(f'`{level}`' for level in column.levels)}" if column.levels else ""
+    return f"| `{column.name}` | {column.type} | {column.unit} | {column.description}{levels} |"
+
+
+def dictionary() -> str:
+    """Markdown: a heading and a table for each table that the recorder writes."""
+    parts = []
+    for name, columns in TABLES.items():
+        head = [f"## `…_{name}_data.csv`", "", "| column | type | unit | meaning |"]
+        parts.append("\n".join([*head, "| --- | --- | --- | --- |", *map(_row, columns)]))
+    return "\n\n".join(parts)
+
+
+def with_dictionary(text: str) -> str:
+    """`text` with what stands between the two marks made anew.
+
+    Raises ValueError where a mark is missing: the rest of the file is written by hand.
+    """
+    before, begin, rest = text.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not (begin and end):
+        raise ValueError(f"data/README.md: expected the marks {BEGIN} and {END}")
+    return f"{before}{BEGIN}\n\n{dictionary()}\n\n{END}{after}"
+
+
+def main() -> int:
+    """Write data/README.md anew; exit status 2 where it has no marks."""
+    try:
+        README.write_text(with_dictionary(README.read_text("utf-8")), "utf-8")
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""What happens in a session, from its first page to its last."""

@@ -1,0 +1,74 @@
+"""Names of the graphics driver, for records."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+from seethrough.experiment.errors import InputError
+
+SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software")  # rasterisers on the processor
+INSTEAD = "`seethrough simulate` plays a study, `seethrough render` draws"
+AUTOMATIC = 4  # samples where a graphics card draws
+
+
+def describe(context: Any) -> Mapping[str, str]:
+    """Vendor, renderer and version of a context's OpenGL."""
+    info = context.info
+    return {
+        "vendor": info["GL_VENDOR"],
+        "renderer": info["GL_RENDERER"],
+        "opengl": info["GL_VERSION"],
+    }
+
+
+def samples_for(wanted: str | int, context: Any) -> int:
+    """Samples a pixel: as the study says, or by what draws. 4 × costs a software rasteriser some
+    20 ms a frame at 800 × 600, a graphics card next to nothing."""
+    if isinstance(wanted, int):
+        return wanted
+    return 0 if on_the_processor(context) else AUTOMATIC
+
+
+def on_the_processor(context: Any) -> bool:
+    """Whether a software rasteriser draws."""
+    renderer = context.info["GL_RENDERER"].lower()
+    return any(name in renderer for name in SOFTWARE)
+
+
+def open_context() -> Any:
+    """A context without a window. Raises InputError, one line, where there is no OpenGL."""
+    from seethrough.renderer.gpu.device.context import (
+        standalone,
+    )  # here: who only names drivers needs no OpenGL
+
+    try:
+        return standalone()
+    except RuntimeError as error:
+        raise InputError(str(error)) from None
+
+
+def no_window(error: Exception, instead: str = INSTEAD) -> InputError:
+    """What to say, and to do instead, where no window can be opened."""
+    said = " ".join(str(error).split())
+    if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
+        said = "DISPLAY is not set"
+    return InputError(
+        f"display: no window can be opened ({said}); expected to be started from a terminal on a "
+        f"desktop; without one, {instead}"
+    )
+
+
+def window_context() -> Any:
+    """The context of the window that was opened last. Raises InputError, one line, without one."""
+    import moderngl
+
+    try:
+        return moderngl.create_context(require=330)
+    except Exception as error:  # glcontext raises bare Exception
+        said = str(error).strip().partition("\n")[0]
+        raise InputError(
+            f"display: OpenGL 3.3 is not available in a window ({said}), expected a graphics driver"
+        ) from None

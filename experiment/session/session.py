@@ -1,0 +1,152 @@
+"""The state machine of a session. Knows Protocols only: the same code runs in the window,
+offscreen, and in tests.
+
+    welcome → consent, demographics, colour check → for each task set: its instruction,
+    training, trials (a break between conditions) → questionnaire → thanks
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from seethrough.experiment.display.display import DisplayLost, Leave
+from seethrough.experiment.pages import questionnaire
+from seethrough.experiment.pages.pages import Page, Paragraph, Picture, PlanPicture, Values
+from seethrough.experiment.pages.questionnaire import Given, Step
+from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.trial import TrialRun
+from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.design import TaskSet, Trial, session_for
+from seethrough.tasks.parameters import METRES
+
+
+class TimeIsUp(Leave):
+    """The session's own time limit ended it."""
+
+
+def run_session(
+    study: Study,
+    slot: int,
+    world: World,
+    done: frozenset[int] = frozenset(),
+    given: Given | None = None,
+) -> str:
+    """Run a slot's session: `complete`, `left` or `time limit`. Raises DisplayLost.
+
+    Trials numbered in `done` are not played again, and what was answered in `given` is not asked
+    again (experiment/session/resume.py).
+    """
+    status = "left"
+    try:
+        _run(study, slot, world, done, given or {})
+        status = "complete"
+    except TimeIsUp:
+        status = "time limit"
+    except DisplayLost:
+        status = "display lost"
+        raise
+    except Leave:
+        pass  # the caller and the record are told by the status
+    finally:
+        world.recorder.close(status)
+    return status
+
+
+def _run(study: Study, slot: int, world: World, done: frozenset[int], given: Given) -> None:
+    start = world.clock.now()
+    task_sets = session_for(slot, study.design.factors())
+    total = sum(len(s.trials) for s in task_sets)
+    world.display.progress(len(done) / total)
+    world.input.ask(_page("welcome"))
+    if not done:
+        _ask(questionnaire.before(study, slot), world, given)
+    run = TrialRun(study, world)
+    block = None
+    for task_set in task_sets:
+        remaining = tuple(t for t in task_set.trials if t.number not in done)
+        if not remaining:
+            continue
+        if block not in (None, remaining[0].block):
+            world.input.ask(_page("pause"))
+        block = remaining[0].block
+        _run_task_set(study, TaskSet(task_set.training, remaining), task_sets, run)
+        if _over(world.clock.now() - start, study.session.session_limit):
+            world.input.ask(_page("time"))
+            raise TimeIsUp
+    _ask(questionnaire.after(study), world, given)
+    world.input.ask(_page("thanks"))
+
+
+def _ask(steps: Iterator[Step], world: World, given: Given) -> None:
+    """Each page's answers are on disk before the next page is shown."""
+    for rows in questionnaire.asked(steps, world.input, given):
+        world.recorder.answers(rows)
+
+
+def _page(name: str) -> Page:
+    return Page(name, f"{name}.title", (Paragraph(f"{name}.text"),))
+
+
+def _run_task_set(
+    study: Study, task_set: TaskSet, task_sets: tuple[TaskSet, ...], run: TrialRun
+) -> None:
+    world = run.world
+    total = sum(len(s.trials) for s in task_sets)
+    world.input.ask(_instruction(task_set.trials[0], len(task_sets), run))
+    _train(study, task_set, run)
+    for trial in task_set.trials:
+        again = True
+        while again:
+            record = run.play(trial, study.session.trial_limit)
+            world.recorder.trial_ends(record)
+            world.progress(record)
+            again = record.repeat
+        world.display.progress(trial.number / total)
+
+
+def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
+    """The training trials, each with feedback, until the study's limit."""
+    world, limit = run.world, study.session.training_limit
+    began = world.clock.now()
+    for trial in task_set.training:
+        left = limit - (world.clock.now() - began)
+        if limit and left <= 0:
+            break
+        record = run.play(trial, left if limit else 0.0)
+        world.input.ask(_feedback(record))
+    if task_set.training:
+        world.input.ask(_page("ready"))
+
+
+def _instruction(trial: Trial, total: int, run: TrialRun) -> Page:
+    values = (("set", str(trial.task_set)), ("sets", str(total)))
+    return Page(
+        "instruction",
+        f"{trial.task}.title",
+        (
+            Paragraph(f"{trial.task}.instruction"),
+            Paragraph(f"{trial.scenario}.controls"),
+            Paragraph(f"transparency.{trial.transparency}"),
+            Picture(partial(run.preview, trial), run.technique(trial)),
+            Paragraph("progress", values),
+        ),
+        ("begin",),
+    )
+
+
+def _feedback(record: TrialRecord) -> Page:
+    outcome = record.outcome
+    if outcome is None:
+        return Page("feedback", "feedback.title", (Paragraph("feedback.time"),))
+    values: Values = (("answer", outcome.answer), ("truth", outcome.truth))
+    text = "feedback.right" if outcome.correct else "feedback.wrong"
+    if outcome.distance is not None:
+        text = "feedback.distance" if outcome.correct else "feedback.other_room"
+        values = (("distance", METRES * outcome.distance),)
+    pictures = () if record.solution is None else (PlanPicture(record.solution),)
+    return Page("feedback", "feedback.title", (Paragraph(text, values), *pictures))
+
+
+def _over(passed: float, limit: float) -> bool:
+    return bool(limit) and passed > limit

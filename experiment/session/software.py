@@ -1,0 +1,54 @@
+"""What a session's sidecar says about how it came about."""
+
+from __future__ import annotations
+
+import hashlib
+import platform
+from collections.abc import Mapping
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from seethrough.experiment.study.config import Study
+
+PACKAGES = ("seethrough", "moderngl", "pyglet", "numpy", "imgui-bundle", "pydantic")
+
+
+OURS = ("experiment", "tasks", "renderer")  # what a session runs
+ROOT = Path(__file__).parents[2]
+
+
+@cache
+def program_sha256(root: Path = ROOT) -> str:
+    """SHA-256 of the program's files and their names: a version number stays while code changes."""
+    digest = hashlib.sha256()
+    for path in sorted(p for package in OURS for p in (root / package).rglob("*.py")):
+        digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def provenance(study: Study, display: Mapping[str, str], **more: Any) -> dict[str, Any]:
+    """Config as resolved and its hash, versions, machine, display, seeds."""
+    return {
+        "study": study.resolved(),
+        "study_sha256": study.digest(),
+        "seed": study.study.seed,
+        "program_sha256": program_sha256(),
+        "versions": {name: metadata.version(name) for name in PACKAGES},
+        "python": platform.python_version(),
+        "system": f"{platform.system()} {platform.release()} {platform.machine()}",
+        "display": dict(display),
+        **more,
+    }
+
+
+def changed_since(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    """What of the program is not as in an earlier session: `name: old, now new`."""
+    parts = {"program": "program_sha256", "python": "python"}
+    old = {name: str(before.get(key, "unknown"))[:12] for name, key in parts.items()}
+    new = {name: str(now.get(key, "unknown"))[:12] for name, key in parts.items()}
+    was, is_ = dict(before.get("versions", {})), dict(now.get("versions", {}))
+    for name in sorted(was.keys() | is_.keys()):
+        old[name], new[name] = was.get(name, "not there"), is_.get(name, "not there")
+    return [f"{name}: {old[name]}, now {new[name]}" for name in old if old[name] != new[name]]

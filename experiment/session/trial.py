@@ -1,0 +1,291 @@
+"""One trial: from its stream to a scored record."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from math import acos, dist, inf
+from typing import Any, TypeGuard
+
+from seethrough.experiment.display.display import Leave
+from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, Paragraph, TextField
+from seethrough.experiment.session import viewpoint
+from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.techniques.standard.opaque import Standard
+from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.events import (
+    Event,
+    FocusChange,
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerRelease,
+    Tick,
+)
+from seethrough.tasks.kit.hud import Inset, practice_mark
+
+# A frame that took this many display periods was missed (issue: over 1.5 periods).
+MISSED = 1.5
+DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares, closer at the start:
+DIGEST_SOONEST = 0.25  # so that a short trial has some too
+
+MEANT = ("escape", "f1")  # keys that are for the session, whenever they were pressed
+POINTER = "pointer"  # the left button, among the keys that are down
+
+LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
+MENU = Page(
+    "menu",
+    "menu.title",
+    (TextField("note", "menu.note"),),
+    ("menu.on", "menu.repeat", "menu.leave"),
+)
+
+
+class _Watch:
+    """Counts frames and what the viewer's movement adds up to."""
+
+    def __init__(self, period: float) -> None:
+        self.period = period
+        self.frames = 0
+        self.missed = 0
+        self.worst = 0.0
+        self.path = 0.0
+        self.turned = 0.0
+        self._time: float | None = None
+        self._camera: Camera | None = None
+        self._eye: list[float] = []
+        self._back: list[float] = []  # the camera's third axis: it looks the other way
+
+    def frame(self, time: float, view: View) -> None:
+        self.frames += 1
+        if self._time is not None:
+            took = time - self._time
+            self.worst = max(self.worst, took)
+            self.missed += took > MISSED * self.period
+        camera = view.camera
+        if camera is not self._camera:
+            eye, back = camera.eye.tolist(), camera.rotation[:, 2].tolist()
+            if self._camera is not None:
+                (a, b, c), (d, e, f) = back, self._back
+                self.path += dist(eye, self._eye)
+                self.turned += acos(min(1.0, max(-1.0, a * d + b * e + c * f)))
+            self._camera, self._eye, self._back = camera, eye, back
+        self._time = time
+
+    @property
+    def seen(self) -> bool:
+        """Whether a frame is on the screen: not before the first one, nor after a page."""
+        return self._time is not None
+
+    def pause(self) -> None:
+        """The next frame comes after a page: its distance to the last one is not a missed frame."""
+        self._time = None
+
+
+class TrialRun:
+    """Plays trials of a study in a world."""
+
+    def __init__(self, study: Study, world: World) -> None:
+        self.study = study
+        self.world = world
+        self.scenes = world.scenes or StudyScenes(study)
+
+    def technique(self, trial: Trial) -> Any:
+        """What the trial's transparency level draws with."""
+        return self.study.dynamic if trial.transparency == "dynamic" else Standard()
+
+    def begin(self, trial: Trial) -> Any:
+        """The task's first state, from the trial's own stream."""
+        task = self.world.tasks[trial.task]
+        return self.scenes.begin(task, trial, self.world.display.aspect)
+
+    def preview(self, trial: Trial) -> View:
+        """What the instruction page shows: a scene of the task that is no trial's scene, seen from
+        where it shows what is asked for."""
+        example = self.scenes.example(trial)
+        task, state = self.world.tasks[trial.task], self.begin(example)
+        view = task.view(state)
+        camera = viewpoint.best(view.scene, task.example(state, PICTURE_ASPECT))
+        return View(view.scene, camera, tuple(e for e in view.hud if isinstance(e, Inset)))
+
+    def play(self, trial: Trial, limit: float) -> TrialRecord:
+        """Run one trial to its confirmed answer or its limit (seconds; 0: none). Raises Leave."""
+        world = self.world
+        state = world.waiting(partial(self.begin, trial))
+        running = Running(self, trial, state, limit)
+        world.recorder.trial_begins(trial)
+        world.input.begin_trial(trial.task, trial.training)
+        running.show()
+        while not running.ended:
+            for event in map(running.admitted, world.input.events(running.view)):
+                if event is None:
+                    continue
+                world.recorder.event(event)
+                if running.take(event):
+                    break
+            if not running.ended:
+                running.show()
+        return running.record()
+
+
+def _interrupts(event: Event) -> TypeGuard[KeyPress]:
+    return isinstance(event, KeyPress) and event.key in MEANT
+
+
+class Running:
+    """A trial while it runs."""
+
+    def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
+        self._world, self._task = run.world, run.world.tasks[trial.task]
+        self._technique = run.technique(trial)
+        self._trial, self._state, self._limit = trial, state, limit
+        self._watch = _Watch(run.world.period or 1.0 / run.study.display.refresh)
+        self.first = self._confirmed = self._since = 0.0
+        self._first_within = self._within = 0.0
+        self._down: set[str] = set()  # pressed in this trial and not released
+        self._early = 0
+        self._digested = -inf
+        self._away = self._counted = 0.0  # what was away, and up to when a page's time is in it
+        self._lost_focus: float | None = None
+        self._outcome: Outcome | None = None
+        self._timed_out = self._repeat = False
+        self._marks = (practice_mark(run.world.display.aspect),) if trial.training else ()
+        self.view = self._viewed()
+
+    @property
+    def ended(self) -> bool:
+        """Whether there is an answer, the time is over, or the trial is to be repeated."""
+        return self._outcome is not None or self._timed_out or self._repeat
+
+    def _viewed(self) -> View:
+        """What the task shows now; all through a practice trial, with a mark that says so."""
+        view = self._task.view(self._state)
+        return replace(view, hud=(*view.hud, *self._marks)) if self._marks else view
+
+    def show(self) -> None:
+        """Show the view as it is now and note the frame."""
+        self.view = self._viewed()
+        flip = self._world.display.show(self.view, self._technique)
+        if self._watch.frames == 0:
+            self.first, self._first_within = flip, self._world.flip_within()
+        if not self._watch.seen:
+            self._since = flip
+        self._watch.frame(flip, self.view)
+        after = min(DIGEST_EVERY, max(DIGEST_SOONEST, (flip - self.first) / 4))
+        due = flip - self._digested >= after
+        digest = self._world.display.digest() if due else ""
+        self._digested = flip if due else self._digested
+        self._world.recorder.frame(flip, self.view, digest)
+
+    def admitted(self, event: Event) -> Event | None:
+        """The event as far as the trial has to do with it, None if it came from before.
+
+        What was pressed before the first frame, or while a page lay over the trial, answers
+        nothing, and neither does what may have been. Nor do the releases and drags that follow.
+        """
+        if _interrupts(event) or isinstance(event, Tick | FocusChange):
+            return event
+        if isinstance(event, KeyRelease | PointerRelease):
+            key = event.key if isinstance(event, KeyRelease) else POINTER
+            known = key in self._down
+            self._down.discard(key)
+            return event if known else None
+        if event.time < self._since:
+            self._early += not isinstance(event, PointerMove)
+            return None
+        if isinstance(event, PointerMove):
+            stale = event.dragging and POINTER not in self._down
+            return replace(event, dragging=False) if stale else event
+        self._down.add(event.key if isinstance(event, KeyPress) else POINTER)
+        return event
+
+    def take(self, event: Event) -> bool:
+        """Let an event change the trial; whether that ended or interrupted it. Raises Leave."""
+        self._confirmed, self._within = max(event.time, self.first), 0.0
+        if _interrupts(event):
+            self._interrupt(event)
+            return True
+        if isinstance(event, FocusChange):
+            self._focus(event)
+            return False
+        if not isinstance(event, Tick):
+            self._within = event.within
+        state = self._task.on_event(self._state, event)
+        if state is not self._state:
+            self._state, self._outcome = state, self._task.outcome(state)
+        over = bool(self._limit) and event.time - self.first >= self._limit
+        self._timed_out = over and self._outcome is None
+        return self.ended
+
+    def _focus(self, event: FocusChange) -> None:
+        if not event.focused:
+            self._lost_focus = max(event.time, self.first, self._counted)
+        elif self._lost_focus is not None:
+            self._away += max(event.time - self._lost_focus, 0.0)
+            self._lost_focus = None
+
+    def _interrupt(self, event: KeyPress) -> None:
+        """Esc asks whether to leave, F1 opens the experimenter's menu; both stop the clean time."""
+        before, handled = max(event.time, self.first), self._world.clock.now()
+        if event.key == "escape":
+            if self._world.input.ask(LEAVE)["button"] == "1":
+                raise Leave
+        else:
+            answers = self._world.input.ask(MENU)
+            if answers.get("note"):
+                self._world.recorder.note(self._trial, answers["note"])
+            if answers["button"] == "2":
+                raise Leave
+            self._repeat = answers["button"] == "1"
+        if self._repeat:
+            self._confirmed = handled
+        else:
+            self._go_on(before, self._world.clock.now())
+
+    def _go_on(self, before: float, now: float) -> None:
+        """After a page: its time counts once, and what was down came up on it."""
+        self._away += now - before
+        if self._lost_focus is not None:
+            self._away += before - self._lost_focus
+            self._lost_focus = now
+        self._counted = now
+        self._watch.pause()
+        up: list[Event] = [
+            PointerRelease(before, 0.0, 0.0, now - before)
+            if key == POINTER
+            else KeyRelease(before, key, now - before)
+            for key in sorted(self._down)
+        ]
+        self._down.clear()
+        # No tick of now: what came in under the page may not be dispatched yet.
+        for event in (*up, Tick(before)):
+            self._world.recorder.event(event)
+            self.take(event)
+
+    def record(self) -> TrialRecord:
+        """What became of the trial; the frame it ended on is noted with its digest."""
+        watch = self._watch
+        self._world.recorder.frame(self._confirmed, self.view, self._world.display.digest())
+        lost = 0.0 if self._lost_focus is None else max(self._confirmed - self._lost_focus, 0.0)
+        return TrialRecord(
+            trial=self._trial,
+            outcome=self._outcome,
+            targets=int(self.view.scene.targets.sum()),
+            first_frame=self.first,
+            confirmed=self._confirmed,
+            away=self._away + lost,
+            timed_out=self._timed_out,
+            frames=watch.frames,
+            frames_missed=watch.missed,
+            worst_frame=watch.worst,
+            path_length=watch.path,
+            turned=watch.turned,
+            repeat=self._repeat,
+            solution=self._task.solution(self._state) if self._trial.training else None,
+            within=self._first_within + self._within,
+            early=self._early,
+        )

@@ -1,0 +1,1 @@
+"""What a study file says, checked, and who gets what of it."""

@@ -1,0 +1,184 @@
+"""The keys of a study file as they are declared: for messages, and the reference docs/keys.md.
+
+`python -m seethrough.experiment.study.keys` writes the reference anew.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import sys
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel
+
+from seethrough.experiment.errors import shown
+from seethrough.experiment.study.study_tables import (
+    AnalysisTable,
+    DesignTable,
+    DisplayTable,
+    MarginsTable,
+    SessionTable,
+    StudyTable,
+)
+from seethrough.renderer.declared import Key, allowed, declared
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
+
+REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "keys.md"
+REQUIRED = object()
+
+# Table of a study file → what declares its keys, and what the reference says above them.
+TABLES: dict[str, tuple[Any, str]] = {
+    "study": (StudyTable, "What the study is."),
+    "design": (DesignTable, "What is crossed, and how often."),
+    "abstract": (AbstractParameters, "The world of T1 and T2, and the orbit about it."),
+    "walkthrough": (
+        BuildingParameters,
+        "The building of T3 and T4, and the walk through it. One world unit is half a metre.",
+    ),
+    "walkthrough.models": (
+        OwnModel,
+        "A model of the study's own, a table `[[walkthrough.models]]` each.",
+    ),
+    "dynamic": (DynamicTransparency, 'The technique of transparency level "dynamic".'),
+    "display": (DisplayTable, "The window, and what it promises."),
+    "session": (SessionTable, "Limits, pages, and what becomes of a broken-off session."),
+    "analysis": (AnalysisTable, "What is decided before anybody is invited."),
+    "analysis.margins": (
+        MarginsTable,
+        "Differences that would not matter; a measure without one has none.",
+    ),
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class StudyKey:
+    """A key of a study file: where it stands, what it may be (`allowed`, in words), what it is
+    without being set (REQUIRED: it has to be), its unit and its meaning."""
+
+    table: str
+    name: str
+    allowed: str
+    default: Any
+    unit: str
+    meaning: str
+
+
+@cache
+def keys_of(table: str) -> dict[str, StudyKey]:
+    """Name → key of a table."""
+    declares = TABLES[table][0]
+    parameters = dataclasses.is_dataclass(declares)
+    found = _of_parameters(table, declares) if parameters else _of_model(table, declares)
+    return {key.name: key for key in found}
+
+
+def _of_parameters(table: str, cls: Any) -> Iterator[StudyKey]:
+    hints = get_type_hints(cls)
+    defaults = {f.name: f.default for f in dataclasses.fields(cls)}
+    for name, said in declared(cls).items():
+        default = REQUIRED if defaults[name] is dataclasses.MISSING else defaults[name]
+        yield StudyKey(table, name, allowed(hints[name], said), default, said.unit, said.meaning)
+
+
+def _of_model(table: str, model: Any) -> Iterator[StudyKey]:
+    for name, field in model.model_fields.items():
+        more = field.json_schema_extra or {"unit": "", "said": ""}
+        inner = f"{table}.{name}"
+        may = f"a table, [{inner}]" if inner in TABLES else more["said"] or _allowed(field)
+        default = REQUIRED if field.is_required() else field.default
+        yield StudyKey(table, name, may, default, more["unit"], field.description or "")
+
+
+def _allowed(field: Any) -> str:
+    """What a field of pydantic's may be, from its type and its limits."""
+    hint = field.annotation
+    if get_origin(hint) is Literal:
+        return f"one of {_choices(hint)}"
+    if get_origin(hint) is tuple:
+        inner = get_args(hint)[0]
+        listed = get_origin(inner) is Literal
+        return f"an array of {f'some of {_choices(inner)}, each once' if listed else 'texts'}"
+    limits: dict[str, Any] = {}
+    for limit in field.metadata:
+        limits |= {n: getattr(limit, n) for n in ("ge", "gt", "le", "lt") if hasattr(limit, n)}
+    low, high = limits.get("ge", limits.get("gt")), limits.get("le", limits.get("lt"))
+    words, optional, none = allowed(hint, Key("", low=low, high=high)).partition(", or no such")
+    if low is not None and high is None:
+        words += f" from {low:g}"
+    above = [f"above {low:g}"] if "gt" in limits else []
+    below = [f"below {high:g}"] if "lt" in limits else []
+    return ", ".join([words, *([" and ".join(above + below)] if above or below else [])]) + (
+        optional + none
+    )
+
+
+def _choices(hint: Any) -> str:
+    return ", ".join(shown(choice) for choice in get_args(hint))
+
+
+def reference() -> str:
+    """docs/keys.md."""
+    parts = [_HEAD]
+    for table, (_, about) in TABLES.items():
+        double = table == "walkthrough.models"
+        head = f"## `[[{table}]]`" if double else f"## `[{table}]`"
+        columns = ("| key | may be | default | unit | meaning |", "| --- | --- | --- | --- | --- |")
+        rows = map(_row, keys_of(table).values())
+        parts.append("\n".join([head, "", about, "", *columns, *rows]))
+    return "\n\n".join([*parts, _TAIL])
+
+
+def _row(key: StudyKey) -> str:
+    default = "required" if key.default is REQUIRED else _default(key.default)
+    return f"| `{key.name}` | {key.allowed} | {default} | {key.unit} | {key.meaning} |"
+
+
+def _default(value: Any) -> str:
+    if isinstance(value, BaseModel):
+        return "its keys'"
+    if value is None:
+        return "none"
+    if isinstance(value, float):
+        return f"`{value:.6g}`" if value != int(value) else f"`{value:.1f}`"
+    if isinstance(value, tuple):
+        return f"`[{', '.join(shown(v) for v in value)}]`"
+    return f"`{shown(value)}`"
+
+
+_HEAD = """# The keys of a study file
+
+Made by `python -m seethrough.experiment.study.keys` from what the code declares: change the
+declaration, not this page. A study file is TOML, in UTF-8; `seethrough check FILE --config-only`
+reads it and names every fault. What is not set has its default, which is that of the published
+study."""
+
+_TAIL = """## `[texts]`
+
+Any text that participants read, by its name in `experiment/pages/languages/en.toml`,
+table and key with
+a dot between: `"welcome.text" = "Hello."` An unknown name is refused.
+
+## When is an answer right?
+
+The column `correct` of a trial says it (data/README.md):
+
+- T1 `count` and T4 `count_in_building`: the number is exactly the true one.
+- T2 `pattern`: the letter is the one that the red cones form.
+- T3 `unique`: the mark lies in the same room as the thing. Rooms differ in size, so a mark may be
+  right at 9 world units from the thing, or wrong at 1 where a wall lies between; how far it is off
+  stands in `distance`.
+"""
+
+
+def main() -> int:
+    """Write the reference anew."""
+    REFERENCE.write_text(reference(), "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

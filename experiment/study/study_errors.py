@@ -1,0 +1,90 @@
+"""What is wrong with a study file, in words: a line each, every fault at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from seethrough.experiment.errors import MOST, InputError, gathered, short, shown, unknown
+from seethrough.experiment.study.keys import TABLES, keys_of
+from seethrough.experiment.study.parameter_tables import MISSING, Fault
+
+SECTIONS = (*(t for t in TABLES if "." not in t), "texts")
+
+
+def study_error(error: ValidationError, table: Mapping[str, Any], file: str) -> InputError:
+    """All that pydantic found in a study's table, as lines: file: key = value: what was expected.
+
+    Of very many faults the words are made for the first ones only.
+    """
+    faults = list(_faults(error.errors(include_url=False), table))
+    lines = [f"{file}: {_line(fault)}" for fault in islice(faults, MOST)]
+    return gathered(lines, len(faults) - len(lines))
+
+
+def _line(fault: Fault) -> str:
+    where, _, name = fault.key.rpartition(".")
+    if fault.known:
+        # Names that are no names at all are shown, not compared.
+        return f"{_name(where, name)} = {shown(fault.value)}: {unknown(name, fault.known)}"
+    if fault.value is MISSING:
+        return f"{fault.key}: missing, expected {fault.expected}"
+    return f"{_name(where, name)} = {shown(fault.value)}: expected {fault.expected}"
+
+
+def _name(where: str, name: str) -> str:
+    return f"{where}.{short(name)}" if where else short(name)
+
+
+def _faults(errors: Sequence[ErrorDetails], table: Mapping[str, Any]) -> Iterator[Fault]:
+    items = {error["loc"][:2] for error in errors if len(error["loc"]) > 2}
+    for error in errors:
+        if error["loc"] in items:
+            continue  # too short an array, of which the wrong items do not count
+        where, *rest = error["loc"]
+        section = str(where)
+        if error["type"] == "faults":
+            for fault in error["ctx"]["found"]:
+                yield fault._replace(key=f"{section}.{fault.key}")
+        elif section not in SECTIONS:
+            yield Fault(section, error["input"], known=SECTIONS)
+        elif not rest or not isinstance(table.get(section), Mapping):
+            missing = error["type"] == "missing"
+            yield Fault(section, MISSING if missing else table[section], f"a table, [{section}]")
+        elif section == "texts":
+            yield Fault(f"texts.{rest[0]}", error["input"], "text")
+        else:
+            yield _of_key(section, rest, error)
+
+
+def _of_key(section: str, rest: Sequence[int | str], error: ErrorDetails) -> Fault:
+    """A fault of a key of one of the session's own tables, or of an item of its array."""
+    if len(rest) > 1 and f"{section}.{rest[0]}" in TABLES:
+        return _of_key(f"{section}.{rest[0]}", rest[1:], error)
+    name, item = str(rest[0]), next((n for n in rest[1:] if isinstance(n, int)), None)
+    keys = keys_of(section)
+    if name not in keys:
+        return Fault(f"{section}.{name}", error["input"], known=tuple(keys))
+    where = f"{section}.{name}" + ("" if item is None else f"[{item}]")
+    if error["type"] == "missing":
+        return Fault(where, MISSING, keys[name].allowed)
+    return Fault(where, error["input"], _expected(error, keys[name].allowed, item is not None))
+
+
+def _expected(error: ErrorDetails, allowed: str, item: bool) -> str:
+    """A validator's own words, an item's choices, or what is declared of the key."""
+    if error["type"] == "value_error":
+        return error["msg"].removeprefix("Value error, ")
+    if item and error["type"] == "literal_error":
+        return str(error["ctx"]["expected"]).replace("'", '"')
+    if item:
+        return "text"
+    sizes = {"too_short": "at least", "too_long": "at most"}
+    if error["type"] in sizes:
+        bound = error["ctx"].get("min_length", error["ctx"].get("max_length"))
+        return f"{allowed}, {sizes[error['type']]} {bound}"
+    return allowed

@@ -1,0 +1,36 @@
+"""The scenes of a study: abstract ones from the trial's own stream, buildings made once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
+from seethrough.tasks.kit.base import Task
+
+
+class StudyScenes:
+    """Begins trials; keeps the building scenes of the study, which are the same for everybody."""
+
+    def __init__(self, study: Study) -> None:
+        self.study = study
+        self._buildings: dict[tuple[int, ...], Any] = {}
+
+    def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
+        """The first state of a trial."""
+        rng = generator(self.study.study.seed, trial.stream)
+        if trial.scenario == "abstract":
+            return task.begin(rng, self.study.abstract, aspect)
+        if trial.stream not in self._buildings:
+            self._buildings[trial.stream] = task.make_scene(rng, self.study.walkthrough)
+        return task.begin(rng, self.study.walkthrough, aspect, self._buildings[trial.stream])
+
+    def example(self, trial: Trial) -> Trial:
+        """A trial like this one whose scene no trial of the study uses: for instructions."""
+        return replace(
+            trial,
+            stream=(*trial.stream[:-1], 2 * TRAINING_TRIAL),
+            scene="example",
+            training=True,
+        )

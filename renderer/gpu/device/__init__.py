@@ -1,0 +1,1 @@
+"""The context, its programs, and what is kept on it."""

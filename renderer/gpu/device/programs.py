@@ -1,0 +1,62 @@
+"""Shader programs, from the files in renderer/shaders."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import moderngl
+
+from seethrough.renderer.scene import lighting
+
+
+@cache
+def _source(name: str) -> str:
+    return files("seethrough.renderer").joinpath("shaders", name).read_text(encoding="utf-8")
+
+
+class Shader:
+    """A program whose uniforms are looked up once, and set when they change: each costs a draw."""
+
+    def __init__(self, program: moderngl.Program) -> None:
+        self.program = program
+        self.members = {name: program[name] for name in program}
+        self._values: dict[str, object] = {}
+
+    def set(self, **values: object) -> None:
+        """Set uniforms, leaving out those that the compiler found unused."""
+        for name, value in values.items():
+            if name in self.members and self._values.get(name) != value:
+                self.members[name].value = value  # type: ignore[union-attr]
+                self._values[name] = value
+
+    def __getitem__(self, name: str) -> moderngl.Uniform:
+        return self.members[name]  # type: ignore[return-value]
+
+
+def program(
+    context: moderngl.Context,
+    vertex: str,
+    fragment: str,
+    defines: Sequence[str] = (),
+    version: int = 330,
+    values: Mapping[str, Any] | None = None,
+) -> Shader:
+    """Build a program; `shade()` of renderer.lighting is known to the fragment shader. Both files
+    are templates if `values` are given."""
+    head = f"#version {version} core\n" + "".join(f"#define {d}\n" for d in defines)
+    sources = [_source(n) if values is None else _filled_in(n, values) for n in (vertex, fragment)]
+    return Shader(
+        context.program(
+            vertex_shader=head + sources[0],
+            fragment_shader=head + lighting.glsl() + sources[1],
+        )
+    )
+
+
+def _filled_in(name: str, values: Mapping[str, Any]) -> str:
+    from jinja2 import Environment  # for the few frames that need it
+
+    return Environment(line_statement_prefix="%").from_string(_source(name)).render(values)

@@ -1,0 +1,131 @@
+"""A scene on the GPU: one row of a texture for each object, uploaded when the scene changes."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.gpu.device.meshes import GpuMesh, MeshStore
+from seethrough.renderer.gpu.device.reused import kept
+from seethrough.renderer.plan.coverage import Triangles, triangles
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+
+Run = tuple[GpuMesh, int, int]  # a mesh, its first row in the sequence, how many instances
+
+
+class SceneTable:
+    """The objects of one scene, and the sequence in which a frame draws them."""
+
+    def __init__(self, context: moderngl.Context, store: MeshStore, scene: Scene) -> None:
+        self.scene, self.outlines = scene, store.outlines
+        n = len(scene.objects)
+        linear = scene.transforms[:, :3, :3]
+        mirrored = np.linalg.det(linear) < 0
+        slots: dict[int, int] = {}
+        self.meshes: list[GpuMesh] = []
+        self.slot = np.zeros(n, dtype=np.int64)
+        for i, thing in enumerate(scene.objects):
+            mesh = store.get(thing.mesh, bool(mirrored[i]))
+            if id(mesh) not in slots:
+                slots[id(mesh)] = len(self.meshes)
+                self.meshes.append(mesh)
+            self.slot[i] = slots[id(mesh)]
+        self.inverse = np.linalg.inv(linear)
+        sizes = [len(o.mesh.triangles) for o in scene.objects]
+        self.first_triangle = np.cumsum([0, *sizes])
+        rows = np.zeros((max(n, 1), 4, 4), dtype="f4")
+        rows[:n, :3, :3] = linear
+        rows[:n, 3, :3] = np.array([o.color for o in scene.objects]).reshape(n, 3)
+        self.table = _texture(context, (4, max(n, 1)))
+        self.table.write(rows.tobytes())
+        self._points: dict[tuple[int, ...], tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
+        self._context = context
+        self._sequence = kept(_texture(context, (2, max(n, 1))))
+
+    @cached_property
+    def triangles(self) -> Triangles:
+        """All triangles of the scene."""
+        return triangles(self.scene)
+
+    def points(self, objects: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """(p, 3) the points of the objects' meshes, and which rows are each object's (k, 2)."""
+        slots = self.slot[objects]
+        key = tuple(np.unique(slots).tolist())
+        if key not in self._points:
+            parts = [self.meshes[slot].topology.points for slot in key]
+            ends = np.cumsum([0, *(len(p) for p in parts)])
+            rows = np.zeros((len(self.meshes), 2), np.int64)
+            rows[list(key)] = np.stack([ends[:-1], ends[1:]], axis=1)
+            self._points[key] = np.concatenate([*parts, np.zeros((0, 3))]), rows
+        points, rows = self._points[key]
+        return points, rows[slots]
+
+    def turned(
+        self, objects: NDArray[np.int64], camera: Camera
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Turns (k, 3, 3) and moves (k, 3) of objects: camera ← mesh."""
+        matrix = self.scene.transforms[objects]
+        turns = camera.rotation.T @ matrix[:, :3, :3]
+        return turns, (matrix[:, :3, 3] - camera.eye) @ camera.rotation
+
+    def poses(
+        self, objects: NDArray[np.int64], camera: Camera
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Turns (k, 3, 3) and moves (k, 3) of objects: camera ← mesh about its centre."""
+        turns = camera.rotation.T @ self.scene.transforms[objects, :3, :3]
+        return turns, (self.scene.centers[objects] - camera.eye) @ camera.rotation
+
+    def sequence(
+        self,
+        parts: list[NDArray[np.int64]],
+        camera: Camera,
+        numbers: list[NDArray[np.float64]] | None = None,
+    ) -> tuple[moderngl.Texture, list[list[Run]]]:
+        """Upload the objects of all `parts`, and say which instanced draws make up each part.
+
+        Objects of one part are put together by mesh. `numbers` has for each part a number to go
+        with every object of the scene (n,).
+        """
+        number = np.repeat(np.arange(len(parts)), [len(p) for p in parts])
+        objects = np.concatenate([*parts, np.zeros(0, np.int64)])
+        by_mesh = np.lexsort((objects, self.slot[objects], number))
+        objects, number = objects[by_mesh], number[by_mesh]
+        extra = np.zeros(len(objects))
+        for k, values in enumerate(numbers or []):
+            extra[number == k] = values[objects[number == k]]
+        self._upload(objects, camera, extra)
+        slots = self.slot[objects]
+        starts = np.nonzero(np.diff(number, prepend=-1) | np.diff(slots, prepend=-1))[0]
+        ends = np.append(starts[1:], len(objects))[: len(starts)]
+        runs: list[list[Run]] = [[] for _ in parts]
+        for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
+            runs[number[a]].append((self.meshes[slots[a]], a, b - a))
+        return self._sequence, runs
+
+    def _upload(
+        self, objects: NDArray[np.int64], camera: Camera, extra: NDArray[np.float64]
+    ) -> None:
+        if len(objects) > self._sequence.height:
+            self._sequence.release()
+            self._sequence = kept(_texture(self._context, (2, 2 * len(objects))))
+        rows = np.zeros((len(objects), 2, 4), dtype="f4")
+        rows[:, 0, :3] = self.scene.centers[objects] - camera.eye
+        rows[:, 0, 3] = objects
+        rows[:, 1, 0] = extra
+        if len(objects):
+            self._sequence.write(rows.tobytes(), viewport=(0, 0, 2, len(objects)))
+
+    def release(self) -> None:
+        """Give the GPU's memory back."""
+        self.table.release()
+        self._sequence.release()
+
+
+def _texture(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Texture:
+    texture = context.texture(size, 4, dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture

@@ -1,0 +1,1 @@
+"""Objects drawn one level after the other."""

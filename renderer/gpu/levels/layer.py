@@ -1,0 +1,303 @@
+"""Draws a plan into a picture, with or without a picture of ids beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.gpu.device import reused
+from seethrough.renderer.gpu.device.meshes import MeshStore
+from seethrough.renderer.gpu.device.programs import Shader, program
+from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
+from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
+from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
+from seethrough.renderer.gpu.per_pixel.exact_painter import ExactJob, ExactPainter
+from seethrough.renderer.plan.planner import FramePlan, Level, Technique
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+
+if TYPE_CHECKING:
+    from seethrough.renderer.gpu.levels.cluster_painter import ClusterPainter
+
+OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
+NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
+OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
+MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
+# The minimum takes no factors: colour stays because a mask's own is made to be larger.
+AfterLevel = Callable[[NDArray[np.int64] | None], None]
+
+
+@dataclass(frozen=True)
+class FrameStats:
+    """What a frame took: passes over objects, draw calls, masks made, objects put in order, and
+    parts of the picture sorted by pixel. All 0 when the last frame was shown again."""
+
+    passes: int
+    draws: int
+    masks: int
+    ordered: int
+    exact_parts: int = 0
+
+
+class Layer:
+    """One kind of picture: its programs, and how a plan is drawn into it."""
+
+    def __init__(self, context: moderngl.Context, store: MeshStore, ids: bool) -> None:
+        self._context, self._store = context, store
+        defines = ["WITH_IDS"] if ids else []
+        self._object = program(context, "object.vert", "object.frag", defines)
+        self._depth = program(context, "object.vert", "depth.frag", defines)
+        self._flat = program(context, "flat.vert", "depth.frag", defines)
+        self._masks = MaskPainter(context, defines)
+        self._counter: LayerCounter | None = None
+        self._exact: ExactPainter | None = None
+        self._clusters: ClusterPainter | None = None
+
+    def draw(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: Technique,
+        target: FrameTarget,
+        scale: float = 1.0,
+        after_level: AfterLevel | None = None,
+    ) -> FrameStats:
+        """Draw the plan. `scale` shrinks the masks' width; `after_level` follows each level
+        and is told its objects, None for the opaque ones."""
+        self._passes = self._draws = 0
+        reused.begin(self._context)
+        camera = tight(camera, frame)
+        size = target.size
+        self._matrix = clip_from_offset(camera, size)
+        runs, rest = self._before(table, frame, camera, technique, scale, size)
+        self._set_state()
+        target.clear(table.scene.background)
+        for shader in (self._object, self._depth):
+            self._use(shader)
+        if len(frame.wide):
+            self._draw_outside(frame, runs[1], size)
+        self._pass(self._object, runs[0], OPAQUE)
+        if after_level is not None:
+            after_level(None)
+        if frame.levels and isinstance(technique, DynamicTransparency):
+            counts = self._looked_up(table, frame, camera, technique, rest, size)
+            target.framebuffer.use()
+            self._set_state()
+            self._masks.begin(counts)
+            self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
+        if len(frame.exact) and after_level is None:
+            job = self._job(table, frame, camera, technique, scale, size)
+            self._draw_exact(job, target, self._masks if frame.levels else None)
+        return FrameStats(
+            self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
+        )
+
+    def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
+        """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""
+        reused.begin(self._context)
+        camera = tight(camera, frame)
+        frame = replace(frame, doubtful=frame.doubtful[:0])  # all of the picture
+        self._matrix = clip_from_offset(camera, size)
+        return self._painter().layers(self._job(table, frame, camera, technique, scale, size))
+
+    def _painter(self) -> ExactPainter:
+        if self._exact is None:
+            self._exact = ExactPainter(self._context)
+        return self._exact
+
+    def _job(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
+        width = technique.width * scale
+        return ExactJob(table, frame, camera, technique, width, size, self._matrix)
+
+    def _draw_exact(self, job: ExactJob, target: FrameTarget, made: MaskPainter | None) -> None:
+        passes, draws = self._painter().draw(job, target.framebuffer, made)
+        self._passes += passes
+        self._draws += draws
+
+    def _set_state(self) -> None:
+        self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
+        self._context.depth_func = "<="
+
+    def _before(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
+        """Put the objects in sequence, begin what the masks look up. Returns the runs of the opaque
+        pass and of each level, and those that `_looked_up` draws."""
+        wide = np.zeros(len(frame.reasons), dtype=bool)
+        wide[frame.wide] = True
+        parts = [frame.opaque, frame.wide]
+        leaders = [members[0] for members in frame.clusters]
+        for level in frame.levels:
+            alone = level.objects
+            if leaders:
+                alone = alone[~np.isin(alone, leaders)]
+            parts += [alone[~wide[alone]], alone[wide[alone]]]
+        extra = []
+        if frame.levels:
+            width = technique.width * scale
+            extra = self._masks.prepare(table, frame, camera, technique, width, size)
+            counted = _counted(frame, technique)
+            if len(counted):
+                occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
+                extra = [*extra, counted, occluders]
+        sequence, runs = table.sequence([*parts, *extra], camera)
+        self._bind(table, sequence)
+        return runs[: len(parts)], runs[len(parts) :]
+
+    def _looked_up(self, table, frame, camera, technique, runs, size):  # type: ignore[no-untyped-def]
+        """Draw what the masks look up. Returns the picture of counts if one is needed."""
+        self._use(self._masks.cover)
+        whole = len(self._masks.geometry.covered)
+        draws = self._masks.draw_distances(table, runs[:whole], camera)
+        self._passes += draws > 0
+        self._draws += draws
+        if not len(_counted(frame, technique)):
+            return None
+        return self._count(size, runs[-2], runs[-1])
+
+    def _count(self, size: tuple[int, int], targets: list[Run], occluders: list[Run]):  # type: ignore[no-untyped-def]
+        if self._counter is None:
+            self._counter = LayerCounter(self._context)
+        self._use(self._counter.program)
+        self._passes += 2
+        self._draws += self._counter.draw(size, targets, occluders)
+        return self._counter.counts
+
+    def _bind(self, table: SceneTable, sequence: moderngl.Texture) -> None:
+        self._bound = table, sequence
+        table.table.use(0)
+        sequence.use(1)
+
+    def _use(self, shader: Shader) -> None:
+        shader["clip_from_offset"].write(self._matrix)
+        shader.set(table=0, sequence=1)
+
+    def _pass(self, shader: Shader, runs: list[Run], blend: tuple[int, int, int, int]) -> None:
+        if not runs:
+            return
+        if blend is OPAQUE:
+            self._context.disable(moderngl.BLEND)
+        else:
+            self._context.enable(moderngl.BLEND)
+            self._context.blend_func = blend
+        for mesh, start, count in runs:
+            mesh.draw(self._context, shader, start, count)
+        self._passes += 1
+        self._draws += len(runs)
+
+    def _draw_outside(self, frame: FramePlan, runs: list[Run], size: tuple[int, int]) -> None:
+        """Draw the wide objects opaque but where masks may be: the nearest depth is put there
+        first, and the farthest afterwards."""
+        corners = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
+        data = frame.holes[:, corners].astype("f4")
+        buffer = self._context.buffer(data.tobytes())
+        array = self._context.vertex_array(self._flat.program, [(buffer, "2f", "in_place")])
+        self._flat.set(size=size)
+        self._put_depth(array, -1.0)
+        self._pass(self._object, runs, OPAQUE)
+        self._put_depth(array, 1.0)
+        array.release()
+        buffer.release()
+
+    def _put_depth(self, array: moderngl.VertexArray, depth: float) -> None:
+        context = self._context
+        context.disable(moderngl.CULL_FACE)
+        context.enable(moderngl.BLEND)
+        context.blend_func = NOTHING
+        context.depth_func = "1"
+        self._flat.set(depth=depth)
+        array.render(moderngl.TRIANGLES)
+        self._draws += 1
+        context.depth_func = "<="
+        context.enable(moderngl.CULL_FACE)
+
+    def _draw_clusters(
+        self, table: SceneTable, camera: Camera, frame: FramePlan, level: Level
+    ) -> None:
+        """The level's clusters, polygon by polygon."""
+        for members in frame.clusters:
+            if members[0] not in level.objects:
+                continue
+            if self._clusters is None:
+                # Most frames have none, and its kernels take a second to load.
+                from seethrough.renderer.gpu.levels.cluster_painter import ClusterPainter
+
+                self._clusters = ClusterPainter(self._context)
+            self._context.enable(moderngl.BLEND)
+            self._context.blend_func = OBJECT
+            self._draws += self._clusters.draw(table.scene, members, camera, self._object)
+            self._passes += 1
+            self._bind(*self._bound)
+
+    def _blend_levels(
+        self,
+        table: SceneTable,
+        camera: Camera,
+        frame: FramePlan,
+        runs: list[list[Run]],
+        technique: DynamicTransparency,
+        target: FrameTarget,
+        after_level: AfterLevel | None,
+    ) -> None:
+        every = "prepass" in frame.without
+        for k, level in enumerate(frame.levels):
+            for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
+                if wide and part:
+                    target.framebuffer.scissor = _scope(frame, target.size)
+                solid = [run for run in part if every or not run[0].mesh.convex]
+                self._pass(self._depth, solid, NOTHING)
+                self._pass(self._object, part, OBJECT)
+                target.framebuffer.scissor = None
+            self._draw_clusters(table, camera, frame, level)
+            if after_level is not None and len(level.objects):
+                after_level(level.objects)
+            if len(level.masks):
+                self._draw_masks(level.masks, technique.combine == "min")
+
+    def _draw_masks(self, targets, least: bool) -> None:  # type: ignore[no-untyped-def]
+        context = self._context
+        context.enable(moderngl.BLEND)
+        context.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        context.blend_func = MASK
+        if least:
+            context.blend_equation = moderngl.FUNC_ADD, moderngl.MIN
+        self._draws += self._masks.draw(targets)
+        context.blend_equation = moderngl.FUNC_ADD
+        context.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+
+
+def _counted(frame: FramePlan, technique: DynamicTransparency):  # type: ignore[no-untyped-def]
+    """Targets whose layers are counted."""
+    all_of_them = "counting" in frame.without and technique.min_transmittance > 0
+    return frame.masked if all_of_them else frame.counted
+
+
+def _scope(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """The rectangle about all masks as OpenGL's x, y (up), width, height."""
+    left, top = frame.holes[:, :2].min(axis=0).tolist()
+    right, bottom = frame.holes[:, 2:].max(axis=0).tolist()
+    return (left, size[1] - bottom, right - left, bottom - top)
+
+
+def clip_from_offset(camera: Camera, size: tuple[int, int]) -> bytes:
+    """clip ← (world − eye), for GLSL."""
+    turn = np.eye(4)
+    turn[:3, :3] = camera.rotation.T
+    return (camera.projection(size[0] / size[1]) @ turn).T.astype("f4").tobytes()
+
+
+def tight(camera: Camera, frame: FramePlan) -> Camera:
+    """The camera with its depth range closed in on what is drawn: more bits for each unit."""
+    seen = np.nonzero(frame.boxes.inside)[0]
+    if not len(seen):
+        return camera
+    near = max(camera.near, float(frame.boxes.near[seen].min()) * (1 - 1e-6))
+    far = min(camera.far, float(frame.boxes.far[seen].max()) * (1 + 1e-6))
+    if near >= far:
+        return camera
+    return Camera(camera.eye, camera.rotation, camera.fov_y, near, far)

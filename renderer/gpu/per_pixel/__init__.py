@@ -1,0 +1,1 @@
+"""Pixels sorted by themselves."""

@@ -1,0 +1,1 @@
+"""What rolls, floats and flies."""

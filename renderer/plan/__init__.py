@@ -1,0 +1,1 @@
+"""What a frame needs, and in which order."""

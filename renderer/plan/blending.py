@@ -1,0 +1,74 @@
+"""What a frame puts in order, and what of it no order gets right."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.plan import doubt as doubts
+from seethrough.renderer.plan import levels, order
+
+Indices = NDArray[np.int64]
+
+MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
+
+
+@dataclass(frozen=True, eq=False)
+class Blending:
+    """What is put in order: objects `seen`, from far to near, of n with `extents` and `reach` of
+    masks (n, 4); of each pair the `relation` and whether it is `uncertain` (n, n); which of them
+    are `blended` and `masked` (n,). See order.decide. `lost` (n, n): of which pairs a target may be
+    lost whatever goes first."""
+
+    seen: Indices
+    extents: NDArray[np.float64]
+    reach: NDArray[np.float64]
+    relation: NDArray[np.int8]
+    uncertain: NDArray[np.bool_]
+    blended: NDArray[np.bool_]
+    masked: NDArray[np.bool_]
+    lost: NDArray[np.bool_]
+
+    def levels(self) -> tuple[Indices, Indices, NDArray[np.bool_]]:
+        """See levels.levels."""
+        return levels.levels(
+            *(self.seen, self.extents, self.reach, self.relation, self.blended, self.masked)
+        )
+
+    def doubtful(
+        self, broken: NDArray[np.bool_], size: tuple[int, int], doubt: float
+    ) -> tuple[NDArray[np.float64], bool]:
+        """The parts to sort by pixel, and whether they are so much that all masks may be.
+
+        Where a target may be lost no doubt is allowed, for the rest see doubt.chosen.
+        """
+        every = (self.seen, self.extents, self.reach, self.relation, self.uncertain)
+        args = (*every, self.blended, self.masked, broken, self.lost, np.array(size, float))
+        found, lost = order.doubtful(*args)
+        chosen = np.concatenate([found[lost], doubts.chosen(found[~lost], size, doubt)])
+        if not len(chosen):
+            return chosen, False
+        return chosen, doubts.union(chosen) > MOSTLY * _area(self.parts(size))
+
+    def parts(self, size: tuple[int, int]) -> NDArray[np.int64]:
+        """Where masks can be."""
+        return merged_parts(self.reach[self.masked], size)
+
+
+def merged_parts(boxes: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
+    """(k, 4) whole pixels that hold all boxes and do not overlap; one for all if nearly all."""
+    if not len(boxes):
+        return np.zeros((0, 4), np.int64)
+    low = np.maximum(np.floor(boxes[:, :2]) - 1, 0)
+    high = np.minimum(np.ceil(boxes[:, 2:]) + 1, size)
+    rows = np.concatenate([low, high], axis=1)[(low < high).all(axis=1)]
+    parts = order.merge(np.ascontiguousarray(rows)).astype(np.int64)
+    if (parts[:, 2:] - parts[:, :2]).prod(axis=1).sum() > 0.6 * size[0] * size[1]:
+        return np.array([[0, 0, *size]])
+    return parts
+
+
+def _area(parts: NDArray[np.int64]) -> int:
+    return int((parts[:, 2:] - parts[:, :2]).prod(axis=1).sum())

@@ -1,0 +1,369 @@
+"""What a frame needs, with reasons: which effects, for which objects, in which order.
+
+An object in front of no target's mask is drawn opaque with all the others, in one pass. The rest
+is put into levels: objects of one level do not overlap on the screen, so each level is a handful
+of instanced draws, and their number grows with depth complexity instead of with the objects.
+Where no order of objects is right, that part of the picture is sorted pixel by pixel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Set
+from dataclasses import dataclass, field, replace
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.masks import masks
+from seethrough.renderer.plan import clusters, levels, order
+from seethrough.renderer.plan.blending import Blending, merged_parts
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.projection import Boxes, screen_boxes
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
+
+Technique = Standard | DynamicTransparency
+Indices = NDArray[np.int64]
+
+SHORTCUTS = {
+    "cull": "objects outside the view are not drawn",
+    "opaque": "only objects in front of a mask are blended and put in order",
+    "masks": "only targets with something penetrable in front get a mask",
+    "levels": "objects that overlap nowhere on the screen are drawn together",
+    "prepass": "only concave objects in front of a mask get a pre-pass for depth",
+    "hulls": "the mask of a convex target is its hull with a skirt, without a picture of its own",
+    "counting": "layers are counted only where they could take more light than is allowed",
+    "outside": "large objects are blended only where masks are, and drawn opaque elsewhere",
+    "parts": "only parts of the picture whose order is in doubt are sorted by pixel",
+    "held": "objects that lie in a part sorted by pixel are drawn there alone",
+    "still": "a frame in which nothing changed is shown again",
+}
+
+WORTH = 64  # pixels to save by drawing a triangle once more
+SORTED = 24  # pixels to sort more for a triangle less
+
+# Why an object is drawn as it is (FramePlan.reasons).
+OUTSIDE, OPAQUE, HARD, BLENDED = range(4)
+
+
+@dataclass(frozen=True, eq=False)
+class Level:
+    """Objects (indices) that overlap nowhere on the screen, then the masks of targets."""
+
+    objects: Indices
+    masks: Indices
+
+
+@dataclass(frozen=True, eq=False)
+class FramePlan:
+    """What to draw, in this order: `opaque` with a depth buffer, each level, then `exact`.
+
+    The first level holds masks only. `masked` are all targets that get a mask, `reach` (n, 4)
+    what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
+    parts of the picture (left, top, right, bottom) to sort by pixel, of each only the blocks that
+    `doubtful` (k, 4) touch if there are any; objects that are `held` show nowhere else and are
+    drawn by that alone. `wide` are blended objects
+    to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
+    else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
+    are in levels. `boxes` are the extents of all objects. `reasons` (n,) say why each object is
+    drawn as it is, `behind` (n,) which target it is that makes it blend (−1: none).
+    """
+
+    opaque: Indices
+    levels: tuple[Level, ...]
+    masked: Indices
+    counted: Indices
+    exact: NDArray[np.int64]
+    boxes: Boxes
+    reach: NDArray[np.float64]
+    reasons: Indices
+    behind: Indices
+    without: frozenset[str] = field(default_factory=frozenset)
+    wide: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
+    holes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 4), np.int64))
+    clusters: tuple[Indices, ...] = ()
+    held: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
+    doubtful: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 4)))
+
+    @property
+    def ordered(self) -> int:
+        """How many objects are put in order."""
+        return sum(len(level.objects) for level in self.levels)
+
+
+def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> NDArray[np.bool_]:
+    """(n,) what never turns transparent in this frame (004 §III-C.3)."""
+    if technique.penetrable_within is None:
+        return scene.impenetrable
+    low, high = scene.corners.min(axis=1), scene.corners.max(axis=1)
+    gap = np.maximum(np.maximum(low - camera.eye, camera.eye - high), 0.0)
+    return scene.impenetrable | (np.linalg.norm(gap, axis=1) > technique.penetrable_within)
+
+
+def plan(
+    scene: Scene,
+    camera: Camera,
+    technique: Technique,
+    size: tuple[int, int],
+    without: Set[str] = frozenset(),
+    scale: float = 1.0,
+) -> FramePlan:
+    """Decide what the frame of `size` (width, height) in pixels needs. Pure.
+
+    `without` names SHORTCUTS not to take; `scale` shrinks the width of masks with the picture.
+    """
+    boxes = screen_boxes(scene.corners, camera, size)
+    drawn = np.nonzero(boxes.inside | ("cull" in without))[0]
+    if isinstance(technique, Standard):
+        return _opaque(boxes, drawn, without)
+    if not (scene.targets & boxes.within).any() and not without:
+        return _opaque(boxes, drawn, without)
+    reach = masks.reach(boxes.extents, technique, technique.width * scale, size)
+    hard = impenetrable(scene, camera, technique)
+    seen = _far_to_near(scene, camera, _reaching(scene, boxes, reach, size, without))
+    there = np.zeros(len(hard), dtype=bool)
+    there[seen] = True
+    centers = scene.centers - camera.eye
+    geometry = (centers, scene.box_sides, scene.radii, boxes.near, boxes.far)
+    args = (seen, boxes.extents, reach, *geometry, scene.targets, hard)
+    blend = there & ~hard & ("opaque" in without)
+    relation, uncertain, blended, masked = _decided(scene, camera, technique, args, blend)
+    masked |= there & scene.targets & ("masks" in without)
+    if technique.per_pixel_only:
+        masked |= order.overlapped(
+            seen, boxes.extents, reach, boxes.near, boxes.far, scene.targets, hard
+        )
+    base = FramePlan(
+        opaque=drawn,
+        levels=(),
+        masked=np.nonzero(masked)[0],
+        counted=_counted(relation, masked, technique),
+        exact=np.zeros((0, 4), np.int64),
+        boxes=boxes,
+        reach=reach,
+        reasons=_reasons(boxes, hard, blended),
+        behind=_behind(relation, blended, masked),
+        without=frozenset(without),
+    )
+    if not masked.any() and not blended.any():
+        return base
+    if technique.per_pixel_only:
+        parts = _parts(reach[masked], technique, size, without)
+        return _held(base, parts, scene.triangle_counts, size)
+    # Of two targets that no plane separates one is lost where it lies behind, whoever goes first.
+    lost = uncertain & (blended & masked) & (blended & masked)[:, None]
+    lost |= _beside(scene, camera, technique, boxes, relation, masked)
+    what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked, lost)
+    return _with_levels(base, what, scene, technique, size)
+
+
+def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-def]
+    """order.decide, again if planes were found between pairs that it is uncertain of."""
+    by_center = technique.order == "centers"
+    planes = scene.separations
+    while True:
+        found = order.decide(*args, blend, planes.relation(camera.eye), by_center)
+        new = found[1] & ~planes.tried
+        if not new.any() or not planes.learn(np.argwhere(np.triu(new)), scene):
+            return found[0], found[1] & ~scene.settled, *found[2:]
+
+
+def _beside(scene, camera, technique, boxes, relation, masked):  # type: ignore[no-untyped-def]
+    """(n, n) which targets lie before a mask, and reach to both sides of the depth that it has
+    beside its own target. Outlines have too little there for that to matter."""
+    if technique.mask in ("outline", "ring"):
+        return np.zeros_like(relation, dtype=bool)
+    depth = camera.depth(scene.centers)
+    across = (boxes.near[:, None] < depth) & (boxes.far[:, None] > depth)
+    return across & scene.targets[:, None] & masked & (relation == order.IN_FRONT)
+
+
+def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
+    """Everything with a depth buffer."""
+    none = drawn[:0]
+    reasons = np.where(boxes.inside, OPAQUE, OUTSIDE)
+    return FramePlan(
+        *(drawn, (), none, none, np.zeros((0, 4), np.int64), boxes, boxes.extents, reasons),
+        np.full(len(reasons), -1),
+        frozenset(without),
+    )
+
+
+def _fit(scene: Scene, technique: DynamicTransparency) -> NDArray[np.bool_]:
+    """(n,) which objects may be drawn polygon by polygon. Layers are counted by object alone."""
+    if technique.order != "polygons" or technique.min_transmittance > 0:
+        return np.zeros(len(scene.objects), dtype=bool)
+    return clusters.fitting(scene)
+
+
+def _has_tree(scene: Scene, members: Indices) -> bool:
+    """Whether the polygons of a cluster can be cut along one another; else pixels are sorted."""
+    return not isinstance(clusters.tree_of(scene, members), str)
+
+
+def _reaching(
+    scene: Scene, boxes: Boxes, reach: NDArray[np.float64], size: tuple[int, int], without: Set[str]
+) -> Indices:
+    """What can change the picture: objects in view, and targets whose mask reaches into it."""
+    near = (reach[:, 2:] > 0).all(axis=1) & (reach[:, :2] < np.array(size)).all(axis=1)
+    near &= scene.targets & boxes.within
+    return np.nonzero(boxes.inside | near | (boxes.within & ("cull" in without)))[0]
+
+
+def _far_to_near(scene: Scene, camera: Camera, objects: Indices) -> Indices:
+    """Farthest group first, by view depth; a group stays together, in its order in the scene."""
+    depth = camera.depth(scene.group_centers[objects])
+    return objects[np.lexsort((objects, scene.group_of[objects], -depth))]
+
+
+def _counted(
+    relation: NDArray[np.int8], masked: NDArray[np.bool_], technique: DynamicTransparency
+) -> Indices:
+    """Targets with more objects in front than may each keep alpha_target (notation: 004 §V-D)."""
+    tau, alpha = technique.min_transmittance, technique.alpha_target
+    if tau == 0:
+        return np.zeros(0, np.int64)
+    allowed = np.inf if alpha == 0 else (0 if alpha == 1 else np.log(tau) / np.log(1 - alpha))
+    in_front = (relation == order.IN_FRONT).sum(axis=0)
+    return np.nonzero(masked & (in_front > np.floor(allowed + 1e-12)))[0]
+
+
+def _reasons(boxes: Boxes, hard: NDArray[np.bool_], blended: NDArray[np.bool_]) -> Indices:
+    reasons = np.where(blended, BLENDED, np.where(hard, HARD, OPAQUE))
+    return np.where(boxes.inside, reasons, OUTSIDE)
+
+
+def _behind(
+    relation: NDArray[np.int8], blended: NDArray[np.bool_], masked: NDArray[np.bool_]
+) -> Indices:
+    """(n,) a masked target behind each blended object, −1 where there is none."""
+    over = (relation == order.IN_FRONT) & masked[None] & blended[:, None]
+    return np.where(over.any(axis=1), over.argmax(axis=1), -1) if len(over) else over.sum(axis=1)
+
+
+def _with_levels(
+    base: FramePlan,
+    what: Blending,
+    scene: Scene,
+    technique: DynamicTransparency,
+    size: tuple[int, int],
+) -> FramePlan:
+    """The plan with blended objects and masks in levels, and the parts that no order gets right."""
+    opaque, masked = ~what.blended, what.masked
+    triangles, doubt = scene.triangle_counts, technique.doubt
+    fit = _fit(scene, technique) & ~masked
+    united = clusters.unite(
+        *(what.extents, what.relation, what.uncertain, what.blended, fit, triangles),
+        partial(_has_tree, scene),
+    )
+    seen = what.seen[united.blended[what.seen] | masked[what.seen]]
+    what = Blending(
+        *(seen, united.extents, what.reach, united.relation, united.uncertain, united.blended),
+        masked,
+        what.lost,
+    )
+    part_by_part = "parts" not in base.without
+    doubtful, much = what.doubtful(np.zeros_like(what.uncertain), size, doubt)
+    if not (much and part_by_part):
+        of_object, of_mask, broken = what.levels()
+        if broken.any():
+            doubtful, much = what.doubtful(broken, size, doubt)
+    if much and part_by_part:
+        return _held(base, what.parts(size), triangles, size)
+    if "levels" in base.without:
+        of_object, of_mask = levels.one_by_one(seen, of_object, of_mask)
+    last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
+    pairs = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
+    parts = merged_parts(doubtful, size)
+    if len(parts) and not part_by_part:
+        parts, doubtful = np.array([[0, 0, *size]]), doubtful[:0]
+    keep = np.zeros(len(masked), dtype=bool)
+    keep[base.opaque] = True
+    holes = _holes(what.reach[masked], size)
+    alone = np.nonzero(what.blended & ~united.clustered)[0]
+    return replace(
+        base,
+        opaque=np.nonzero(keep & opaque)[0],
+        levels=tuple(Level(objects, targets) for objects, targets in pairs),
+        exact=parts,
+        doubtful=doubtful,
+        wide=_wide(base, alone, holes, triangles, size),
+        holes=holes,
+        clusters=united.members,
+    )
+
+
+def _grouped(level: Indices, last: int) -> list[Indices]:
+    """The objects of each level from −1 to `last`, in their order."""
+    order_ = np.argsort(level, kind="stable")
+    cuts = np.searchsorted(level[order_], np.arange(-1, last + 2)).tolist()
+    return [order_[a:b] for a, b in pairwise(cuts)]
+
+
+def _held(
+    base: FramePlan, parts: NDArray[np.int64], triangles: Indices, size: tuple[int, int]
+) -> FramePlan:
+    """The plan that sorts these parts by pixel, and draws no object there that lies in one.
+
+    Parts are widened about objects of many triangles: to draw those twice would cost more.
+    """
+    if "held" in base.without or not len(parts):
+        return replace(base, exact=parts)
+    boxes = base.boxes.extents[base.opaque]
+    low = np.clip(np.floor(boxes[:, :2]) - 1, 0, size)
+    high = np.clip(np.ceil(boxes[:, 2:]) + 1, 0, size)
+    boxes = np.concatenate([low, high], axis=1)
+    wider = order.hold(parts.astype(float), boxes, triangles[base.opaque], SORTED)
+    parts = order.merge(wider)
+    inside = (parts[:, None, :2] <= low).all(axis=2) & (parts[:, None, 2:] >= high).all(axis=2)
+    held = inside.any(axis=0)
+    return replace(
+        base,
+        exact=parts.astype(np.int64),
+        opaque=base.opaque[~held],
+        held=base.opaque[held],
+    )
+
+
+def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
+    """(k, 4) whole pixels that each mask can cover."""
+    low = np.clip(np.floor(reach[:, :2]), 0, size)
+    high = np.clip(np.ceil(reach[:, 2:]), 0, size)
+    rows = np.concatenate([low, high], axis=1)[(low < high).all(axis=1)]
+    return rows.astype(np.int64)
+
+
+def _wide(
+    base: FramePlan,
+    blended: Indices,
+    holes: NDArray[np.int64],
+    triangles: Indices,
+    size: tuple[int, int],
+) -> Indices:
+    """Blended objects of few triangles that cover much of the picture outside all masks.
+
+    Drawing them twice costs little, blending all their pixels much.
+    """
+    if "outside" in base.without or not len(holes):
+        return blended[:0]
+    box = base.boxes.extents[blended]
+    low, high = np.clip(box[:, :2], 0, size), np.clip(box[:, 2:], 0, size)
+    scope = np.array([*holes[:, :2].min(axis=0), *holes[:, 2:].max(axis=0)])
+    inside = np.clip(np.minimum(high, scope[2:]) - np.maximum(low, scope[:2]), 0, None)
+    outside = (high - low).prod(axis=1) - inside.prod(axis=1)
+    return blended[outside > WORTH * triangles[blended]]
+
+
+def _parts(
+    reach: NDArray[np.float64],
+    technique: DynamicTransparency,
+    size: tuple[int, int],
+    without: Set[str],
+) -> NDArray[np.int64]:
+    """What to sort by pixel: the reach of the masks, or all where whole objects turn clear."""
+    if technique.granularity != "pixel" or "parts" in without:
+        return np.array([[0, 0, *size]])
+    return merged_parts(reach, size)

@@ -1,0 +1,286 @@
+"""Kernels that sort fragments by a plane and cut those that lie on both sides.
+
+A fragment is a loop of corners in one long array of rows (x, y, z). A cut walks the loop once,
+inserts the points where it crosses the plane, and links the chains of each side along the cut
+line. So a concave polygon may fall into more than two pieces, and a triangle falls in the two ways
+of paper 001, figure 3. New points are computed from the edge's lower end (in x, then y, then z),
+so that two neighbours cut their common edge at the very same point. What else corners carry is not
+touched here: every row remembers the two rows it lies between, and `interpolate` follows up.
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from seethrough.renderer.polygons.predicates import (
+    ROUNDING,
+    distance_row,
+    filtered_side,
+    loop_heights,
+    loop_limit,
+)
+
+# Columns of a fragment's shape.
+START, COUNT, SOURCE, PLANE = 0, 1, 2, 3
+
+
+@numba.njit(cache=True)
+def classify(fragments, splitters, shape, rows, fresh, planes, plane_of, slack, sign, code, open_):
+    """Side of every corner, and of every fragment: 0 in the plane, 1 front, 2 back, 3 both.
+
+    `open_` (2, room) receives row and position of what the filter leaves undecided; returns how
+    many there are, of which only those that fit were written. Corner signs are kept for fragments
+    on both sides, or with undecided corners. Polygons of one plane lie on each other by name: a
+    fragment's rounded corners aren't asked again. `slack` (m,) is each plane's, and `fresh` marks
+    cut points, which are known to rounding only: nearer than that they are on a plane, lest
+    neighbours that were cut together cut each other once more.
+    """
+    waiting = 0
+    for i in range(len(fragments)):
+        f, s = fragments[i], splitters[i]
+        code[i] = 0
+        if shape[f, PLANE] == plane_of[s]:
+            continue
+        first = shape[f, START]
+        end = first + shape[f, COUNT]
+        low, high, far = loop_heights(planes[s], rows, first, end)
+        limit = loop_limit(planes[s], far, slack[s])
+        if low > limit:
+            code[i] = 1
+            continue
+        if high < -limit:
+            code[i] = 2
+            continue
+        seen = 0
+        for v in range(first, end):
+            side = corner_side(planes, slack, s, rows, fresh, v)
+            seen |= 1 if side == 1 else (2 if side == -1 else (4 if side == 2 else 0))
+        code[i] = seen & 3
+        if seen < 3:
+            continue
+        for v in range(first, end):
+            side = corner_side(planes, slack, s, rows, fresh, v)
+            sign[v] = side
+            if side == 2:
+                if waiting < open_.shape[1]:
+                    open_[0, waiting] = v
+                    open_[1, waiting] = i
+                waiting += 1
+    return waiting
+
+
+@numba.njit(inline="always")
+def corner_side(planes, slack, s, rows, fresh, v):
+    """What the filter makes of a corner against a plane: see `predicates.filtered_side`."""
+    x, y, z = rows[v, 0], rows[v, 1], rows[v, 2]
+    reach = slack[s]
+    if fresh[v]:
+        reach = max(reach, point_slack(x, y, z))
+    return filtered_side(planes[s], x, y, z, reach)
+
+
+@numba.njit(inline="always")
+def point_slack(x, y, z):
+    """What rounding a cut point costs: a distance."""
+    return ROUNDING * max(abs(x), abs(y), abs(z))
+
+
+@numba.njit(cache=True)
+def cut(fragments, splitters, halves, shape, rows, fresh, edge, along, planes, sign, used, parent,
+        cutter, out):  # fmt: skip
+    """Cut fragments by planes; append the pieces. Corner signs must be those of `classify`.
+
+    `used` (2,) counts rows and fragments and is moved on. `edge` (rows, 2) and `along` (rows,)
+    say where new rows lie: on the way from one row to another, at `along`. `out` (2, room)
+    receives, for each piece, the position of its parent in `fragments` and its side (1 front,
+    -1 back). With `halves`, pieces of four corners become two triangles. Returns the number of
+    pieces.
+    """
+    made = 0
+    largest = 0
+    for f in fragments:
+        largest = max(largest, shape[f, COUNT])
+    room = 2 * largest + 2
+    ring = np.empty((room, 3))
+    ends = np.empty((room, 2), np.int32)
+    between = np.empty(room)
+    side = np.empty(room, np.int8)
+    young = np.empty(room, np.bool_)
+    first = np.empty(room, np.int64)
+    last = np.empty(room, np.int64)
+    follow = np.empty(room, np.int64)
+    done = np.empty(room, np.bool_)
+    loop = np.empty(2 * room, np.int64)
+    for i in range(len(fragments)):
+        f, s = fragments[i], splitters[i]
+        size = _ring(f, s, shape, rows, fresh, planes, sign, ring, ends, between, side, young)
+        for wanted in (1, -1):
+            chains = _chains(size, side, wanted, first, last)
+            _link(chains, first, last, ring, planes[shape[f, SOURCE]], planes[s], wanted, follow)
+            done[:chains] = False
+            for c in range(chains):
+                if done[c]:
+                    continue
+                length = _loop(c, first, last, follow, done, size, loop)
+                if length < 3:
+                    continue
+                pieces, corners, turn = 1, length, 0
+                if halves and length == 4:
+                    pieces, corners, turn = 2, 3, _shorter_diagonal(ring, loop)
+                for half in range(pieces):
+                    for k in range(corners):
+                        at = loop[(turn + 2 * half + k) % length]
+                        to = used[0] + k
+                        for axis in range(3):
+                            rows[to, axis] = ring[at, axis]
+                        edge[to, 0], edge[to, 1], along[to] = ends[at, 0], ends[at, 1], between[at]
+                        fresh[to] = young[at]
+                    piece = used[1]
+                    shape[piece, START], shape[piece, COUNT] = used[0], corners
+                    shape[piece, SOURCE], shape[piece, PLANE] = shape[f, SOURCE], shape[f, PLANE]
+                    parent[piece], cutter[piece] = f, s
+                    used[0] += corners
+                    used[1] += 1
+                    out[0, made], out[1, made] = i, wanted
+                    made += 1
+    return made
+
+
+@numba.njit
+def _ring(f, s, shape, rows, fresh, planes, sign, ring, ends, between, side, young):
+    """The loop with its crossing points inserted; returns its length."""
+    size = 0
+    begin, n = shape[f, START], shape[f, COUNT]
+    for j in range(n):
+        u = begin + j
+        v = begin + (j + 1) % n
+        for axis in range(3):
+            ring[size, axis] = rows[u, axis]
+        ends[size, 0], ends[size, 1], between[size] = u, u, 0.0
+        side[size] = sign[u]
+        young[size] = fresh[u]
+        size += 1
+        if sign[u] * sign[v] == -1:
+            _crossing(rows, u, v, planes[s], ring, ends, between, size)
+            side[size] = 0
+            young[size] = True
+            size += 1
+    return size
+
+
+@numba.njit
+def _crossing(rows, u, v, plane, ring, ends, between, at):
+    """Where the edge from row u to row v meets the plane: the same point for v to u."""
+    low, high = u, v
+    for axis in range(3):
+        if rows[u, axis] != rows[v, axis]:
+            if rows[v, axis] < rows[u, axis]:
+                low, high = v, u
+            break
+    a = abs(distance_row(plane, rows[low, 0], rows[low, 1], rows[low, 2]))
+    b = abs(distance_row(plane, rows[high, 0], rows[high, 1], rows[high, 2]))
+    t = a / (a + b) if a + b > 0.0 else 0.5
+    for k in range(3):
+        ring[at, k] = rows[low, k] + t * (rows[high, k] - rows[low, k])
+    ends[at, 0], ends[at, 1], between[at] = low, high, t
+    # On a plane across an axis the coordinate is known without rounding.
+    for axis in range(3):
+        if plane[3 + (axis + 1) % 3] == 0.0 and plane[3 + (axis + 2) % 3] == 0.0:
+            ring[at, axis] = plane[axis]
+
+
+@numba.njit(cache=True)
+def interpolate(column, edge, along, inputs, values):
+    """One attribute of all rows into `values`: the inputs' from `column`, then row by row."""
+    for r in range(inputs):
+        values[r] = column[r]
+    for r in range(inputs, len(values)):
+        low, high = values[edge[r, 0]], values[edge[r, 1]]
+        values[r] = low + along[r] * (high - low)
+
+
+@numba.njit
+def _chains(size, side, wanted, first, last):
+    """Runs of corners on the wanted side; `first` and `last` are the corners on the line."""
+    origin = 0
+    while side[origin] == wanted:
+        origin += 1
+    chains = 0
+    previous = origin
+    inside = False
+    for step in range(1, size + 1):
+        here = (origin + step) % size
+        if side[here] == wanted and not inside:
+            first[chains] = previous
+            inside = True
+        elif side[here] != wanted and inside:
+            last[chains] = here
+            chains += 1
+            inside = False
+        previous = here
+    return chains
+
+
+@numba.njit
+def _link(chains, first, last, ring, own, plane, wanted, follow):
+    """Which chain goes on where a chain meets the cut line.
+
+    Along the line, with the wanted side on the left, chain ends and chain starts alternate; so
+    sorted by position the i-th end belongs to the i-th start.
+    """
+    if chains == 1:
+        follow[0] = 0
+        return
+    dx = wanted * (plane[4] * own[5] - plane[5] * own[4])
+    dy = wanted * (plane[5] * own[3] - plane[3] * own[5])
+    dz = wanted * (plane[3] * own[4] - plane[4] * own[3])
+    ends = np.empty(chains)
+    starts = np.empty(chains)
+    for c in range(chains):
+        e, s = last[c], first[c]
+        ends[c] = (
+            dx * (ring[e, 0] - own[0]) + dy * (ring[e, 1] - own[1]) + dz * (ring[e, 2] - own[2])
+        )
+        starts[c] = (
+            dx * (ring[s, 0] - own[0]) + dy * (ring[s, 1] - own[1]) + dz * (ring[s, 2] - own[2])
+        )
+    for _ in range(chains):
+        end, begin = 0, 0
+        for c in range(1, chains):
+            end = c if ends[c] < ends[end] else end
+            begin = c if starts[c] < starts[begin] else begin
+        follow[end] = begin
+        ends[end], starts[begin] = np.inf, np.inf
+
+
+@numba.njit
+def _loop(c, first, last, follow, done, size, loop):
+    """Corners of the piece that chain c belongs to; returns how many."""
+    length = 0
+    chain = c
+    while not done[chain]:
+        done[chain] = True
+        at = first[chain]
+        if length > 0 and loop[length - 1] == at:
+            length -= 1
+        while at != last[chain]:
+            loop[length] = at
+            length += 1
+            at = (at + 1) % size
+        loop[length] = at
+        length += 1
+        chain = follow[chain]
+    if length > 1 and loop[0] == loop[length - 1]:
+        length -= 1
+    return length
+
+
+@numba.njit
+def _shorter_diagonal(ring, loop):
+    """Corner from which the shorter diagonal of four corners starts: 0 or 1."""
+    squares = np.zeros(2)
+    for d in range(2):
+        for axis in range(3):
+            squares[d] += (ring[loop[d], axis] - ring[loop[d + 2], axis]) ** 2
+    return 0 if squares[0] <= squares[1] else 1

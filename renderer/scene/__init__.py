@@ -1,0 +1,1 @@
+"""Things, where they are, and who looks at them."""

@@ -1,0 +1,147 @@
+"""From world to window: pixels have their origin in the upper left corner, y down.
+
+The centre of the pixel in column c and row r is (c + 0.5, r + 0.5).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from seethrough.renderer.scene.camera import Camera
+
+_EDGES = np.array(
+    [(a, b) for a in range(8) for b in range(a + 1, 8) if bin(a ^ b).count("1") == 1],
+    dtype=np.int64,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Boxes:
+    """What objects cover on the screen, at most.
+
+    extents (n, 4): left, top, right, bottom in pixels; near, far (n,): view depths of the nearest
+    and farthest corner; crosses (n,): whether the near plane cuts the box; within (n,): whether
+    any of it lies between the near and far planes; inside (n,): whether it can be in the picture.
+    """
+
+    extents: NDArray[np.float64]
+    near: NDArray[np.float64]
+    far: NDArray[np.float64]
+    crosses: NDArray[np.bool_]
+    within: NDArray[np.bool_]
+    inside: NDArray[np.bool_]
+
+
+def to_camera(points: NDArray[np.float64], camera: Camera) -> NDArray[np.float64]:
+    """(..., 3) camera coordinates of (..., 3) world points."""
+    return (points - camera.eye) @ camera.rotation
+
+
+def to_pixels(
+    points: NDArray[np.float64], camera: Camera, size: tuple[int, int]
+) -> NDArray[np.float64]:
+    """(..., 2) pixels of (..., 3) camera coordinates, which must lie in front of the eye."""
+    width, height = size
+    scale = 0.5 * height / np.tan(camera.fov_y / 2)
+    depth = -points[..., 2]
+    x = 0.5 * width + scale * points[..., 0] / depth
+    y = 0.5 * height - scale * points[..., 1] / depth
+    return np.stack([x, y], axis=-1)
+
+
+@njit(cache=True)
+def clouds(points, spans, turns, moves, lens):  # type: ignore[no-untyped-def]
+    """(p, 2) pixels of the points of k objects one after the other, and where each object's begin
+    (k + 1,).
+
+    `spans` (k, 2) are rows of `points` (m, 3) in mesh space; `turns` (k, 3, 3), `moves` (k, 3):
+    camera ← mesh; `lens`: pixels for a slope of 1, the middle of the picture x, y. What does not
+    lie in front of the eye comes out as any number.
+    """
+    n = len(spans)
+    starts = np.zeros(n + 1, np.int64)
+    for k in range(n):
+        starts[k + 1] = starts[k] + spans[k, 1] - spans[k, 0]
+    pixels = np.empty((starts[n], 2))
+    for k in range(n):
+        m, v, row = turns[k], moves[k], starts[k]
+        for p in range(spans[k, 0], spans[k, 1]):
+            x, y, z = points[p, 0], points[p, 1], points[p, 2]
+            depth = -(m[2, 0] * x + m[2, 1] * y + m[2, 2] * z + v[2])
+            s = lens[0] / depth if depth > 0 else 0.0
+            pixels[row, 0] = lens[1] + s * (m[0, 0] * x + m[0, 1] * y + m[0, 2] * z + v[0])
+            pixels[row, 1] = lens[2] - s * (m[1, 0] * x + m[1, 1] * y + m[1, 2] * z + v[1])
+            row += 1
+    return pixels, starts
+
+
+def screen_boxes(corners: NDArray[np.float64], camera: Camera, size: tuple[int, int]) -> Boxes:
+    """Extents on the screen of (n, 8, 3) world boxes, cut at the near plane.
+
+    The corners of a box come in the order of their bits: corner k is high in x if k & 4.
+    """
+    scale = 0.5 * size[1] / np.tan(camera.fov_y / 2)
+    lens = np.array([scale, size[0] / 2, size[1] / 2, camera.near])
+    extents, depths, crosses = _boxes(corners, camera.eye, camera.rotation, lens)
+    near, far = depths[:, 0], depths[:, 1]
+    low, high = extents[:, :2], extents[:, 2:]
+    if crosses.any():
+        points = to_camera(corners, camera)
+        rows = np.nonzero(crosses)[0]
+        _add_cuts(low, high, rows, points, -points[..., 2], camera, size)
+    within = (far > camera.near) & (near < camera.far)
+    inside = within & (high > 0).all(axis=1) & (low < np.array(size)).all(axis=1)
+    return Boxes(extents, near, far, crosses, within, inside)
+
+
+@njit(cache=True)
+def _boxes(corners, eye, rotation, lens):  # type: ignore[no-untyped-def]
+    """(n, 4) extents of what lies beyond the near plane, (n, 2) depths, and whether it cuts."""
+    n = len(corners)
+    extents, depths = np.empty((n, 4)), np.empty((n, 2))
+    crosses = np.zeros(n, np.bool_)
+    for i in range(n):
+        extents[i, 0] = extents[i, 1] = depths[i, 0] = np.inf
+        extents[i, 2] = extents[i, 3] = depths[i, 1] = -np.inf
+        ahead = 0
+        for k in range(8):
+            x, y, z = 0.0, 0.0, 0.0
+            for c in range(3):
+                d = corners[i, k, c] - eye[c]
+                x += d * rotation[c, 0]
+                y += d * rotation[c, 1]
+                z -= d * rotation[c, 2]
+            depths[i, 0], depths[i, 1] = min(depths[i, 0], z), max(depths[i, 1], z)
+            if z < lens[3]:
+                continue
+            ahead += 1
+            x, y = lens[1] + lens[0] * x / z, lens[2] - lens[0] * y / z
+            extents[i, 0], extents[i, 1] = min(extents[i, 0], x), min(extents[i, 1], y)
+            extents[i, 2], extents[i, 3] = max(extents[i, 2], x), max(extents[i, 3], y)
+        crosses[i] = 0 < ahead < 8
+    return extents, depths, crosses
+
+
+def _add_cuts(
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    rows: NDArray[np.int64],
+    points: NDArray[np.float64],
+    depth: NDArray[np.float64],
+    camera: Camera,
+    size: tuple[int, int],
+) -> None:
+    """Widen the extents by the points where the near plane cuts the boxes' edges."""
+    a, b = points[rows][:, _EDGES[:, 0]], points[rows][:, _EDGES[:, 1]]
+    da, db = depth[rows][:, _EDGES[:, 0]], depth[rows][:, _EDGES[:, 1]]
+    cut = (da < camera.near) != (db < camera.near)
+    t = np.where(cut, (camera.near - da) / np.where(cut, db - da, 1.0), 0.0)
+    cuts = a + t[..., None] * (b - a)
+    cuts[..., 2] = -camera.near
+    flat = to_pixels(cuts, camera, size)
+    low[rows] = np.minimum(low[rows], np.where(cut[..., None], flat, np.inf).min(axis=1))
+    high[rows] = np.maximum(high[rows], np.where(cut[..., None], flat, -np.inf).max(axis=1))

@@ -1,0 +1,143 @@
+"""What there is to draw, as frozen values: no GPU, no files, no task."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.scene.geometry import Mesh
+
+if TYPE_CHECKING:
+    from seethrough.renderer.plan.separation import Separations
+
+Color = tuple[float, float, float]
+
+
+def _identity() -> NDArray[np.float64]:
+    return np.eye(4)
+
+
+@dataclass(frozen=True, eq=False)
+class Object:
+    """One thing in the world: a mesh, where it stands, and what it means to the task.
+
+    `transform` is a 4 × 4 affine matrix (world ← mesh). `color` multiplies the mesh's own colours.
+    A `target` carries information for the task; every other object is a distractor, and an
+    occluder wherever it lies in front of a target (paper 004 §III-A). An `impenetrable` object
+    never turns transparent (§III-C.3). Objects with the same `group` are drawn, where no plane
+    separates them, in their order in the scene, targets before others (§V-B, nested dolls); `None`
+    makes the object its own group.
+    """
+
+    mesh: Mesh
+    transform: NDArray[np.float64] = field(default_factory=_identity)
+    color: Color = (1.0, 1.0, 1.0)
+    target: bool = False
+    impenetrable: bool = False
+    group: int | None = None
+    kind: str = ""
+
+    def __post_init__(self) -> None:
+        if self.transform.shape != (4, 4):
+            raise ValueError(f"transform has shape {self.transform.shape}, expected (4, 4)")
+        if not np.isfinite(self.transform).all():
+            raise ValueError(f"transform of {self.kind or 'object'} has a value that is not finite")
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Objects in a fixed order: an object's index is its identity.
+
+    Id pictures hold index + 1, and 0 where there is only background.
+    """
+
+    objects: tuple[Object, ...]
+    background: Color = (0.93, 0.94, 0.96)
+
+    @cached_property
+    def transforms(self) -> NDArray[np.float64]:
+        """(n, 4, 4) world ← mesh."""
+        return np.array([o.transform for o in self.objects]).reshape(-1, 4, 4)
+
+    @cached_property
+    def targets(self) -> NDArray[np.bool_]:
+        """(n,) which objects are targets."""
+        return np.array([o.target for o in self.objects], dtype=bool)
+
+    @cached_property
+    def impenetrable(self) -> NDArray[np.bool_]:
+        """(n,) which objects never turn transparent."""
+        return np.array([o.impenetrable for o in self.objects], dtype=bool)
+
+    @cached_property
+    def centers(self) -> NDArray[np.float64]:
+        """(n, 3) world positions of the mesh bounds' centres (the paper's sort key, §V-B)."""
+        local = np.array([o.mesh.center for o in self.objects]).reshape(-1, 3)
+        moved = np.einsum("nij,nj->ni", self.transforms[:, :3, :3], local)
+        return moved + self.transforms[:, :3, 3]
+
+    @cached_property
+    def corners(self) -> NDArray[np.float64]:
+        """(n, 8, 3) world corners of the mesh bounds; corner k is high in x if k & 4, y 2, z 1."""
+        bits = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)])
+        bounds = np.array([o.mesh.bounds for o in self.objects]).reshape(-1, 2, 3)
+        local = bounds[:, bits, np.arange(3)]
+        moved = np.einsum("nij,nkj->nki", self.transforms[:, :3, :3], local)
+        return moved + self.transforms[:, None, :3, 3]
+
+    @cached_property
+    def group_of(self) -> NDArray[np.int64]:
+        """(n,) number of each object's group, counted from 0 in the order of first appearance."""
+        keys = [
+            ("alone", i) if o.group is None else ("group", o.group)
+            for i, o in enumerate(self.objects)
+        ]
+        numbers: dict[tuple[str, int], int] = {}
+        return np.array([numbers.setdefault(k, len(numbers)) for k in keys], dtype=np.int64)
+
+    @cached_property
+    def settled(self) -> NDArray[np.bool_]:
+        """(n, n) pairs of one group, whose order in the scene counts; not those of two targets."""
+        both = self.targets & self.targets[:, None]
+        return (self.group_of == self.group_of[:, None]) & ~both
+
+    @cached_property
+    def group_centers(self) -> NDArray[np.float64]:
+        """(n, 3) centre of each object's group: of the box about its members' bounds (§V-B)."""
+        count = int(self.group_of.max(initial=-1)) + 1
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        np.minimum.at(low, self.group_of, self.corners.min(axis=1))
+        np.maximum.at(high, self.group_of, self.corners.max(axis=1))
+        alone = np.bincount(self.group_of, minlength=count)[self.group_of] == 1
+        return np.where(alone[:, None], self.centers, ((low + high) / 2)[self.group_of])
+
+    @cached_property
+    def box_sides(self) -> NDArray[np.float64]:
+        """(n, 3, 3) half the sides of each object's box, as world vectors in the rows."""
+        bounds = np.array([o.mesh.bounds for o in self.objects]).reshape(-1, 2, 3)
+        half = (bounds[:, 1] - bounds[:, 0]) / 2
+        return np.swapaxes(self.transforms[:, :3, :3] * half[:, None, :], 1, 2).copy()
+
+    @cached_property
+    def radii(self) -> NDArray[np.float64]:
+        """(n,) radius of the sphere about `centers` that holds each object, in world units."""
+        own = np.array([o.mesh.radius for o in self.objects], dtype=float)
+        stretch = np.linalg.svd(self.transforms[:, :3, :3], compute_uv=False)
+        return own * stretch.max(axis=1, initial=0.0)
+
+    @cached_property
+    def triangle_counts(self) -> NDArray[np.int64]:
+        """(n,) triangles of each object."""
+        return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)
+
+    @cached_property
+    def separations(self) -> Separations:
+        """Planes between objects, found as frames ask for them."""
+        from seethrough.renderer.plan.separation import Separations
+
+        n = len(self.objects)
+        return Separations(np.eye(n, dtype=bool))

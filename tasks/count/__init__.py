@@ -1,0 +1,1 @@
+"""T1: how many targets are there?"""

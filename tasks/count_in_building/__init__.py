@@ -1,0 +1,1 @@
+"""T4: how many targets are in the building?"""

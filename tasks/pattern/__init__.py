@@ -1,0 +1,1 @@
+"""T2: which letter do the targets make?"""

@@ -1,0 +1,1 @@
+"""T3: find one target, mark where it was."""

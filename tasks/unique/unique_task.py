@@ -1,0 +1,106 @@
+"""T3, discovery: find the one thing that occurs once, and mark its place on the plan (004 §VI)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+from seethrough.tasks.kit.base import Example, Outcome, View
+from seethrough.tasks.kit.events import Event, KeyPress
+from seethrough.tasks.kit.example import before
+from seethrough.tasks.kit.hud import FloorPlan, Label
+from seethrough.tasks.kit.plan_mark import PlanMark
+from seethrough.tasks.kit.visit import Visit, visit
+from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building import Building, unique_building
+from seethrough.tasks.worlds.building.floor import room_at
+
+SEARCH = Label("unique.search", (0.26, 0.02))
+
+
+@dataclass(frozen=True, eq=False)
+class UniqueState:
+    """A trial between two events; `found` once the participant has ended the search."""
+
+    visit: Visit
+    plan: PlanMark
+    found: bool = False
+
+    @property
+    def building(self) -> Building:
+        """Where the trial is played."""
+        return self.visit.building
+
+
+class Unique:
+    """Find it: the pointer turns, arrow keys walk, space or enter ends the search; then mark it."""
+
+    name = "unique"
+    scenario = "walkthrough"
+
+    def make_scene(self, rng: Generator, parameters: BuildingParameters) -> Building:
+        """One of the study's buildings: the same for everybody, so from the study's seed."""
+        return unique_building(rng, parameters)
+
+    def begin(
+        self,
+        rng: Generator,
+        parameters: BuildingParameters,
+        aspect: float,
+        scene: Building | None = None,
+    ) -> UniqueState:
+        """The first state of a trial."""
+        building = self.make_scene(rng, parameters) if scene is None else scene
+        return UniqueState(visit(building, parameters), PlanMark(aspect, parameters.side))
+
+    def on_event(self, state: UniqueState, event: Event) -> UniqueState:
+        """The state after `event`."""
+        if state.found:
+            return replace(state, plan=state.plan.on_event(event))
+        found = isinstance(event, KeyPress) and event.key in ("space", "enter")
+        moved = state.visit.on_event(event)
+        if moved is state.visit and not found:
+            return state
+        return UniqueState(moved, state.plan, found)
+
+    def view(self, state: UniqueState) -> View:
+        """What to show for `state`: the building, then its plan over it."""
+        if not state.found:
+            return state.visit.view(SEARCH)
+        tone = "hint" if state.plan.hint else "plain"
+        text = state.plan.hint or "unique.mark"
+        mark = Label(text, (state.plan.aspect / 2, 0.03), align="center", tone=tone)
+        plan = state.plan.elements(state.building)
+        return state.visit.view(mark, *plan, captured=False)
+
+    def outcome(self, state: UniqueState) -> Outcome | None:
+        """Once confirmed: `distance` from the mark, and as `correct`, whether the room is right."""
+        if not state.plan.confirmed or state.plan.mark is None:
+            return None
+        b, place = state.building, _place(state.building)
+        mark = np.array(state.plan.mark)
+        rooms = [room_at(b.floor, at[0], at[1], b.parameters) for at in (mark, place)]
+        return Outcome(
+            answer=f"{mark[0]:.3f},{mark[1]:.3f}",
+            truth=f"{place[0]:.3f},{place[1]:.3f}",
+            correct=rooms[0] == rooms[1],
+            distance=float(np.hypot(*(mark - place))),
+        )
+
+    def solution(self, state: UniqueState) -> FloorPlan | None:
+        """The plan with the mark and the thing's true place."""
+        x, z = _place(state.building).tolist()
+        return state.plan.plan(state.building, (x, z))
+
+    def example(self, state: UniqueState, aspect: float) -> Example:
+        """The thing itself."""
+        return Example(tuple(state.building.asked_objects), before(state.visit))
+
+
+def _place(building: Building) -> NDArray[np.float64]:
+    """(2,) world x and z of the thing asked for."""
+    place: NDArray[np.float64] = building.scene.transforms[building.asked_objects[0], [0, 2], 3]
+    return place
