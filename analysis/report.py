@@ -8,22 +8,21 @@ from importlib.metadata import version
 from pathlib import Path
 
 from seethrough.analysis.exclude import apply_rules
-from seethrough.analysis.load.study import Study, load_study
+from seethrough.analysis.load.study import Study, config_of, load_study
 from seethrough.analysis.page import folder
 from seethrough.analysis.page.blocks import Figure, Report, Section, Table, walk
 from seethrough.analysis.page.html import as_html
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.page.pdf import find_browser, print_pdf
 from seethrough.analysis.page.tables_csv import as_csv
-from seethrough.analysis.plan import TESTS, config_of, make_plan
-from seethrough.analysis.sections.accuracy import accuracy_section
+from seethrough.analysis.plan import TESTS, make_plan
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.participants import participants_section
 from seethrough.analysis.sections.provenance import provenance_section
 from seethrough.analysis.sections.ratings import ratings_section
+from seethrough.analysis.sections.scales import plain_section, speed_section
 from seethrough.analysis.sections.sensitivity import sensitivity_section
-from seethrough.analysis.sections.summary import summary_section
-from seethrough.analysis.sections.time import time_section
+from seethrough.analysis.sections.summary import Found, summary_section
 from seethrough.analysis.sections.tradeoff import tradeoff_section
 from seethrough.analysis.sections.validity import validity_section
 from seethrough.analysis.written import FILE, half_of, own_folder, write_over
@@ -66,11 +65,12 @@ def _title(study: Study) -> str:
 
 def _sections(context: Context) -> list[Section]:
     """All sections in reading order; `participants` comes late to know who is missing where."""
-    time, timed = time_section(context)
-    accuracy, tests = accuracy_section(context)
+    time, timed = speed_section(context)
+    accuracy, tests = plain_section(context)
     ratings = ratings_section(context)
     tables = [b for b in walk(ratings.blocks) if isinstance(b, Table)] if ratings else []
     single = next((t for t in tables if t.key == "single_items"), None)
+    found = Found(timed | tests, single)
     optional = {
         "time": time,
         "accuracy": accuracy,
@@ -79,10 +79,10 @@ def _sections(context: Context) -> list[Section]:
         "validity": validity_section(context),
     }
     if "mixed" in context.plan.tests:
-        optional["mixed"] = sensitivity_section(context, timed[0] if timed else None)
+        optional["mixed"] = sensitivity_section(context, found.speed(context.design))
     chosen = [optional[name] for name in TESTS if name in context.plan.tests]
     return [
-        summary_section(context, timed, tests, single),
+        summary_section(context, found),
         participants_section(context),
         *(section for section in chosen if section is not None),
         provenance_section(context),

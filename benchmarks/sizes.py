@@ -14,7 +14,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from seethrough.analysis.equivalence import equivalence, log_equivalence
+from seethrough.analysis.equivalence import Margin, equivalence, log_equivalence
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.distributions import holm, negligible_p
 from seethrough.analysis.stats.paired import one_sample, paired, ratio_of_means, within_halfwidths
@@ -146,13 +146,13 @@ def some_difference(rng: Generator) -> Found:
 
 def at_the_margin(rng: Generator) -> Found:
     """The true difference, or ratio, lies on the margin: nothing may be called equal."""
-    margins = {"distance": 1.5, "time": 1.2}
+    own, share = Margin(1.5), Margin(1.2, ratio=True)
     a, b = normal_pairs(rng, 16, 1.5)
-    absolute = equivalence(a, b, "distance", margins)
+    absolute = equivalence(a, b, own)
     a, b = normal_pairs(rng, 16, 2.0)
-    ratio = equivalence(a, b, "time", margins)
+    ratio = equivalence(a, b, share)
     a, b = normal_pairs(rng, 16)
-    logs = log_equivalence(a / 10, b / 10 + float(np.log(1.2)), "time", margins)
+    logs = log_equivalence(a / 10, b / 10 + float(np.log(1.2)), share)
     found = {}
     for name, own in (("difference", absolute), ("ratio", ratio), ("log ratio", logs)):
         found[f"TOST, {name}"] = below(own["tost_p"])
@@ -167,7 +167,7 @@ def shares_at_the_margin(share: float) -> Callable[[Generator], Found]:
     def draw(rng: Generator) -> Found:
         a = rng.binomial(3, share, 16) / 3
         b = rng.binomial(3, share - 0.10, 16) / 3
-        return {"no worse, shares right": below(equivalence(a, b, "correct", {"correct": 0.10})
+        return {"no worse, shares right": below(equivalence(a, b, Margin(0.10, more=True))
                                                 ["noninferior_p"])}  # fmt: skip
 
     return draw

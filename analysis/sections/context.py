@@ -9,6 +9,7 @@ import pandas as pd
 from numpy.random import Generator
 
 from seethrough.analysis.cells import Cells, Missing
+from seethrough.analysis.design import Design
 from seethrough.analysis.exclude import Excluded
 from seethrough.analysis.load.study import Study
 from seethrough.analysis.plan import Plan
@@ -27,6 +28,11 @@ class Context:
     excluded: tuple[Excluded, ...]
     seed: int
     missing: dict[str, tuple[Missing, ...]] = field(default_factory=dict)
+
+    @property
+    def design(self) -> Design:
+        """What the study varied and measured."""
+        return self.study.design
 
     @property
     def people(self) -> int:

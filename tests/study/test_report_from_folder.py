@@ -59,8 +59,8 @@ def test_times_by_task_are_those_of_the_files(report):
         else:
             first, second = np.array(raw[task, "standard"]), np.array(raw[task, "dynamic"])
         test = stats.ttest_rel(first, second)
-        assert float(row["mean_standard"]) == pytest.approx(first.mean(), rel=1e-12)
-        assert float(row["sd_dynamic"]) == pytest.approx(second.std(ddof=1), rel=1e-12)
+        assert float(row["mean_baseline"]) == pytest.approx(first.mean(), rel=1e-12)
+        assert float(row["sd_level"]) == pytest.approx(second.std(ddof=1), rel=1e-12)
         assert float(row["F"]) == pytest.approx(test.statistic**2, rel=1e-10)
         assert float(row["p"]) == pytest.approx(test.pvalue, rel=1e-9)
 

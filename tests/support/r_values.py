@@ -40,7 +40,7 @@ FLOORS = {
 """What may be left of a number that is small because larger ones cancel in it."""
 CANCEL = 1e-14
 """Of means and s.d.: what rounding leaves of differences between equal sums in another order."""
-CANCELLING = ("difference", "within_half", "mean_standard", "mean_dynamic")
+CANCELLING = ("difference", "within_half", "mean_baseline", "mean_level")
 NEAR_1E9 = {"log": 1e-5, "": 1e-6}
 """Times near 10⁹: of a spread of some seconds seven digits are left in a mean, which is a double;
 their logarithms near 20.7 spread by some 10⁻⁸, and have six to seven."""
@@ -50,6 +50,7 @@ SAMPLED = 4.0
 WORDS = "words of ours, no number"
 WITHOUT: Mapping[tuple[str, str], str] = {
     ("ran", "*"): "versions, hashes, seeds and words",
+    ("predictions", "*"): "each p that decides stands in another table, too, and is held there",
     ("*", "label"): WORDS,
     ("*", "unit"): WORDS,
     ("*", "task"): "the label of the key's task",
@@ -216,7 +217,7 @@ def _room(
     if table == "mixed_model" and column in FITTED:
         return FITTED[column](theirs) + CLOSED * abs(truth)
     floor = FLOORS.get(column, 0.0)
-    if column in CANCELLING and "sd_standard" in theirs:
-        sizes = ("mean_standard", "mean_dynamic", "sd_standard", "sd_dynamic")
+    if column in CANCELLING and "sd_baseline" in theirs:
+        sizes = ("mean_baseline", "mean_level", "sd_baseline", "sd_level")
         floor = CANCEL * sum(abs(float(theirs[c])) for c in sizes if theirs[c] != "undefined")
     return max(closed, SHAPIRO if column == "shapiro_p" else 0.0) * abs(truth) + floor
