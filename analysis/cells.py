@@ -82,7 +82,11 @@ class Cells:
     @property
     def missing(self) -> tuple[Missing, ...]:
         """Who lacks a cell, and which."""
-        bad = ~np.isfinite(self.values)
+        return self.lacking(np.ones_like(self.values, dtype=bool))
+
+    def lacking(self, expected: NDArray[np.bool_]) -> tuple[Missing, ...]:
+        """Who lacks a cell that they are `expected` to have, and which."""
+        bad = ~np.isfinite(self.values) & expected
         found = []
         for i in np.flatnonzero(bad.reshape(len(bad), -1).any(axis=1)):
             where = [

@@ -135,26 +135,48 @@ def _layout(
     trials: pd.DataFrame, design: Design, factor: Factor, others: Sequence[str], n: int
 ) -> _Layout:
     """Each level's column is its indicator less 1/k, so that its coefficient is level − baseline at
-    the mean of all else, which is sum-coded and crossed with it."""
+    the mean of all else, which is sum-coded and crossed with it.
+
+    Where the study leaves cells out, nothing is crossed: not every interaction can be estimated.
+    """
     levels = levels_of(trials, (*design.crossed, *design.groups), design.task_names)
     own = trials[factor.name].astype("str").to_numpy()
     shares = len(factor.levels)
     level = np.column_stack([(own == name) - 1 / shares for name in others])
     rest = np.ones((len(trials), 1))
+    crossed = not any(set(gone) & set(levels) for gone in design.excluded)
     for name, known in levels.items():
         if name != factor.name and len(known) > 1:
             codes = pd.Categorical(trials[name].astype("str"), categories=list(known)).codes
             coded = np.column_stack([np.ones(len(trials)), sum_coding(len(known))[codes]])
-            rest = np.einsum("ni,nj->nji", rest, coded).reshape(len(trials), -1)
+            if crossed:
+                rest = np.einsum("ni,nj->nji", rest, coded).reshape(len(trials), -1)
+            else:
+                rest = np.column_stack([rest, coded[:, 1:]])
+    if not crossed:
+        return _Layout(np.column_stack([rest[:, :1], level, rest[:, 1:]]), *_who(trials, level),
+                       len(levels["task"]), n, n - _groups(trials, design))  # fmt: skip
     both = np.einsum("ni,nj->nij", level, rest).reshape(len(trials), -1)
     slots = np.arange(len(others)) * rest.shape[1]
     left = np.setdiff1d(np.arange(both.shape[1]), slots)
     fixed = np.column_stack([rest[:, :1], both[:, slots], rest[:, 1:], both[:, left]])
+    return _Layout(fixed, *_who(trials, level), len(levels["task"]), n, n - _groups(trials, design))
+
+
+def _who(
+    trials: pd.DataFrame, level: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.intp]]:
+    """The factor's columns, and whose and which task each row is."""
     _, person = np.unique(trials["participant"].astype("str"), return_inverse=True)
     _, task = np.unique(trials["task"].astype("str"), return_inverse=True)
-    groups = trials[[f.name for f in design.groups]].astype("str").drop_duplicates()
-    lost = max(1, len(groups)) if design.groups else 1
-    return _Layout(fixed, level, person, task, len(levels["task"]), n, n - lost)
+    return level, person, task
+
+
+def _groups(trials: pd.DataFrame, design: Design) -> int:
+    """How many groups of people there are, 1 where all are one."""
+    if not design.groups:
+        return 1
+    return len(trials[[f.name for f in design.groups]].astype("str").drop_duplicates())
 
 
 def _fullest(

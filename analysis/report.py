@@ -6,17 +6,24 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+
+from seethrough.analysis.cells import Cells
 from seethrough.analysis.exclude import apply_rules
 from seethrough.analysis.load.study import Study, config_of, load_study
+from seethrough.analysis.measures import levels_of
 from seethrough.analysis.page import folder
 from seethrough.analysis.page.blocks import Figure, Report, Section, Table, walk
 from seethrough.analysis.page.html import as_html
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.page.pdf import find_browser, print_pdf
+from seethrough.analysis.page.r_script import as_r
 from seethrough.analysis.page.tables_csv import as_csv
 from seethrough.analysis.plan import TESTS, make_plan
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.omnibus import complete
 from seethrough.analysis.sections.participants import participants_section
 from seethrough.analysis.sections.provenance import provenance_section
 from seethrough.analysis.sections.ratings import ratings_section
@@ -53,7 +60,19 @@ def make_report(data: Path, options: Options) -> Report:
     if any(chain.state == "none" for chain in study.chains):
         banner = f"{banner} {UNCHAINED}".strip()
     subtitle = f"Study {study.name}. Source: {study.source}. {study.description}"
-    return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections))
+    script = as_r(_title(study), study.source, plan.alpha, study.design, _facts(context, sections))
+    return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections), script)
+
+
+def _facts(context: Context, sections: Sequence[Section]) -> dict[str, Any]:
+    """What the script in R has to know of this report's choices."""
+    tables = {b.key: b for s in sections for b in walk(s.blocks) if isinstance(b, Table)}
+    mixed = tables.get("mixed_model")
+    design = context.design
+    levels = levels_of(context.trials, design.crossed)
+    shape = (1, *(len(known) for known in levels.values()))
+    whole, _ = complete(design, Cells(np.zeros(shape), np.ones(shape, np.intp), ("",), levels))
+    return {"omnibus": whole.factors, "model": mixed.rows[0]["model"] if mixed else ""}
 
 
 def _title(study: Study) -> str:
@@ -106,7 +125,8 @@ def write(
 ) -> Path:
     """Make the report and write it into `out`; returns the page's path. Raises DataError.
 
-    report.html, report.md, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if asked for.
+    report.html, report.md, analysis.R, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if
+    asked for.
     """
     from seethrough.analysis.page.charts import (
         library,
@@ -124,6 +144,8 @@ def write(
     for table in tables_of(report):
         write_over(tables / f"{table.key}.csv", as_csv(table))
     write_over(out / "report.md", as_markdown(report))
+    if report.script:
+        write_over(out / "analysis.R", report.script)
     page = out / "report.html"
     write_over(page, as_html(report, pictures, version("seethrough"), library()))
     if browser:

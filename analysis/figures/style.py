@@ -13,7 +13,16 @@ Spec = dict[str, Any]
 INK = "#1f2328"
 RULE = "#d0d7de"
 FAINT = "#8c959f"
-PALETTE = ("#c2570c", "#0b69b7", "#009e73", "#b1408a", "#8a6d00", "#5a5a5a", "#4aa3c7", "#7a3b00")
+PALETTE = (
+    "#c2570c",
+    "#0b69b7",
+    "#00795a",
+    "#b1408a",
+    "#8a6d00",
+    "#5a5a5a",
+    "#2f87a8",
+    "#7a3b00",
+)
 """Told apart by every kind of colour vision (after Okabe and Ito), and by darkness in print; more
 levels than colours are told apart by their places, too."""
 LEVEL = PALETTE[1]

@@ -26,8 +26,8 @@ def at_least(
     if prediction.value is None or not is_defined(row["sd"]) or row["sd"] == 0:
         why = "no value to reach was stated" if prediction.value is None else "nobody differs"
         said = say(
-            f"{start}not testable. {row['label']}: {{}} on average (n = {{}}); {why}, so this "
-            "describes and does not test.",
+            f"{start}not testable. {{}} on average (n = {{}}); {why}, so this describes and does "
+            "not test.",
             mean,
             n,
             kind="answer",
@@ -38,7 +38,7 @@ def at_least(
     verdict = "supported" if p < context.plan.alpha else "not shown"
     shown = p_value(p)
     said = say(
-        f"{start}{verdict}. {row['label']}: {{}} on average (n = {{}}), {prediction.value:g} was "
+        f"{start}{verdict}. {{}} on average (n = {{}}), {prediction.value:g} was "
         f"to be reached (one-sided p {'' if shown.startswith(('<', '>')) else '= '}{shown}).",
         mean,
         n,

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -59,7 +59,10 @@ TRENDS = {1: "linear trend", 2: "quadratic trend"}
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A row to be: scores of everybody, the groups' weights, and what it is called."""
+    """A row to be: scores of everybody, the groups' weights, and what it is called.
+
+    `span`: what a slope is taken times for a ratio of the last level to the first.
+    """
 
     key: str
     label: str
@@ -68,6 +71,7 @@ class Asked:
     scores: Array
     weights: Mapping[str, float]
     scale: float
+    span: float | None = None
 
 
 def contrast_blocks(
@@ -85,8 +89,10 @@ def contrast_blocks(
     families: list[str] = []
     for where, own in places:
         found = _anova_of(anova, where)
+        said = where if where == "overall" else context.design.task_said(where)
         for asked in _asked(context, own, where, found):
-            made = _row(context, own, asked, measure, log)
+            label = f"{said}{asked.label.removeprefix(where)}"
+            made = _row(context, own, replace(asked, label=label), measure, log)
             if made is not None:
                 rows.append(made)
                 families.append(f"{asked.family}{' overall' if where == 'overall' else ''}")
@@ -112,7 +118,8 @@ def _note(design: Design, rows: Sequence[Mapping[str, Any]]) -> str:
     notes = [WELCH] if design.groups else []
     if any(r["kind"] in TRENDS.values() for r in rows):
         notes.append(
-            "Trends take the levels' own numbers, not equal steps; a linear one is a slope."
+            "Trends take the levels' own numbers, not equal steps; a linear one is a slope, its "
+            "ratio that of the last level to the first."
         )
     if any(r["kind"] == SIMPLE for r in rows):
         notes.append("Simple effects: only where the interaction was found.")
@@ -128,7 +135,7 @@ def _asked(context: Context, cells: Cells, where: str, anova: Table | None) -> I
     """Every contrast that the design asks of a place, of those who did it."""
     design = design_at(context, cells)
     within = [f for f in design.crossed if len(cells.factors.get(f.name, ())) > 1]
-    if design.groups:
+    if context.design.groups:
         for factor in within:
             for c in _there(factor, cells):
                 yield from _within(design, cells, where, factor, c)
@@ -216,7 +223,8 @@ def _trends(design: Design, cells: Cells, where: str, factor: Factor) -> Iterato
         scores = (flat @ trend(x, degree)).mean(axis=1)
         scale = float(np.nanmax(np.abs(flat), initial=0.0) * np.max(np.abs(trend(x, degree))))
         yield Asked(f"{where}/{factor.name}^{degree}", f"{where}: {factor.name}, {kind}", kind,
-                    f"{kind} {factor.name}", scores, _equal(design), scale)  # fmt: skip
+                    f"{kind} {factor.name}", scores, _equal(design), scale,
+                    x[-1] - x[0] if degree == 1 else 0.0)  # fmt: skip
 
 
 def _simple(
@@ -277,7 +285,6 @@ def _row(
     if any(len(g) == 0 for g in groups):
         return None
     found = estimate(groups, list(asked.weights.values()), asked.scale)
-    slope = asked.kind in TRENDS.values()
     return {
         "contrast": asked.key,
         "label": asked.label,
@@ -291,21 +298,21 @@ def _row(
         "t": found.t,
         "df": found.df,
         "p": found.p,
-        **_ratios(found, log, slope),
+        **_ratios(found, log, asked.span),
         **_margin(found, measure, asked.kind),
     }
 
 
-def _ratios(found: Estimate, log: bool, slope: bool) -> dict[str, Number | None]:
-    """level / baseline from logarithms: the factor per step of a trend, too."""
-    if not log:
+def _ratios(found: Estimate, log: bool, span: float | None) -> dict[str, Number | None]:
+    """level / baseline from logarithms; of a slope the last level / the first; of a curve none."""
+    if not log or span == 0:
         return dict.fromkeys(("ratio", "ratio_low", "ratio_high"))
-    sign = 1.0 if slope else -1.0
-    low, high = found.interval if slope else found.interval[::-1]
+    times = -1.0 if span is None else span
 
     def ratio(value: Number) -> Number:
-        return float(np.exp(sign * value)) if is_defined(value) else value
+        return float(np.exp(times * value)) if is_defined(value) else value
 
+    low, high = found.interval[::-1] if times < 0 else found.interval
     return {"ratio": ratio(found.estimate), "ratio_low": ratio(low), "ratio_high": ratio(high)}
 
 
@@ -355,8 +362,9 @@ MOST = 8
 def _sentence(table: Table, row: Mapping[str, Any], measure: Measured, log: bool) -> Prose:
     key = str(row["contrast"])
     p = table.cite(key, "p_holm")
-    what = "ratio" if log else "estimate"
-    ends = ("ratio_low", "ratio_high") if log else ("low", "high")
+    ratio = log and row["ratio"] is not None
+    what = "ratio" if ratio else "estimate"
+    ends = ("ratio_low", "ratio_high") if ratio else ("low", "high")
     words: list[str | Cited] = [f"{row['label']} ({row['kind']}): {what} ", table.cite(key, what)]
     if measure.unit and not log:
         words.append(f" {measure.unit}")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from seethrough.analysis.cells import Cells
 from seethrough.analysis.comparison import (
@@ -105,7 +106,7 @@ def measured_blocks(context: Context, measure: Measured) -> tuple[list[Block], d
         return [], {}
     logs = cells_of(context.trials, context.design, measure, log=True) if measure.log else None
     context.lacking(measure.said, cells)
-    blocks: list[Block] = [*missing_note(cells.missing)] if measure.log else []
+    blocks: list[Block] = [*missing_note(context.missing[measure.said])] if measure.log else []
     table = _cells(context, measure, cells, logs)
     pairs = [] if context.design.groups else pairs_of(context, measure, cells, logs)
     if not pairs and not context.design.groups:
@@ -150,15 +151,45 @@ def _pairs(
         note=_note(measure),
     )  # fmt: skip
     if not measure.log:
-        return [_sentence(tests, m, measure, context) for m in pairs], {"tests": tests}
+        said = in_short(
+            [(m, tests.row(m.key), _sentence(tests, m, measure, context)) for m in pairs], context
+        )
+        return list(said), {"tests": tests}
     unit = f" in {measure.unit}" if measure.unit else ""
     tests = replace(tests, title=f"{_start(measure)}{unit}, on the raw scale", note=RAW)
     logs = replace(
         compare_logs(pairs), key=f"tests_log_{measure.name}",
         title=f"{_start(measure)} on the log scale",
     )  # fmt: skip
-    said = [_log_sentence(tests, logs, m, context) for m in pairs]
+    said = in_short(
+        [(m, logs.row(m.key), _log_sentence(tests, logs, m, context)) for m in pairs], context
+    )
     return list(said), {"logs": logs, "tests": tests}
+
+
+def in_short(
+    said: Sequence[tuple[Pair, Mapping[str, Any], Prose]], context: Context
+) -> list[Prose]:
+    """Each contrast's sentence; of several contrasts only those that show something, and where
+    nothing was found one line for all."""
+    if len({m.contrast for m, _, _ in said}) < 2:
+        return [sentence for _, _, sentence in said]
+    alpha = context.plan.alpha
+    shown, none, equal = [], [], []
+    for m, row, sentence in said:
+        p = decisive(row)[1]
+        if not is_defined(p) or p < alpha:
+            shown.append(sentence)
+        elif is_defined(row["tost_p"]) and row["tost_p"] < alpha:
+            equal.append(m.label)
+        else:
+            none.append(m.label)
+    if equal:
+        shown.append(say(f"Equivalent within the declared margin: {'; '.join(equal)}."))
+    if none:
+        shown.append(say(f"No difference shown, which is no evidence of equality: "
+                         f"{'; '.join(none)}."))  # fmt: skip
+    return shown
 
 
 NOTES = {

@@ -44,7 +44,7 @@ def omnibus(
             tables: list[Block] = [raw]
         else:
             raw = replace(raw, title=f"{title}, {measure.unit or 'raw'}")
-            words = f"{note} Logarithms of trials' values."
+            words = f"{note} Logarithms of trials' values.".strip()
             decides = _table(context, f"anova_{measure.name}{name}_log", f"{title}, logarithms",
                              own_logs, words)  # fmt: skip
             tables = [t for t in (decides,) if t is not None] + [Fold("On the raw scale", (raw,))]
@@ -83,8 +83,9 @@ def _variants(
         return found
     for task in tasks:
         own, own_logs = cells.pick(task=task), logs.pick(task=task) if logs else None
-        present = [len(levels) for levels in own.factors.values() if len(levels) > 1]
-        if len(present) + len(design.groups) < 2 and max([0, *present]) < 3:
+        sizes = [len(f.levels) for f in design_at(context, own).groups]
+        sizes += [len(levels) for levels in own.factors.values() if len(levels) > 1]
+        if len(sizes) < 2 and max([0, *sizes]) < 3:
             continue  # one contrast alone: it has its own row
         name = f"_in_{task}" if len(tasks) > 1 else ""
         title = f"{_title(said, measure)} in {design.task_said(task)}"
@@ -200,11 +201,23 @@ def _sentences(
     if name in {f"_{f.name}" for f in context.design.nesting}:
         return []
     found = [r for r in table.rows if is_defined(r["p_decisive"]) and r["p_decisive"] < alpha]
-    said = [effect_sentence(table, str(r["effect"]), (_shown(r), _shown(r)), alpha) for r in found]
+    inside = [_parts(r) for r in found]
+    # an effect that depends on another factor is read with it, and so comes after it
+    ordered = sorted(found, key=lambda r: -len(_parts(r)))
+    said = []
+    for r in ordered:
+        over = [" × ".join(sorted(x)) for x in inside if _parts(r) < x]
+        words = _shown(r) + (f" (but not alike: it depends, see {over[0]})" if over else "")
+        said.append(effect_sentence(table, str(r["effect"]), (words, words), alpha))
     none = [str(r["effect"]) for r in table.rows if r not in found and is_defined(r["F"])]
     if none:
-        said.append(say(f"Not shown: {', '.join(none)}."))
+        said.append(say(f"{measure.said[:1].upper()}{measure.said[1:]}, not shown: "
+                        f"{', '.join(none)}."))  # fmt: skip
     return said
+
+
+def _parts(row: Mapping[str, object]) -> frozenset[str]:
+    return frozenset(str(row["effect"]).split(" × "))
 
 
 def _factor(row: Mapping[str, object]) -> str:
@@ -214,5 +227,5 @@ def _factor(row: Mapping[str, object]) -> str:
 def _shown(row: Mapping[str, object]) -> str:
     effect = str(row["effect"])
     if " × " in effect:
-        return f"{effect}: the effect of one depends on the other"
+        return f"The effect of {effect.replace(' × ', ' depends on ')}"
     return f"Means differ over {effect}"

@@ -13,7 +13,7 @@ from seethrough.analysis.design import Factor, Measured
 from seethrough.analysis.measures import TASK, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
 from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.measured import pairs_of
+from seethrough.analysis.sections.measured import in_short, pairs_of
 from seethrough.analysis.sections.ordinal import (
     conditions,
     friedman_row,
@@ -58,7 +58,9 @@ def ranked_blocks(context: Context, measure: Measured) -> tuple[list[Block], Tab
         add_holm(rows, pairs, "p_exact")
         tests = friedman_table(f"friedman_{measure.name}", f"{what}: Friedman tests", rows, pairs,
                                binary)  # fmt: skip
-        blocks += [friedman_sentence(tests, m, f"{what}, {m.label}", context) for m in pairs]
+        said = [friedman_sentence(tests, m, f"{what}, {m.label}", context) for m in pairs]
+        rows_of = [tests.row(m.key) for m in pairs]
+        blocks += in_short(list(zip(pairs, rows_of, said, strict=True)), context)
     blocks.append(table)
     if tests is not None:
         blocks.append(tests)

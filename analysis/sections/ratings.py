@@ -15,6 +15,7 @@ from seethrough.analysis.figures.comparison import ratings_figure
 from seethrough.analysis.measures import answers, ratings
 from seethrough.analysis.page.blocks import Block, Cited, Column, Section, Table, say
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.measured import in_short
 from seethrough.analysis.sections.ordinal import (
     conditions,
     friedman_row,
@@ -84,7 +85,7 @@ def _group(
     blocks: list[Block] = []
     if cells.factors["item"]:
         blocks += _ratings(context, cells, name, items, factors, number)
-    return [*blocks, *missing_note(cells.missing)]
+    return [*blocks, *missing_note(context.missing[name])]
 
 
 def _ratings(
@@ -118,12 +119,14 @@ def _ratings(
     scale = _points(items)
     title = f"{name[:1].upper()}{name[1:]}{f' ({scale})' if scale else ''}: Friedman tests"
     tests = friedman_table(f"friedman_{name}", title, rows, [*means, *found])
-    said = [
+    over_all = [
         friedman_sentence(tests, m, f"Overall rating{f' ({scale})' if scale else ''}"
                           + m.label.removeprefix("overall"), context)
         for m in means
     ]  # fmt: skip
-    said += [friedman_sentence(tests, m, _said(m, labels), context) for m in found]
+    each_said = [friedman_sentence(tests, m, _said(m, labels), context) for m in found]
+    said = in_short([(m, tests.row(m.key), sentence) for m, sentence in zip(
+        [*means, *found], [*over_all, *each_said], strict=True)], context)  # fmt: skip
     ending = "conditions" if name == "ratings" else f"{name}_conditions"
     ordered = [main.name, *(f.name for f in others)]
     over = conditions(context, cells, ordered, ending, f"{_stem(name)}_conditions",
@@ -178,7 +181,7 @@ def _single(context: Context, items: Sequence[Item]) -> list[Block]:
         return []
     table = Table(
         "single_items",
-        "Preference and depth perception",
+        "Asked once",
         SINGLE,
         tuple(rows),
         tuple("label n neutral mean sd p".split()),

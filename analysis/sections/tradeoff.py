@@ -11,6 +11,7 @@ from seethrough.analysis.cells import Array, Missing, people
 from seethrough.analysis.comparison import Pair, compare
 from seethrough.analysis.design import Factor
 from seethrough.analysis.figures.tradeoff import arrows
+from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.stats.ranks import sign_test
@@ -48,7 +49,7 @@ def tradeoff_section(context: Context) -> Section | None:
     factor = context.design.main
     if not found or factor is None:
         return None
-    context.missing["trade-off"] = _absent(found, people(context.trials))
+    context.missing["trade-off"] = _absent(found, context)
     table = Table(
         "tradeoff",
         f"From {factor.baseline} to {_others(factor)}: who became faster, and at what price",
@@ -76,10 +77,18 @@ def _others(factor: Factor) -> str:
     return others[0] if len(others) == 1 else "each other level"
 
 
-def _absent(found: Sequence[Change], everybody: Sequence[str]) -> tuple[Missing, ...]:
-    """Who lacks time or error in a task, by name."""
+def _absent(found: Sequence[Change], context: Context) -> tuple[Missing, ...]:
+    """Who lacks time or error in a task that somebody of their group has, by name."""
+    everybody = people(context.trials)
+    own = [groups_of(context.study.trials, f, everybody) for f in context.design.groups]
+    group = dict(zip(everybody, zip(*own, strict=True) if own else [()] * len(everybody),
+                     strict=True))  # fmt: skip
     there = {c.key: set(c.participants) for c in found}
-    lacks = {name: tuple(t for t, who in there.items() if name not in who) for name in everybody}
+    met = {t: {group[name] for name in who} for t, who in there.items()}
+    lacks = {
+        name: tuple(t for t, who in there.items() if name not in who and group[name] in met[t])
+        for name in everybody
+    }
     return tuple(Missing(name, tasks) for name, tasks in lacks.items() if tasks)
 
 

@@ -138,7 +138,7 @@ def test_perfect_agreement_of_all_participants():
 
 def test_zero_means_have_no_ratio_and_no_margin():
     zero = np.zeros(6)
-    assert ratio_of_means(zero, np.ones(6))[0] == Undefined("the standard mean is zero")
+    assert ratio_of_means(zero, np.ones(6))[0] == Undefined("the baseline's mean is zero")
     table = compare([Pair("m", "m", "", 2, zero, zero)])
     assert str(table.row("m")["tost_p"]) == "undefined: no margin was declared before the data"
     assert tost(zero, 1.0).p == EQUAL

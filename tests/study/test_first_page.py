@@ -151,9 +151,7 @@ def pairs(rows) -> dict[tuple[str, str], tuple[np.ndarray, np.ndarray]]:
     ):
         own = [both(task, value) for task in ("count", "count_in_building")]
         found[file, f"{prefix}_count"], found[file, f"{prefix}_count_in_building"] = own
-        found[file, f"{prefix}_overall"] = tuple(
-            np.mean(x, axis=0) for x in zip(*own, strict=True)
-        )
+        found[file, f"{prefix}_overall"] = tuple(np.mean(x, axis=0) for x in zip(*own, strict=True))
     found["tests_distance.csv", "distance_unique"] = both("unique", mean_of("distance"))
     for task in TASKS:
         found["friedman_correct.csv", f"correct_{task}"] = both(task, share)

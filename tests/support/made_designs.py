@@ -1,7 +1,7 @@
 """Makes data folders of any design, as a recorder would leave them, for tests of the analysis.
 
-The sidecars hold the `design` entry, and the tables are chained; people, effects and noise come from
-a seed. Times are log-normal, `errors` a share above 0, `right` yes or no, `ease` of five points.
+The sidecars hold the `design` entry, and the tables are chained; people, effects and noise come
+from a seed. Times are log-normal, `off` is a distance, `ease` has five points.
 """
 
 from __future__ import annotations
@@ -107,8 +107,9 @@ def _person(folder: Path, design: Design, slot: int, group: Cell, rng: Generator
     extra = ",".join(m["name"] for m in design.measures if m["name"] not in ("time", "correct"))
     table = own / f"{stem}_trials_data.csv"
     write_rows(table, FIXED.format(columns, extra).replace(",,", ",").split(","), rows)
+    config = {"study": {"title": "Made", "participants": None}}
     sidecar = {"started": "2026-11-22T09:00:00Z", "design": design.entry(),
-               "provenance": {"study": {"study": {"title": "Made", "participants": None}}}}  # fmt: skip
+               "provenance": {"study": config}}  # fmt: skip
     table.with_suffix(".json").write_text(json.dumps(sidecar))
     if design.asked:
         within = ",".join(f["name"] for f in design.of(within=True))

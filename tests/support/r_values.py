@@ -21,6 +21,7 @@ from seethrough.analysis.page.tables_csv import as_csv
 from seethrough.analysis.stats.distributions import t_two_sided
 
 FOLDER = Path(__file__).parents[1] / "oracles"
+DESIGN_FOLDER = FOLDER / "designs"
 ABOUT = "made.json"
 
 CLOSED = 1e-8

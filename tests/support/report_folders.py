@@ -222,7 +222,7 @@ def published_data() -> list[tuple[str, float, float]]:
     rows = [
         (m.key, float(a), float(b))
         for m in reconstructed(published, rng)
-        for a, b in zip(m.standard, m.dynamic, strict=True)
+        for a, b in zip(m.first, m.second, strict=True)
     ]
     ratings = [
         fitting_whole_numbers(
