@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 
 from seethrough.benchmarks.rows import Row, row
+from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.replay.replayer import find_trial, replay
-from seethrough.experiment.session.clock import SimulatedClock
-from seethrough.experiment.session.looking import Looking
 from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
@@ -34,7 +34,7 @@ DRAGGED = 10.0  # s
 FIRST_FRAME = """
 import sys, time
 from seethrough.experiment.study.config import load
-from seethrough.experiment.session.clock import RealClock
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.pages.pages import Page, Paragraph
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.display.window import Window
@@ -101,8 +101,8 @@ def _recording(folder: Path) -> tuple[float, float]:
 def _replay(folder: Path) -> float:
     """How many times faster than real time a simulated demo session is replayed and looked at."""
     from seethrough.experiment.display.offscreen import OffscreenDisplay
-    from seethrough.experiment.display.simulated_input import SimulatedInput
     from seethrough.experiment.people.participant import SimulatedParticipant
+    from seethrough.experiment.people.simulated_input import SimulatedInput
     from seethrough.experiment.session.session import run_session
     from seethrough.experiment.session.software import provenance
     from seethrough.experiment.session.surroundings import World

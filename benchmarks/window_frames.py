@@ -16,10 +16,10 @@ import time
 from pathlib import Path
 from typing import Any
 
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.window import _KEYS, Window
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import RealClock
 from seethrough.experiment.session.surroundings import World
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seethrough.experiment.display import refresh
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.display import Input
+from seethrough.experiment.display.interrupt import check
 from seethrough.experiment.display.window import Window
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import RealClock
-from seethrough.experiment.session.interrupt import check
 from seethrough.experiment.session.resume import going_on, starting_point
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import changed_since, provenance
@@ -82,8 +82,8 @@ def play_in_window(
 
 
 def _simulated(participant: SimulatedParticipant, window: Window) -> Input:
-    from seethrough.experiment.display.watched_input import WatchedInput
-    from seethrough.experiment.session.looking import Looking
+    from seethrough.experiment.display.looking import Looking
+    from seethrough.experiment.people.watched_input import WatchedInput
 
     looking = Looking(window.context, window.size, simple=True)
     return WatchedInput(participant, window, looking)

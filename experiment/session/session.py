@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from functools import partial
 
 from seethrough.experiment.display.display import DisplayLost, Leave
-from seethrough.experiment.pages import questionnaire
 from seethrough.experiment.pages.pages import Page, Paragraph, Picture, PlanPicture, Values
-from seethrough.experiment.pages.questionnaire import Given, Step
+from seethrough.experiment.session import questionnaire
+from seethrough.experiment.session.questionnaire import Given, Step
 from seethrough.experiment.session.surroundings import TrialRecord, World
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from seethrough.experiment.display.clock import Clock
 from seethrough.experiment.display.display import Display, Input
-from seethrough.experiment.session.clock import Clock
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.tasks.kit.base import Outcome, Task

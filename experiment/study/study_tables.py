@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator
 
-from seethrough.experiment.record.folders import PARTICIPANT
+from seethrough.experiment.files.folders import PARTICIPANT
 from seethrough.experiment.study.design import Factors
 
 TaskName = Literal["count", "pattern", "unique", "count_in_building"]

@@ -139,7 +139,7 @@ def test_a_row_that_does_not_fit_is_taken_back_wherever_the_disk_ends(tmp_path, 
     table.append(row)
     before, chain = table.path.read_bytes(), table.chain
     length = len(before) - len("text,chain\n")
-    monkeypatch.setattr("seethrough.experiment.record.private.os.write", write)
+    monkeypatch.setattr("seethrough.experiment.files.private.os.write", write)
     for room in range(length):
         disk["room"] = room
         with pytest.raises(InputError, match=r"t_data\.csv: cannot be written: No space left"):

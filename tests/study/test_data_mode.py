@@ -3,13 +3,13 @@
 import pytest
 
 from seethrough.experiment import cli
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.offscreen import OffscreenDisplay
-from seethrough.experiment.display.simulated_input import SimulatedInput
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.runs import batch
 from seethrough.experiment.people.runs.data_mode import Played, play_session
 from seethrough.experiment.people.runs.pool import LazyDraw, Pool
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import World
 from seethrough.experiment.study.config import load

@@ -4,7 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 from seethrough.experiment.pages import blocks
-from seethrough.experiment.pages.questionnaire import after, asked, before
+from seethrough.experiment.session.questionnaire import after, asked, before
 from seethrough.experiment.session.session import _feedback, _instruction, _page
 from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.session.trial import LEAVE, MENU, TrialRun

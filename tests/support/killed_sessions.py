@@ -17,9 +17,9 @@ from pathlib import Path
 
 import numpy as np
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import World

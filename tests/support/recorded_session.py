@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.display.driver import describe
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import SimulatedClock
-from seethrough.experiment.session.driver import describe
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import provenance
-from seethrough.experiment.session.stage import Stage
 from seethrough.experiment.session.surroundings import World
 from seethrough.experiment.study.config import parse
 from seethrough.renderer.gpu.device.context import standalone

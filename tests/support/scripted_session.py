@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import World
 from seethrough.experiment.study.config import parse

@@ -10,12 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from seethrough.experiment.display.simulated_input import SimulatedInput
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.runs.pool import Pool
+from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.record.recorder import trial_row
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import TrialRecord, World
 from seethrough.experiment.session.trial import TrialRun

@@ -7,10 +7,10 @@ from types import SimpleNamespace
 import pytest
 
 from seethrough.experiment.commands import simulate
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.fitted.profile_file import find
 from seethrough.experiment.session import live
-from seethrough.experiment.session.clock import RealClock
 from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import Trial

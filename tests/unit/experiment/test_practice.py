@@ -7,13 +7,13 @@ import pytest
 from every_page import begun, ended
 from every_page import marked as mark
 
+from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.display.waiting import PATIENCE, meanwhile
 from seethrough.experiment.pages.pages import PlanPicture
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.session import _feedback
 from seethrough.experiment.session.surroundings import TrialRecord, World
 from seethrough.experiment.session.trial import TrialRun
-from seethrough.experiment.session.waiting import PATIENCE, meanwhile
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.tasks.catalog import TASKS

@@ -5,8 +5,8 @@ from collections import Counter
 import pytest
 from scripted_session import ANSWERS, FRAME, FakeDisplay, MemoryRecorder, ScriptedInput, play, study
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.display import DisplayLost, Leave
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import World
 from seethrough.tasks.catalog import TASKS

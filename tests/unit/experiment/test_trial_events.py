@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import pytest
 from scripted_session import ANSWERS, FRAME, FakeDisplay, MemoryRecorder, ScriptedInput, study
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.window import Window
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import World
 from seethrough.tasks.catalog import TASKS
