@@ -20,8 +20,8 @@ from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.replay.replayer import find_trial, replay
-from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.renderer.gpu.device.context import standalone
@@ -105,7 +105,7 @@ def _replay(folder: Path) -> float:
     from seethrough.experiment.people.simulated_input import SimulatedInput
     from seethrough.experiment.session.session import run_session
     from seethrough.experiment.session.software import provenance
-    from seethrough.experiment.session.surroundings import World
+    from seethrough.experiment.session.surroundings import Surroundings
 
     study, clock, context = load("demo"), SimulatedClock(), standalone()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
@@ -115,7 +115,7 @@ def _replay(folder: Path) -> float:
     run_session(
         study,
         1,
-        World(display, SimulatedInput(person, display, clock), clock, recorder, TASKS),
+        Surroundings(display, SimulatedInput(person, display, clock), clock, recorder, TASKS),
     )
     shown, start = 0.0, time.perf_counter()
     for number in range(1, 9):

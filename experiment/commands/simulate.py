@@ -7,10 +7,10 @@ from pathlib import Path
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
-from seethrough.experiment.people.fitted.profile_file import find, names
-from seethrough.experiment.people.fitted.study_effects import EFFECTS, checked
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.persons.profile import AVERAGE, Profile
+from seethrough.experiment.people.persons.profile_file import find, names
+from seethrough.experiment.people.persons.study_effects import EFFECTS, checked
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
@@ -102,7 +102,7 @@ def _one(  # type: ignore[no-untyped-def]
     from seethrough.experiment.record.recorder import FileRecorder, Who
     from seethrough.experiment.session.session import run_session
     from seethrough.experiment.session.software import provenance
-    from seethrough.experiment.session.surroundings import World
+    from seethrough.experiment.session.surroundings import Surroundings
     from seethrough.experiment.study.own_model_files import keep
 
     clock = SimulatedClock()
@@ -117,7 +117,7 @@ def _one(  # type: ignore[no-untyped-def]
 
     session_input = SimulatedInput(person, display, clock)
     keep(study.walkthrough, out)
-    world = World(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
+    world = Surroundings(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
     run_session(study, slot, world)
 
 

@@ -32,7 +32,7 @@ from seethrough.experiment.record.chain import (
 from seethrough.experiment.record.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import Table, Traces, header_of, mend
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event

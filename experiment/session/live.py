@@ -14,10 +14,11 @@ from seethrough.experiment.display.interrupt import check
 from seethrough.experiment.display.window import Window
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import going_on, starting_point
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import changed_since, provenance
-from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.own_model_files import keep
 from seethrough.tasks.catalog import TASKS
@@ -65,7 +66,7 @@ def play_in_window(
         person: Input = window if watched is None else _simulated(watched, window)
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts, guard=guard)
-        world = World(
+        world = Surroundings(
             window,
             person,
             clock,

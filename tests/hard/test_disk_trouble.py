@@ -23,7 +23,7 @@ from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.columns import TRIALS, Column
 from seethrough.experiment.record.record_files import Table
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import Outcome
 
@@ -37,7 +37,7 @@ import numpy as np
 from seethrough.experiment import cli
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
