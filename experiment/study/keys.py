@@ -159,8 +159,7 @@ study."""
 _TAIL = """## `[texts]`
 
 Any text that participants read, by its name in `experiment/pages/languages/en.toml`,
-table and key with
-a dot between: `"welcome.text" = "Hello."` An unknown name is refused.
+table and key with a dot between: `"welcome.text" = "Hello."` An unknown name is refused.
 
 ## When is an answer right?
 
