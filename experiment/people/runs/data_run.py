@@ -69,7 +69,7 @@ def make_tables(job: b.Batch, walkers: int) -> bool:
     with closing(KeptLooks(job.tables)) as looks:
         if looks.is_filled(what, walkers):
             return False
-        worlds = len(b.abstract_trials(study)) * job.pool
+        worlds = len(b.pooled_trials(study)) * job.pool
         with Progress("making tables", worlds + walkers) as progress:
             b.fill(job, progress)
             for slot in range(1, walkers + 1):
