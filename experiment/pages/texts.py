@@ -8,8 +8,13 @@ from importlib import resources
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, short, shown, unknown
-from seethrough.experiment.study.study_tables import languages
 from seethrough.tasks.kit.own_texts import flat
+
+
+def languages() -> tuple[str, ...]:
+    """The languages that there are texts in."""
+    folder = resources.files("seethrough.experiment.pages").joinpath("languages")
+    return tuple(sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml")))
 
 
 class Texts:
