@@ -19,13 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.experiment.display.driver import open_context
 from seethrough.experiment.pages.pages import Page, Paragraph
-from seethrough.experiment.people.fitted.profile import AVERAGE
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import Pool, drawing
-from seethrough.experiment.session.driver import open_context
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, Trial, generator, session_for
 from seethrough.renderer.gpu.renderer import Renderer
@@ -34,6 +33,7 @@ from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, Tick
+from seethrough.tasks.kit.skills.profile import AVERAGE
 
 ASPECT = 4 / 3
 TRIALS = 384  # of the published study: what a way to look costs there is drawn

@@ -28,6 +28,7 @@ COMMANDS = {
     "export": "give the data another form: wide, parquet, bids, psychds",
     "report": "make the statistics report from a data folder",
     "seal": "print one hash over everything that was recorded",
+    "keys": "list what a study file may say: keys, types, defaults, limits, meaning",
     "check": "check a study before anybody is invited",
     "render": "draw a scene into a picture",
     "view": "look at a scene of translucent polygons, ordered by a method",
@@ -35,6 +36,8 @@ COMMANDS = {
     "gallery": "draw every mode, mask, granularity and hard case into a page",
     "demo": "play the short study and make its report",
 }
+
+ELSEWHERE = {"bench": "seethrough.benchmarks.bench"}  # commands that are not the experiment's
 
 
 class _Parser(argparse.ArgumentParser):
@@ -55,7 +58,7 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     for name, summary in COMMANDS.items():
         sub = commands.add_parser(name, help=summary, description=summary)
         if name == chosen:
-            module = importlib.import_module(f"seethrough.experiment.commands.{name}")
+            module = importlib.import_module(ELSEWHERE.get(name, f"{__package__}.commands.{name}"))
             module.add_arguments(sub)
             sub.set_defaults(run=module.run)
     return parser

@@ -11,7 +11,7 @@ from tempfile import TemporaryFile
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.code_hash import code_sha256
-from seethrough.experiment.people.fitted.profile_file import find, write
+from seethrough.experiment.people.persons.profile_file import find, write
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import load
 
@@ -48,8 +48,8 @@ def run(arguments: argparse.Namespace) -> int:
     from dataclasses import replace
 
     from seethrough.experiment.people.fitted import calibration, fitting
+    from seethrough.experiment.people.runs.looks import KeptLooks
     from seethrough.experiment.people.runs.pool import drawing
-    from seethrough.experiment.people.sight.looks import KeptLooks
 
     pool = drawing(study, arguments.pool, KeptLooks(arguments.tables))
     crowd = fitting.Crowd(arguments.seed, arguments.participants, pool)

@@ -11,13 +11,15 @@ import json
 import os
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from seethrough.analysis.load.person import Folder
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.folders import folder_of, next_free, plain, stem_of, taken
+from seethrough.experiment.files.private import make_folder, refused, write_new
 from seethrough.experiment.record.chain import (
     END,
     TRIALS_TABLE,
@@ -29,10 +31,8 @@ from seethrough.experiment.record.chain import (
 )
 from seethrough.experiment.record.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
 from seethrough.experiment.record.dataset import describe_dataset
-from seethrough.experiment.record.folders import folder_of, next_free, plain, stem_of, taken
-from seethrough.experiment.record.private import make_folder, refused, write_new
 from seethrough.experiment.record.record_files import Table, Traces, header_of, mend
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
@@ -274,5 +274,6 @@ def trial_row(record: TrialRecord) -> dict[str, Any]:
         "turned": record.turned,
     }
     if outcome is not None:
-        row |= asdict(outcome)
+        row |= {f.name: getattr(outcome, f.name) for f in fields(outcome) if f.name != "more"}
+        row |= outcome.more
     return row

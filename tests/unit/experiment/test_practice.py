@@ -7,13 +7,14 @@ import pytest
 from every_page import begun, ended
 from every_page import marked as mark
 
+from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.display.waiting import PATIENCE, meanwhile
 from seethrough.experiment.pages.pages import PlanPicture
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.session import _feedback
-from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
-from seethrough.experiment.session.waiting import PATIENCE, meanwhile
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.tasks.catalog import TASKS
@@ -58,11 +59,11 @@ def played(trial, **how):
     """(views, record) of a trial that ends at its limit of 2 s."""
     clock = SimulatedClock(1.0)
     looker = Looker(clock)
-    world = World(looker, looker, clock, looker, TASKS, **how)
+    world = Surroundings(looker, looker, clock, looker, TASKS, **how)
     return looker.shown, TrialRun(STUDY, world).play(trial, 2.0)
 
 
-@pytest.mark.parametrize("task", TASKS)
+@pytest.mark.parametrize("task", STUDY.design.tasks)
 def test_every_frame_of_a_practice_trial_is_marked_and_none_of_any_other(task):
     (task_set, *_) = [t for t in SETS if t.trials[0].task == task]
     for trial in (task_set.training[0], task_set.trials[0]):
@@ -148,4 +149,4 @@ def test_the_scene_is_made_while_the_world_waits():
 
     trial = next(t.trials[0] for t in SETS if t.trials[0].task == "count")
     views, _ = played(trial, waiting=waiting)
-    assert [state.scene for state in made] == [views[0].scene]
+    assert [state.cloud.scene for state in made] == [views[0].scene]

@@ -1,0 +1,137 @@
+"""Distances from the outlines of many targets, found beside the drawing.
+
+One kernel goes through all targets that a thread takes: between them it would have to wait for
+Python's lock, which a draw call holds.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from seethrough.renderer.arrays import Floats, Floats32, Ints, Ints32, Whole
+from seethrough.renderer.masks import contours
+from seethrough.renderer.plan import blocks
+
+if TYPE_CHECKING:
+    from seethrough.renderer.gpu.device.meshes import GpuMesh
+
+
+# Compiled code is kept on disk until this file changes: change it with the kernels of contours.py.
+_CORES = os.cpu_count() or 1
+_WORTH = 30_000  # edges to look at for which a second thread is worth waking
+
+
+class Outlines:
+    """The edges of meshes one after the other, as far as frames have asked for them."""
+
+    def __init__(self) -> None:
+        self._place: dict[int, int] = {}
+        self._meshes: list[GpuMesh] = []
+        self._threads: ThreadPoolExecutor | None = None
+
+    def _join(self) -> None:
+        shapes = [(mesh.topology, mesh.edges) for mesh in self._meshes]
+        columns = [
+            (s.points, s.planes, e.ends, e.first, e.faces, e.signs) for s, e in shapes
+        ]  # fmt: skip
+        self._arrays = tuple(np.concatenate(c) for c in zip(*columns, strict=True))
+        sizes = np.array([[len(array) for array in row] for row in columns])
+        self._starts = np.concatenate([np.zeros((1, 6), np.int64), np.cumsum(sizes, axis=0)])
+
+    def start(
+        self,
+        meshes: Sequence[GpuMesh],
+        eyes: NDArray[np.float64],
+        turns: NDArray[np.float64],
+        moves: NDArray[np.float64],
+        windows: NDArray[np.int64],
+        corners: NDArray[np.int64],
+        lens: tuple[float, float, float],
+        limits: tuple[float, float],
+        out: NDArray[np.float32],
+        numbers: NDArray[np.int64],
+        shape: tuple[int, int],
+    ) -> tuple[list[Future[None]], NDArray[np.uint64]]:
+        """Begin to fill `out` (rows upwards), and the bits of the blocks that masks touch: an array
+        of that `shape` for each thread.
+
+        For each target: its mesh, its pose (contours.outline_distances), the window it is found for
+        (left, top, width, height), where that goes in `out` (left, bottom), and the number of its
+        bit. `limits` are the masks' width and by how much an outline may be straightened.
+        """
+        new = [mesh for mesh in meshes if id(mesh) not in self._place]
+        for mesh in new:
+            if id(mesh) not in self._place:
+                self._place[id(mesh)] = len(self._meshes)
+                self._meshes.append(mesh)
+        if new:
+            self._join()
+        count = len(meshes)
+        which = np.array([self._place[id(mesh)] for mesh in meshes])
+        work = int(np.diff(self._starts[:, 2])[which].sum())  # edges
+        threads = min(count, _CORES, 8, 1 + work // _WORTH)
+        bits = np.zeros((threads, *shape), np.uint64)
+        jobs = [
+            self.beside(
+                *(_fill, *self._arrays, self._starts, which, eyes, turns, moves, np.array(lens)),
+                *(windows, corners, *limits, out, numbers, bits[k], k, threads),
+            )
+            for k in range(threads)
+        ]
+        return jobs, bits
+
+    def beside(self, kernel: Callable[..., None], *args: object) -> Future[None]:
+        """Begin a kernel that needs no lock, beside the drawing."""
+        if self._threads is None:
+            self._threads = ThreadPoolExecutor(max_workers=min(8, _CORES))
+        job = self._threads.submit(kernel, *args)
+        time.sleep(0)  # let it begin: once in the kernel it needs no lock
+        return job
+
+
+@njit(cache=True, nogil=True)
+def _fill(
+    points: Floats,
+    planes: Floats,
+    ends: Ints32,
+    first: Ints,
+    faces: Ints32,
+    signs: NDArray[np.int8],
+    starts: Ints,
+    which: Ints,
+    eyes: Floats,
+    turns: Floats,
+    moves: Floats,
+    lens: Floats,
+    windows: Ints,
+    corners: Ints,
+    width: float,
+    straight: float,
+    out: Floats32,
+    numbers: Ints,
+    bits: Whole,
+    begin: int,
+    step: int,
+) -> None:
+    for t in range(begin, len(which), step):
+        a, b = starts[which[t]], starts[which[t] + 1]
+        window = windows[t]
+        found = contours.outline_distances(
+            points[a[0] : b[0]], planes[a[1] : b[1]], ends[a[2] : b[2]], first[a[3] : b[3]],
+            faces[a[4] : b[4]], signs[a[5] : b[5]], eyes[t], turns[t], moves[t], lens, window,
+            width, straight,
+        )  # fmt: skip
+        height = len(found)
+        for row in range(height):
+            for column in range(found.shape[1]):
+                line = corners[t, 1] + height - 1 - row
+                out[line, corners[t, 0] + column] = found[row, column]
+        blocks.mark(found, window[0], window[1], width, numbers[t], bits)

@@ -1,0 +1,89 @@
+"""What a simulated participant has before its eyes, and what it makes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import asin, atan2
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.kit.base import View
+from seethrough.tasks.kit.events import Event
+from seethrough.tasks.kit.skills.mood import Mood
+
+# Thresholds count the pixels of a window of 800 × 600, whatever the size of the id picture.
+WINDOW_PIXELS = 480_000
+
+
+@dataclass(frozen=True, eq=False)
+class Glance:
+    """What is displayed now; `look` draws and measures it, which costs time on the machine."""
+
+    view: View
+    look: Callable[[], Visibility]
+    now: float
+
+
+# A strategy gives the next events and gets what is displayed after them.
+Strategy = Iterator[list[Event]]
+
+
+def heading(view: View) -> tuple[float, float]:
+    """(yaw, height) in radians: which way one looks, and from how far above one looks down."""
+    rotation = view.camera.rotation
+    return atan2(-rotation[2, 0], rotation[0, 0]), asin(min(1.0, max(-1.0, rotation[1, 2])))
+
+
+def likely(strength: NDArray[np.float64], half: float, spread: float) -> NDArray[np.float64]:
+    """Probability that something of that strength gets through: ½ at `half`, logistic in its ln."""
+    # Whatever is weaker than e^-50 of the threshold is as good as that.
+    z = np.log(np.maximum(strength, half * 1e-20) / half) / spread
+    return 1.0 / (1.0 + np.exp(np.minimum(-1.702 * z, 700.0)))
+
+
+def window_pixels(seen: Visibility) -> NDArray[np.float64]:
+    """(n,) pixels of the window that show each object, those half shown counted half."""
+    return seen.area * WINDOW_PIXELS
+
+
+def noticed(seen: Visibility, mood: Mood) -> NDArray[np.int64]:
+    """Indices of what is noticed in one look: contrast × √pixels against a threshold.
+
+    The square root is spatial summation as an ideal observer of white noise has it.
+    """
+    p = mood.profile
+    index = np.nonzero(seen.pixels > 0)[0]
+    strength = seen.contrast[index] * np.sqrt(seen.area[index] * WINDOW_PIXELS)
+    chance = likely(strength, p.notice, p.notice_spread)
+    return index[mood.rng.random(len(index)) < chance]
+
+
+def recognised(seen: Visibility, index: NDArray[np.int64], mood: Mood) -> NDArray[np.bool_]:
+    """Of what is noticed, whose kind can be told: enough pixels that stand out."""
+    p = mood.profile
+    clear = seen.area[index] * WINDOW_PIXELS * np.minimum(seen.contrast[index] / CLEAR, 1.0)
+    chance = likely(clear, p.recognise, p.recognise_spread)
+    return mood.rng.random(len(index)) < chance
+
+
+WHOLE = 0.9  # opacity below which a thing is seen to lie behind another [ours]
+CLEAR = 0.2  # contrast above which a thing is as clear as it gets [ours]
+
+
+def uncrowded(
+    seen: Visibility, index: NDArray[np.int64], mood: Mood
+) -> tuple[NDArray[np.int64], int]:
+    """What is left after crowding, and how many were lost: near neighbours run together."""
+    if not mood.uses("crowding") or len(index) < 2:
+        return index, 0
+    place = seen.position[index]
+    apart = np.hypot(*np.moveaxis(place[:, None] - place[None], -1, 0))
+    np.fill_diagonal(apart, np.inf)
+    # Of a crowded pair only the weaker one can be lost.
+    weaker = window_pixels(seen)[index]
+    crowded = ((apart < mood.profile.crowding) & (weaker[:, None] <= weaker[None])).any(axis=1)
+    lost = crowded & (mood.rng.random(len(index)) < mood.profile.crowded)
+    return index[~lost], int(lost.sum())
