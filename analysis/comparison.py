@@ -251,7 +251,7 @@ _TEST = (
     Column("df2", "df₂", "int"),
     Column("F", "F", "fixed2"),
     Column("p", "p", "p"),
-    Column("p_holm", "p (Holm)", "p", "over the tasks"),
+    Column("p_holm", "p (Holm)", "p", "over tasks and levels"),
     Column("ges", "η²G", "bound3", "generalised η²"),
     Column("pes", "η²p", "bound2", "90 % interval", "pes_low", "pes_high"),
     Column("pes_low", "η²p from", "bound3", "90 % interval"),

@@ -23,6 +23,7 @@ from seethrough.analysis.page.r_script import as_r
 from seethrough.analysis.page.tables_csv import as_csv
 from seethrough.analysis.plan import TESTS, make_plan
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.methods import methods_section
 from seethrough.analysis.sections.omnibus import complete
 from seethrough.analysis.sections.participants import participants_section
 from seethrough.analysis.sections.provenance import provenance_section
@@ -103,6 +104,7 @@ def _sections(context: Context) -> list[Section]:
     return [
         summary_section(context, found),
         participants_section(context),
+        methods_section(context),
         *(section for section in chosen if section is not None),
         provenance_section(context),
     ]

@@ -101,7 +101,7 @@ def contrast_blocks(
     _correct(rows, families)
     shown = ["label", "kind", "n", "estimate", "t", "df", "p", "p_holm"]
     shown += ["ratio"] if log else []
-    shown += ["tost_p"] if any(is_defined(r["tost_p"]) for r in rows) else []
+    shown += ["tost_p"] if any(isinstance(r["tost_p"], float) for r in rows) else []
     name = f"contrasts_{'log_' if log else ''}{measure.name}"
     title = f"{measure.said[:1].upper()}{measure.said[1:]}: contrasts with their own error"
     table = Table(name, title + (", logarithms" if log else ""), COLUMNS, tuple(rows),

@@ -73,7 +73,9 @@ def pairs_of(
 
 
 def _label(where: str, contrast: Contrast, several: bool) -> str:
-    return f"{where}: {contrast.baseline} → {contrast.level}" if several else where
+    if not several:
+        return where
+    return f"{where}: {contrast.factor} {contrast.baseline} → {contrast.level}"
 
 
 def _pair(

@@ -72,7 +72,7 @@ def ratings_section(context: Context) -> Section | None:
     for number, ((name, each), own) in enumerate(groups.items()):
         blocks += _group(context, name, each, own, number)
     blocks += _single(context, [item for item in items if not item.each])
-    return Section("ratings", "Ratings and preference", tuple(blocks)) if blocks else None
+    return Section("ratings", "Questionnaire", tuple(blocks)) if blocks else None
 
 
 def _group(

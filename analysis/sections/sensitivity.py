@@ -6,7 +6,9 @@ from seethrough.analysis.design import Factor
 from seethrough.analysis.mixed import MODELS, MixedEffect, mixed_model
 from seethrough.analysis.page.blocks import Block, Column, Section, Table, say
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.robust import robust_blocks
 from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.tradeoff import speed_of
 
 COLUMNS = (
     Column("effect", "effect"),
@@ -28,11 +30,16 @@ COLUMNS = (
 SHOWN = tuple("n trials estimate error t df p ratio sd_slope sd_task_slope singular".split())
 
 
+TITLE = "Does the model matter?"
+
+
 def sensitivity_section(context: Context, logs: Table | None) -> Section | None:
     """Mixed model beside the contrast scores' answer; None where no factor varies within people."""
     factor = context.design.main
     if factor is None:
         return None
+    if speed_of(context.design) is None:
+        return Section("sensitivity", TITLE, tuple(robust_blocks(context)))
     fits = mixed_model(context.trials, context.design)
     several = len(fits) > 1
     first = fits[0]
@@ -74,7 +81,7 @@ def sensitivity_section(context: Context, logs: Table | None) -> Section | None:
                     p,
                 )
             )
-    return Section("sensitivity", "Does the model matter?", (*blocks, table))
+    return Section("sensitivity", TITLE, (*blocks, table, *robust_blocks(context)))
 
 
 def _key(fit: MixedEffect, factor: Factor, several: bool) -> str:

@@ -38,13 +38,13 @@ class FirstPage(HTMLParser):
         if tag == "section":
             self._section += 1
             self._inside = self._section == 1
-        if tag == "details" or (tag == "p" and own.get("class") == "note"):
-            self._skip += 1  # the note says where the numbers are; folds are no first page
+        if tag in ("details", "table") or (tag == "p" and own.get("class") == "note"):
+            self._skip += 1  # the note says where the numbers are; a table is one; folds come later
         if tag == "data" and self._inside:
             self._data = own
 
     def handle_endtag(self, tag):
-        if tag in ("details", "p") and self._skip:
+        if tag in ("details", "table", "p") and self._skip:
             self._skip -= 1
         if tag == "data":
             self._data = None

@@ -123,7 +123,13 @@ def test_a_frozen_plan_is_followed_and_deviations_are_listed(tmp_path):
     ):
         assert deviation in text
     # the frozen tests run, and no others
-    assert [s.key for s in made.sections] == ["summary", "participants", "time", "provenance"]
+    assert [s.key for s in made.sections] == [
+        "summary",
+        "participants",
+        "methods",
+        "time",
+        "provenance",
+    ]
     with_other_rules = as_markdown(make_report(folder, Options(exclude=["focus_lost"])))
     assert "Exclusion rules are: focus\\_lost; planned were: timed\\_out" in with_other_rules
 

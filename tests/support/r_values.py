@@ -51,6 +51,7 @@ SAMPLED = 4.0
 WORDS = "words of ours, no number"
 WITHOUT: Mapping[tuple[str, str], str] = {
     ("ran", "*"): "versions, hashes, seeds and words",
+    ("flow", "*"): "counts of rows, held by tests/unit/analysis/test_methods.py",
     ("predictions", "*"): "each p that decides stands in another table, too, and is held there",
     ("*", "label"): WORDS,
     ("*", "unit"): WORDS,
@@ -211,6 +212,10 @@ def _room(
     closed: float,
 ) -> float:
     """How far a number may be from R's."""
+    if column == "p_flip" and mine.get("method", "").endswith(" draws"):
+        draws = int(mine["method"].split()[0])
+        # R drew, too, twenty times as many
+        return SAMPLED * math.sqrt(truth * (1 - truth) * 1.05 / draws) + 1 / draws
     if column == "p_exact" and mine.get("method", "").endswith(" permutations"):
         draws = int(mine["method"].split()[0])
         # both count the observed order in: (hits + 1) / (draws + 1)
