@@ -85,7 +85,8 @@ class Measured:
     `margin`: what the study declared to be no difference that matters, in the measure's unit; of a
     measure that is analysed as logarithms (`log`) a ratio above 1. `rows`: all trials, or those
     with a right answer. `pool`: whether its tasks are also taken together. `price`: whether it is
-    what time is set against in the trade-off.
+    what time is set against in the trade-off. `ratio`: whether a margin is one though values are
+    not analysed as logarithms.
     """
 
     name: str
@@ -102,6 +103,7 @@ class Measured:
     price: bool = False
     digits: int = 3
     family: str = ""
+    ratio: bool = False
 
     @property
     def said(self) -> str:
@@ -148,8 +150,9 @@ class Item:
 class Prediction:
     """What the study stated before there were data.
 
-    `expect` as in `EXPECT`; `margin`: by measure, absolute or a ratio for what is analysed as
-    logarithms; `value`: what a measure is to be at least; `combine`: all or any of the measures.
+    `expect` as in `EXPECT`; `margin`: by measure, absolute or a `ratio` (always one for what is
+    analysed as logarithms); `value`: what a measure is to be at least; `combine`: all or any of
+    the measures.
     """
 
     name: str
@@ -161,6 +164,7 @@ class Prediction:
     margin: Mapping[str, float] | None = None
     value: float | None = None
     combine: str = "all"
+    ratio: bool = False
     reason: str = ""
 
 

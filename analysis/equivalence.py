@@ -34,7 +34,7 @@ def margin_of(measure: Measured) -> Margin | None:
     """What a measure's study declared of it."""
     if measure.margin is None:
         return None
-    return Margin(measure.margin, measure.log, measure.direction == "more")
+    return Margin(measure.margin, measure.log or measure.ratio, measure.direction == "more")
 
 
 COLUMNS = (

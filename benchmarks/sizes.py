@@ -255,6 +255,7 @@ def skewed(n: int) -> Callable[[Generator], Found]:
 
 def kinds() -> list[Studies]:
     """Every kind of study, and what of it is known not to hold."""
+    from seethrough.benchmarks.design_sizes import design_kinds
     from seethrough.benchmarks.session_sizes import mixed_sessions, sessions
 
     half = {"interval of the difference": 0.95}
@@ -288,4 +289,5 @@ def kinds() -> list[Studies]:
                 frozenset({"carry-over"})),
         Studies("n = 12, 2 tasks × 2 trials, log-normal", mixed_sessions, 300,
                 {"interval, mixed model": 0.95}),
+        *design_kinds(),
     ]  # fmt: skip

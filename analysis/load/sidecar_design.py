@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from seethrough.analysis import design as d
@@ -94,7 +95,30 @@ class _Reader:
         stated = tuple(
             self.prediction(t, p, made) for p, t in self.tables(entry, ENTRY, "predictions")
         )
-        return d.Design(factors, tasks, excluded, stated, made.items)
+        return d.Design(factors, self.with_margins(tasks, stated), excluded, stated, made.items)
+
+    def with_margins(
+        self, tasks: tuple[d.Task, ...], stated: tuple[d.Prediction, ...]
+    ) -> tuple[d.Task, ...]:
+        """The measures with the margins that the study's predictions declare of them."""
+        margins = {
+            name: (value, p.ratio) for p in stated for name, value in (p.margin or {}).items()
+        }
+        known = {m.name: m for t in tasks for m in t.measures}
+        for name, (value, ratio) in margins.items():
+            above = 1 if ratio or (name in known and known[name].log) else 0
+            if name in known and not above < value < 1e300:
+                self.wrong(f"{ENTRY}.predictions.margin.{name}", value,
+                           f"a number above {above}")  # fmt: skip
+                return tasks
+
+        def own(m: d.Measured) -> d.Measured:
+            if m.name not in margins:
+                return m
+            value, ratio = margins[m.name]
+            return replace(m, margin=value, ratio=ratio)
+
+        return tuple(replace(t, measures=tuple(map(own, t.measures))) for t in tasks)
 
     def factor(self, table: Mapping[str, Any], path: str) -> d.Factor:
         name = self.text(table, path, "name", None)
@@ -220,6 +244,7 @@ class _Reader:
             {k: float(v) for k, v in margin.items()} if margin else None,
             self.value(table, path, "value", None, lambda v: isinstance(v, _NUMBER), "a number"),
             self.choice(table, path, "combine", ("all", "any"), "all"),
+            ratio is not None,
             self.text(table, path, "reason"),
         )
 

@@ -323,6 +323,9 @@ def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, Any]:
     if measure.margin is None:
         gone = Undefined(NO_MARGIN)
         return {"tost_margin": gone, "tost_p": gone, "noninferior_p": gone}
+    if measure.ratio and not measure.log:
+        gone = Undefined("a ratio of groups is tested of logarithms only")
+        return {"tost_margin": measure.margin, "tost_p": gone, "noninferior_p": gone}
     margin = float(np.log(measure.margin)) if measure.log else measure.margin
     above, below, both = within_margin(found, margin)
     worse = below if measure.direction == "more" else above

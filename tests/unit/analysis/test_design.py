@@ -74,6 +74,8 @@ def of_measure(**changes):
          "design.excluded[0].view = 'none': expected a level of view"),
         ({"predictions": [{"name": "H", "measure": "time", "contrast": "light"}]},
          "design.predictions[0].contrast = 'light': expected a factor: view"),
+        ({"predictions": [{"name": "H", "measure": "time", "margin": 0.8}]},
+         "design.predictions.margin.time = 0.8: expected a number above 1"),
         ({"predictions": [{"name": "H", "measure": "time", "expect": "better"}]},
          "design.predictions[0].expect = 'better': expected one of less, more, different"),
     ],
