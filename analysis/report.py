@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,15 @@ from seethrough.analysis.exclude import apply_rules
 from seethrough.analysis.load.study import Study, config_of, load_study
 from seethrough.analysis.measures import levels_of
 from seethrough.analysis.page import folder
-from seethrough.analysis.page.blocks import Figure, Report, Section, Table, walk
+from seethrough.analysis.page.blocks import (
+    Column,
+    Figure,
+    Fold,
+    Report,
+    Section,
+    Table,
+    walk,
+)
 from seethrough.analysis.page.html import as_html
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.page.pdf import find_browser, print_pdf
@@ -61,8 +69,38 @@ def make_report(data: Path, options: Options) -> Report:
     if any(chain.state == "none" for chain in study.chains):
         banner = f"{banner} {UNCHAINED}".strip()
     subtitle = f"Study {study.name}. Source: {study.source}. {study.description}"
+    sections[-1] = with_dictionary(sections)
     script = as_r(_title(study), study.source, plan.alpha, study.design, _facts(context, sections))
     return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections), script)
+
+
+DICTIONARY = (
+    Column("column", "column of a table"),
+    Column("table", "table"),
+    Column("title", "what the table holds"),
+    Column("label", "heading"),
+    Column("about", "meaning"),
+)
+
+
+def with_dictionary(sections: Sequence[Section]) -> Section:
+    """The last section, with what every column of every table means."""
+    tables = [b for s in sections for b in walk(s.blocks) if isinstance(b, Table) and not b.source]
+    rows = tuple(
+        {
+            "column": f"{table.key}.{column.name}",
+            "table": table.key,
+            "title": table.title,
+            "label": column.label,
+            "about": column.about,
+        }
+        for table in tables
+        for column in table.columns
+    )
+    words = Table("dictionary", "What each column means", DICTIONARY, rows,
+                  ("column", "label", "about"))  # fmt: skip
+    last = sections[-1]
+    return replace(last, blocks=(*last.blocks, Fold("The columns of the tables", (words,))))
 
 
 def _facts(context: Context, sections: Sequence[Section]) -> dict[str, Any]:

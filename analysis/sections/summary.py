@@ -111,10 +111,23 @@ def _verdicts(answers: Sequence[Answer]) -> Table:
 def _few(context: Context) -> list[Prose]:
     """A warning where there are few participants."""
     if context.people == 1:
-        return [say("Only 1 participant: nothing can be tested.", kind="warning")]
+        return [
+            say(
+                "Only 1 participant: nothing can be tested. From two on, this report compares "
+                f"{_levels(context)}, with intervals, tests and sizes of effects.",
+                kind="warning",
+            )
+        ]
     found = reach(context)
     said = reach_sentence(found) if found else None
     return [said] if said is not None and said.kind == "warning" else []
+
+
+def _levels(context: Context) -> str:
+    """What a report of several people compares: `time, distance by transparency`."""
+    measures = ", ".join(m.said for m in context.design.measures())
+    factors = " and ".join(f.name for f in context.design.factors)
+    return f"{measures} by {factors}" if factors else measures
 
 
 def places(blocks: Sequence[Prose]) -> list[Prose]:

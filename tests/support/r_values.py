@@ -51,6 +51,7 @@ SAMPLED = 4.0
 WORDS = "words of ours, no number"
 WITHOUT: Mapping[tuple[str, str], str] = {
     ("ran", "*"): "versions, hashes, seeds and words",
+    ("dictionary", "*"): "words, no number",
     ("flow", "*"): "counts of rows, held by tests/unit/analysis/test_methods.py",
     ("predictions", "*"): "each p that decides stands in another table, too, and is held there",
     ("*", "label"): WORDS,
