@@ -89,8 +89,13 @@ class Ready:
         return person.by_blocks(page)
 
     def _each(self, asking: Asking) -> list[tuple[Question, Any, Asking]]:
+        """Kind, parameters and what it is asked about: the page says once which levels these are."""
         return [
-            (registry.get("question", part.kind), part.parameters, replace(asking, name=part.item))
+            (
+                registry.get("question", part.kind),
+                part.parameters,
+                replace(asking, name=part.item, about={}),
+            )
             for part in self.parts(asking)
         ]
 
