@@ -50,6 +50,7 @@ class Ready:
     source: str = "ours"
     version: str = "1"
     Parameters: Any = NoParameters
+    example: Any = NoParameters()
 
     @property
     def texts(self) -> Texts:
@@ -89,7 +90,7 @@ class Ready:
         return person.by_blocks(page)
 
     def _each(self, asking: Asking) -> list[tuple[Question, Any, Asking]]:
-        """Kind, parameters and what it is asked about: the page says once which levels these are."""
+        """Kind, parameters, what it is asked about: the page says once which levels these are."""
         return [
             (
                 registry.get("question", part.kind),
