@@ -75,13 +75,24 @@ def _composed(seen: Surfaces, look: Look, edges: Bools) -> ExactPicture:
     near = edges[0].ravel() | _crossing(seen, look, rows, before)
     near |= (edges[1] & (look.kept & ~seen.front).any()).ravel()
     if look.doubt is not None:
-        near[seen.pixel[look.doubt]] = True
+        near |= _doubtful(seen, look.doubt, rows, before * (1 - alpha))
     shape = (n, height, width)
     return ExactPicture(
         picture.reshape(height, width, 3),
         *(array.reshape(shape) for array in (weights, left, depth)),
         near.reshape(height, width),
     )
+
+
+def _doubtful(seen: Surfaces, doubt: Bools, rows: NDArray[np.int64], after: Floats) -> Bools:
+    """(h·w,) pixels with a surface in doubt that nothing opaque hides."""
+    last = np.full(len(seen.starts) - 1, np.inf)  # depth behind which no light goes
+    stops = rows[after <= 0]
+    np.minimum.at(last, seen.pixel[stops], seen.depth[stops])
+    found = np.zeros(len(last), dtype=bool)
+    seen_ = doubt & (seen.depth <= last[seen.pixel] + seen.slack)
+    found[seen.pixel[seen_]] = True
+    return found
 
 
 def _left(pixel: NDArray[np.int64], alpha: Floats, additive: bool) -> Floats:
