@@ -204,6 +204,10 @@ class Technique(Protocol):
     def looked_at(self, p: Any) -> Any:
         """The parameters with which `look` finds what is seen."""
 
+    def exactly(self, p: Any) -> Any:
+        """The parameters with which what is drawn is the rule at every pixel, however long it
+        takes."""
+
 
 class Plain:
     """What most techniques are like: no events, no state, nothing moves, nothing is touched."""
@@ -257,5 +261,9 @@ class Plain:
         return (~(scene.targets | scene.impenetrable)).astype(np.int64)
 
     def looked_at(self, p: Any) -> Any:
+        """As it is drawn."""
+        return p
+
+    def exactly(self, p: Any) -> Any:
         """As it is drawn."""
         return p

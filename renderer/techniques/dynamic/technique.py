@@ -40,6 +40,10 @@ class DynamicRendering(base.Plain):
 
         return exact.rule(p, seen, known)
 
+    def exactly(self, p: DynamicTransparency) -> DynamicTransparency:
+        """Every pixel sorted by itself."""
+        return replace(p, exact=True)
+
     def looked_at(self, p: DynamicTransparency) -> DynamicTransparency:
         """Polygons have no numbers of their objects: what they show is looked for by pixel."""
         return replace(p, order="planes") if p.order == "polygons" else p
