@@ -8,9 +8,11 @@ the whole suite in which coverage.py noted which test passes each line:
 
     python -m pytest -n2 --cov --cov-context=test --cov-report= && mv .coverage FILE
 
-A site is tried in a copy of the checkout, on the tests that pass its line; kernels are compiled,
-so coverage.py cannot see their lines: for those, on all tests that pass any line of the files that
-use them. Prints a line a site, then the share caught and the survivors; exit status 0.
+A site is tried in a copy of the checkout, on the tests that pass its line. Kernels are compiled, so
+coverage.py cannot see their lines, and what is run while a module is imported belongs to no test:
+for those, on all tests that pass any line of the files that use them, first of all those in files
+that name the module. A test that fails catches nothing unless it passes in an unchanged copy.
+Prints a line a site, then the share caught; exit status 0.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import argparse
 import ast
 import json
 import os
+import re
 import shutil
 import sqlite3
 import subprocess
@@ -35,7 +38,7 @@ from coverage.numbits import numbits_to_nums
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = ("analysis", "experiment", "renderer", "tasks")
-MOST_TESTS = 400  # tried for a site; more only repeat each other
+MOST_TESTS = 400  # tried for a site of a kind; more only repeat each other
 LIMIT = 900  # s for the tests of a site: a change that never ends is caught
 
 COMPARISONS = {
@@ -163,6 +166,7 @@ class Passed:
     def __init__(self, database: Path, root: Path = ROOT) -> None:
         self.root = root
         self.known: dict[str, dict[int, set[str]]] = {}
+        self.size: dict[str, int] = {}  # lines that a test passes: those of few are quick
         rows = sqlite3.connect(f"file:{database}?mode=ro", uri=True).execute(
             "SELECT f.path, c.context, l.numbits FROM line_bits l "
             "JOIN file f ON f.id = l.file_id JOIN context c ON c.id = l.context_id"
@@ -171,23 +175,41 @@ class Passed:
             if not context:  # passed while a module was imported
                 continue
             lines = self.known.setdefault(Path(path).relative_to(root).as_posix(), {})
-            for line in numbits_to_nums(bits):
-                lines.setdefault(line, set()).add(context.partition("|")[0])
+            test, numbers = context.partition("|")[0], numbits_to_nums(bits)
+            self.size[test] = self.size.get(test, 0) + len(numbers)
+            for line in numbers:
+                lines.setdefault(line, set()).add(test)
 
     def tests(self, site: Site) -> list[str]:
         """The tests to try, quick kinds first."""
         found = set(self.known.get(site.path, {}).get(site.line, ()))
+        first: set[str] = set()
         if not found or site.compiled:
             module = Path(site.path).with_suffix("").as_posix().replace("/", ".")
             for user in (site.path, *self._users(module)):
                 found |= set().union(*self.known.get(user, {}).values(), set())
+            first = {test for test in found if self._names(test.partition("::")[0], module)}
         kinds = ("tests/unit", "tests/hard", "tests/images", "tests/contract", "tests/study")
         rank = {kind: k for k, kind in enumerate(kinds)}
-        ordered = sorted(found, key=lambda t: (rank.get("/".join(t.split("/")[:2]), 9), t))
-        if len(ordered) > MOST_TESTS:
-            step = len(ordered) / MOST_TESTS
-            ordered = [ordered[int(k * step)] for k in range(MOST_TESTS)]
-        return ordered
+        ordered = sorted(
+            found,
+            key=lambda t: (t not in first, rank["/".join(t.split("/")[:2])], self.size[t], t),
+        )
+        return _fewer(ordered[: len(first)]) + _fewer(ordered[len(first) :])
+
+    def in_kernels(self, site: Site) -> bool:
+        """Whether compiled code may hold the place: its own file's, or a constant's users'."""
+        if site.compiled or site.line in self.known.get(site.path, {}):
+            return site.compiled
+        module = Path(site.path).with_suffix("").as_posix().replace("/", ".")
+        users = (site.path, *self._users(module))
+        return any("njit" in (self.root / user).read_text("utf-8") for user in users)
+
+    def _names(self, test: str, module: str) -> bool:
+        """Whether a file of tests imports the module."""
+        package, _, name = module.rpartition(".")
+        words = rf"{re.escape(module)}\b|{re.escape(package)} import [^\n]*\b{re.escape(name)}\b"
+        return bool(re.search(words, (self.root / test).read_text("utf-8")))
 
     def _users(self, module: str) -> list[str]:
         """Files that import the module."""
@@ -201,14 +223,37 @@ class Passed:
         ]
 
 
-def caught(site: Site, tests: list[str], copy: Path) -> bool | None:
-    """Whether a test fails with the change; None if there is no test to try."""
-    if not tests:
-        return None
+def _fewer(tests: list[str]) -> list[str]:
+    """At most MOST_TESTS of them, spread evenly."""
+    step = max(1.0, len(tests) / MOST_TESTS)
+    return [tests[int(k * step)] for k in range(min(len(tests), MOST_TESTS))]
+
+
+def caught(site: Site, tests: list[str], copy: Path, fresh: bool) -> tuple[bool | None, str]:
+    """Whether a test fails with the change, and which; None if there is no test to try.
+
+    A test that fails without the change as well is left out, and the others are tried. `fresh`:
+    kernels are compiled anew, for the change may be in them.
+    """
     file = copy / site.path
     source = file.read_text("utf-8")
-    file.write_text(site.applied(source), "utf-8")
-    cache = tempfile.mkdtemp(prefix="numba-") if site.compiled else None
+    found = None
+    while tests:
+        file.write_text(site.applied(source), "utf-8")
+        try:
+            found, by = _failed(tests, copy, fresh)
+        finally:
+            file.write_text(source, "utf-8")
+        if not found or not by or not _failed([by], copy, fresh)[0]:
+            return found, by
+        tests = [test for test in tests if by not in (test, test.partition("::")[0])]
+    return found and False, ""
+
+
+def _failed(tests: list[str], copy: Path, fresh: bool) -> tuple[bool, str]:
+    """Whether a test fails in the copy, and which does first: one of `tests`, or a file that
+    cannot be imported."""
+    cache = tempfile.mkdtemp(prefix="numba-") if fresh else None
     (copy / "chosen.txt").write_text("\n".join(tests), "utf-8")
     environment = {**os.environ, "PYTHONPATH": _path(copy), "PYTHONDONTWRITEBYTECODE": "1"}
     if cache:
@@ -219,11 +264,13 @@ def caught(site: Site, tests: list[str], copy: Path) -> bool | None:
         run = subprocess.run(
             command, cwd=copy, env=environment, capture_output=True, timeout=LIMIT, check=False
         )
-        return run.returncode != 0
+        told = re.findall(r"^(?:FAILED|ERROR) (.+)$", run.stdout.decode(errors="replace"), re.M)
+        names = {*tests, *(test.partition("::")[0] for test in tests)}
+        first = [n for line in told[:1] for n in names if line == n or line.startswith(f"{n} - ")]
+        return run.returncode != 0, max(first, key=len, default="")
     except subprocess.TimeoutExpired:
-        return True
+        return True, ""
     finally:
-        file.write_text(source, "utf-8")
         if cache:
             shutil.rmtree(cache)
 
@@ -269,7 +316,7 @@ def main() -> None:
         def one(site: Site) -> dict[str, object]:
             tests, copy = passed.tests(site), copies.get()
             try:
-                found = caught(site, tests, copy)
+                found, by = caught(site, tests, copy, passed.in_kernels(site))
             finally:
                 copies.put(copy)
             source = (ROOT / site.path).read_text("utf-8")
@@ -281,7 +328,7 @@ def main() -> None:
                 "is": " ".join(site.text.split()),
             }
             print(f"{verdict:9}{row['site']}: {was[:60]} -> {row['is'][:60]}", flush=True)
-            return {**row, "verdict": verdict, "tests": len(tests)}
+            return {**row, "verdict": verdict, "tests": len(tests), "by": by}
 
         with ThreadPoolExecutor(args.workers) as pool:
             rows = list(pool.map(one, chosen))

@@ -111,7 +111,9 @@ def test_four_plates_show_four_digits_and_the_first_alone_is_for_everybody():
     assert len({p.digit for p in shown}) == len(shown) == 4
     assert [p.control for p in shown] == [True, False, False, False]
     places = [p.places for p in shown]
-    assert not any(len(a) == len(b) and (a == b).all() for a, b in zip(places, places[1:], strict=False))
+    assert not any(
+        len(a) == len(b) and (a == b).all() for a, b in zip(places, places[1:], strict=False)
+    )
 
 
 def test_dots_fill_a_disc_and_none_lies_on_another(three):
@@ -119,7 +121,9 @@ def test_dots_fill_a_disc_and_none_lies_on_another(three):
     away = np.linalg.norm(plate.places[:, None] - plate.places, axis=2)
     np.fill_diagonal(away, np.inf)
     assert (away > plate.radii[:, None] + plate.radii).all()
-    assert sorted(set(plate.radii), reverse=True) == list(plate.radii[np.r_[True, np.diff(plate.radii) != 0]])
+    assert sorted(set(plate.radii), reverse=True) == list(
+        plate.radii[np.r_[True, np.diff(plate.radii) != 0]]
+    )
     assert np.linalg.norm(plate.places - 0.5, axis=1).max() <= 0.48
     covered = np.pi * (plate.radii**2).sum() / (np.pi * 0.48**2)
     assert 0.35 < covered < 0.75

@@ -28,7 +28,9 @@ FOV = 0.9
 
 
 def camera(fov=FOV):
-    return look_at(np.array([1.0, 2.0, 9.0]), np.array([0.5, 0.0, -3.0]), fov_y=fov, near=0.1, far=90)
+    return look_at(
+        np.array([1.0, 2.0, 9.0]), np.array([0.5, 0.0, -3.0]), fov_y=fov, near=0.1, far=90
+    )
 
 
 def test_places_are_those_of_tangents():

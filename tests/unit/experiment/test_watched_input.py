@@ -10,7 +10,11 @@ from seethrough.experiment.display.display import Leave
 from seethrough.experiment.display.watched_input import WatchedInput
 from seethrough.tasks.kit.events import KeyPress, PointerMove, PointerPress, Tick
 
-PLAN = [KeyPress(3.0, "b"), PointerMove(1.0, 0.2, 0.4, 0.1, 0.0, False), PointerPress(2.0, 0.6, 0.7)]
+PLAN = [
+    KeyPress(3.0, "b"),
+    PointerMove(1.0, 0.2, 0.4, 0.1, 0.0, False),
+    PointerPress(2.0, 0.6, 0.7),
+]
 
 
 class Standing:

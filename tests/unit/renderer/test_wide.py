@@ -24,7 +24,9 @@ def world(seed):
         things.append(Object(made, transforms.translation(x, y, z)))
     for _ in range(1 + seed % 3):
         x, y = rng.uniform(-1.5, 1.5, 2)
-        things.append(Object(geometry.sphere(0.5, 2), transforms.translation(x, y, -4), target=True))
+        things.append(
+            Object(geometry.sphere(0.5, 2), transforms.translation(x, y, -4), target=True)
+        )
     camera = look_at(np.array([0.0, 0.0, 14.0]), np.zeros(3), fov_y=0.8, near=1, far=60)
     return Scene(tuple(things)), camera
 

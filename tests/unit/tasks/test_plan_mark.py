@@ -18,7 +18,9 @@ def test_an_arrow_key_moves_the_mark_one_step_of_32_and_never_off_the_plan(key, 
     assert moved.hint == "" and not moved.confirmed
     for n in range(40):
         moved = moved.on_event(KeyPress(2.0 + n, key))
-    assert_allclose(moved.mark, [w * 40.0 if w else old for w, old in zip(way, plan.mark, strict=True)])
+    assert_allclose(
+        moved.mark, [w * 40.0 if w else old for w, old in zip(way, plan.mark, strict=True)]
+    )
 
 
 def test_a_mark_is_where_it_was_clicked_and_nothing_else_moves_it():
