@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -111,9 +112,7 @@ def test_four_plates_show_four_digits_and_the_first_alone_is_for_everybody():
     assert len({p.digit for p in shown}) == len(shown) == 4
     assert [p.control for p in shown] == [True, False, False, False]
     places = [p.places for p in shown]
-    assert not any(
-        len(a) == len(b) and (a == b).all() for a, b in zip(places, places[1:], strict=False)
-    )
+    assert not any(len(a) == len(b) and (a == b).all() for a, b in pairwise(places))
 
 
 def test_dots_fill_a_disc_and_none_lies_on_another(three):

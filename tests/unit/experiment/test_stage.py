@@ -1,4 +1,4 @@
-"""Small pictures of a stage: kept as long as they are of one size, and replaced when they are not."""
+"""Small pictures of a stage: kept as long as they have one size, replaced when they have another."""
 
 from __future__ import annotations
 

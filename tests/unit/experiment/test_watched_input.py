@@ -1,4 +1,4 @@
-"""A watched participant's events arrive when they are due, each once, and on the window's pointer."""
+"""A watched participant: events arrive when they are due, each once, and move the pointer."""
 
 from __future__ import annotations
 
