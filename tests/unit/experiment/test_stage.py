@@ -1,4 +1,4 @@
-"""Small pictures of a stage: kept as long as they have one size, replaced when they have another."""
+"""Small pictures of a stage: kept while they have one size, replaced when they have another."""
 
 from __future__ import annotations
 
