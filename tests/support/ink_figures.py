@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import imgui
 
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.color_plates import Plate
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import HudDrawing, draw_progress
@@ -29,7 +30,6 @@ from seethrough.experiment.pages.pages import (
     TextField,
 )
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.stage import Stage
 from seethrough.renderer.gpu.overlay import STRIDE
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.hud import Button, Entry, FloorPlan, Inset, Label, Rect

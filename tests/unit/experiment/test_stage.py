@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.interface import INSET_TEXTURES
 from seethrough.experiment.pages.pages import Picture
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.stage import Stage
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.geometry import box
 from seethrough.renderer.scene.scene import Object, Scene

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from seethrough.experiment.display.display import Leave
-from seethrough.experiment.display.watched_input import WatchedInput
+from seethrough.experiment.people.watched_input import WatchedInput
 from seethrough.tasks.kit.events import KeyPress, PointerMove, PointerPress, Tick
 
 PLAN = [
