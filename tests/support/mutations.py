@@ -255,7 +255,7 @@ def _failed(tests: list[str], copy: Path, fresh: bool) -> tuple[bool, str]:
     cannot be imported."""
     cache = tempfile.mkdtemp(prefix="numba-") if fresh else None
     (copy / "chosen.txt").write_text("\n".join(tests), "utf-8")
-    environment = {**os.environ, "PYTHONPATH": _path(copy), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = _environment(copy)
     if cache:
         environment["NUMBA_CACHE_DIR"] = cache
     options = ["-x", "-q", "-n0", "-p", "no:cacheprovider", "--no-header", "--tb=no"]
@@ -273,6 +273,22 @@ def _failed(tests: list[str], copy: Path, fresh: bool) -> tuple[bool, str]:
     finally:
         if cache:
             shutil.rmtree(cache)
+
+
+def _environment(copy: Path) -> dict[str, str]:
+    """In which Python imports the copy's code: the folder it is started in comes in no case first,
+    for its `seethrough` has no rooms, and those of the checkout would be taken."""
+    more = {"PYTHONPATH": _path(copy), "PYTHONSAFEPATH": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+    return {**os.environ, **more}
+
+
+def _is_imported(copy: Path) -> bool:
+    """Whether the copy's code is what its tests test."""
+    command = [sys.executable, "-c", "import seethrough.renderer as r; print(r.__file__)"]
+    run = subprocess.run(
+        command, cwd=copy, env=_environment(copy), capture_output=True, text=True, check=True
+    )
+    return Path(run.stdout.strip()).resolve().is_relative_to(copy.resolve())
 
 
 def _path(copy: Path) -> str:
@@ -295,6 +311,7 @@ def _copies(number: int, folder: Path) -> Queue[Path]:
     leave = shutil.ignore_patterns(".git", ".venv", "out", ".hypothesis", "*.egg-info")
     for k in range(number):
         shutil.copytree(ROOT, folder / str(k), ignore=leave)
+        assert _is_imported(folder / str(k))
         copies.put(folder / str(k))
     return copies
 
