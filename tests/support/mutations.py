@@ -148,7 +148,8 @@ def _changed(node: ast.AST, source: str) -> list[str]:
 
 
 def drawn(number: int, seed: int, root: Path = ROOT) -> list[Site]:
-    """Sites of all rooms, each file's as likely as its number of them."""
+    """Sites of all rooms, each file's as likely as its number of them; in the order in which they
+    were drawn, so that the first of them are a sample as well."""
     every = [
         site
         for room in ROOMS
@@ -157,7 +158,7 @@ def drawn(number: int, seed: int, root: Path = ROOT) -> list[Site]:
     ]
     chosen = np.random.default_rng(seed).choice(len(every), min(number, len(every)), replace=False)
     print(f"{len(every)} sites, {len(chosen)} drawn with seed {seed}", flush=True)
-    return [every[k] for k in sorted(chosen)]
+    return [every[k] for k in chosen]
 
 
 class Passed:
