@@ -19,16 +19,16 @@ from seethrough.experiment.pages.pages import (
     TextField,
 )
 from seethrough.experiment.people.persons.person import Person
+from seethrough.tasks.catalog import TASKS, world_of
 
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]
 MIDDLE, STEEPNESS, WOBBLE = 0.57, 0.28, 0.15  # ratings, 0–1, against log2 of relative time [ours]
-SCENARIO = {
-    "count": "abstract",
-    "pattern": "abstract",
-    "unique": "walkthrough",
-    "count_in_building": "walkthrough",
-}
+
+
+def scenario_of(task: str) -> str:
+    """What tables call the world that a task is set in."""
+    return world_of(TASKS[task]).scenario
 
 
 class Opinions:
@@ -77,7 +77,7 @@ class Opinions:
     def _relative(self, level: str, scenario: str) -> float:
         """Time with this level over time with any, within the scenario; 1 where unknown."""
         times = [(lv, fmean(t)) for (lv, k), t in self._times.items()
-                 if not scenario or SCENARIO.get(k) == scenario]  # fmt: skip
+                 if not scenario or scenario_of(k) == scenario]  # fmt: skip
         own = [t for lv, t in times if lv == level]
         return fmean(own) / fmean(t for _, t in times) if own else 1.0
 

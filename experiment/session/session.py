@@ -19,7 +19,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, Trial, session_for
-from seethrough.tasks.parameters import METRES
+from seethrough.tasks.worlds.building.building_parameters import METRES
 
 
 class TimeIsUp(Leave):
@@ -121,13 +121,14 @@ def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
 
 
 def _instruction(trial: Trial, total: int, run: TrialRun) -> Page:
+    task = run.world.tasks[trial.task]
     values = (("set", str(trial.task_set)), ("sets", str(total)))
     return Page(
         "instruction",
-        f"{trial.task}.title",
+        task.title,
         (
-            Paragraph(f"{trial.task}.instruction"),
-            Paragraph(f"{trial.scenario}.controls"),
+            Paragraph(task.instruction),
+            Paragraph(run.study.setting(trial).world.controls),
             Paragraph(f"transparency.{trial.transparency}"),
             Picture(partial(run.preview, trial), run.technique(trial)),
             Paragraph("progress", values),

@@ -14,7 +14,7 @@ from pydantic import AfterValidator, Field, ValidationError
 
 from seethrough.experiment.errors import MOST, InputError, gathered, short, shown
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.study.design import scene_names, slot_of
+from seethrough.experiment.study.design import Trial, scene_names, slot_of
 from seethrough.experiment.study.own_model_files import beside
 from seethrough.experiment.study.parameter_tables import Fault, faulty, from_table
 from seethrough.experiment.study.study_errors import study_error
@@ -29,7 +29,10 @@ from seethrough.experiment.study.study_tables import (
 )
 from seethrough.experiment.study.toml_file import read_toml
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.catalog import TASKS, WORLDS
+from seethrough.tasks.kit.base import Setting
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 
 def _known_models(parameters: BuildingParameters) -> BuildingParameters:
@@ -75,6 +78,13 @@ class Study(Table):
         for model in table["walkthrough"]["models"]:
             del model["folder"]  # where a file lies differs between stations that run one study
         return table
+
+    def setting(self, trial: Trial) -> Setting:
+        """Where and how a trial's task is set."""
+        task = TASKS[trial.task]
+        worlds = (WORLDS[name] for name in task.worlds)
+        world = next(w for w in worlds if w.scenario == trial.scenario)
+        return Setting(world, getattr(self, trial.scenario), task.Parameters())
 
     def with_walkthrough(self, parameters: BuildingParameters) -> Study:
         """The study with another building."""

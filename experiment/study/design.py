@@ -102,7 +102,7 @@ class Factors:
     tasks: Mapping[str, tuple[str, ...]]  # scenario -> its tasks
     trials: int
     training: int
-    static_scenarios: Sequence[str] = ("walkthrough",)
+    static_scenarios: Sequence[str] = ()
     redraw: Sequence[str] = ()
 
     @property

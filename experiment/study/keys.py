@@ -25,7 +25,9 @@ from seethrough.experiment.study.study_tables import (
 )
 from seethrough.renderer.declared import Key, allowed, declared
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
+from seethrough.tasks.kit.own_models import OwnModel
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "keys.md"
 REQUIRED = object()
@@ -158,9 +160,9 @@ study."""
 
 _TAIL = """## `[texts]`
 
-Any text that participants read, by its name in `experiment/pages/languages/en.toml`,
-table and key with
-a dot between: `"welcome.text" = "Hello."` An unknown name is refused.
+Any text that participants read, by its name in `experiment/pages/languages/en.toml` or in the
+`texts/en.toml` of a task or world, table and key with a dot between: `"welcome.text" = "Hello."`
+An unknown name is refused.
 
 ## When is an answer right?
 

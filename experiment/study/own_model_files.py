@@ -9,7 +9,7 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.model_files import check_files
 from seethrough.tasks.kit.own_models import READER, kept_as, mesh_of, packed, read
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 FOLDER = "models"
 

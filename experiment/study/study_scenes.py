@@ -1,4 +1,4 @@
-"""The scenes of a study: abstract ones from the trial's own stream, buildings made once."""
+"""The scenes of a study: made for a trial, or once for everybody who shares them."""
 
 from __future__ import annotations
 
@@ -7,24 +7,29 @@ from typing import Any
 
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
-from seethrough.tasks.kit.base import Task
+from seethrough.tasks.kit.base import Setting, Task
+from seethrough.tasks.kit.world import OWN
 
 
 class StudyScenes:
-    """Begins trials; keeps the building scenes of the study, which are the same for everybody."""
+    """Begins trials; keeps the scenes that are the same for everybody."""
 
     def __init__(self, study: Study) -> None:
         self.study = study
-        self._buildings: dict[tuple[int, ...], Any] = {}
+        self._shared: dict[tuple[int, ...], Any] = {}
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""
+        setting = self.study.setting(trial)
+        return task.begin(self._made(task, trial, setting), setting, aspect)
+
+    def _made(self, task: Task, trial: Trial, setting: Setting) -> Any:
         rng = generator(self.study.study.seed, trial.stream)
-        if trial.scenario == "abstract":
-            return task.begin(rng, self.study.abstract, aspect)
-        if trial.stream not in self._buildings:
-            self._buildings[trial.stream] = task.make_scene(rng, self.study.walkthrough)
-        return task.begin(rng, self.study.walkthrough, aspect, self._buildings[trial.stream])
+        if setting.place.scenes == OWN:
+            return task.make_scene(rng, setting)
+        if trial.stream not in self._shared:
+            self._shared[trial.stream] = task.make_scene(rng, setting)
+        return self._shared[trial.stream]
 
     def example(self, trial: Trial) -> Trial:
         """A trial like this one whose scene no trial of the study uses: for instructions."""

@@ -1,27 +1,21 @@
 """The tables of a study file that are the session's own: what each key means and may be.
 
-Those of scenes and of the technique are declared where they are used (tasks/parameters.py,
+Those of worlds and of the technique are declared where they are used (tasks/worlds/,
 renderer/techniques/). All of them make docs/keys.md (experiment/study/keys.py).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator
 
+from seethrough.experiment.errors import shown
 from seethrough.experiment.files.folders import PARTICIPANT
 from seethrough.experiment.pages.texts import languages
 from seethrough.experiment.study.design import Factors
-
-TaskName = Literal["count", "pattern", "unique", "count_in_building"]
-TASK_SCENARIO: Mapping[str, str] = {
-    "count": "abstract",
-    "pattern": "abstract",
-    "unique": "walkthrough",
-    "count_in_building": "walkthrough",
-}
+from seethrough.tasks.catalog import TASKS, WORLDS, world_of
+from seethrough.tasks.kit.world import SHARED
 
 QuestionnaireBlock = Literal["ratings", "comparison", "tlx", "sus", "depth_test", "remarks"]
 
@@ -29,6 +23,7 @@ QuestionnaireBlock = Literal["ratings", "comparison", "tlx", "sus", "depth_test"
 AnalysisTest = Literal["time", "accuracy", "ratings", "tradeoff", "validity", "mixed"]
 EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
+TASKS_SAID = f"an array of some of {', '.join(map(shown, TASKS))}, each once"
 NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
@@ -63,6 +58,12 @@ def _exclusion(value: str) -> str:
     kind, _, name = value.partition(":")
     if value not in EXCLUSIONS and not (kind == "participant" and PARTICIPANT.fullmatch(name)):
         raise ValueError(f"one of {', '.join(EXCLUSIONS)} or participant:ID")
+    return value
+
+
+def _task(value: str) -> str:
+    if value not in TASKS:
+        raise ValueError(f"one of {', '.join(map(shown, TASKS))}")
     return value
 
 
@@ -117,8 +118,8 @@ class DesignTable(Table):
         key("levels of transparency, each participant meets all", min_length=1, max_length=2),
     ] = ("standard", "dynamic")
     tasks: Annotated[
-        tuple[TaskName, ...],
-        key("T1 count, T2 pattern, T3 unique, T4 count_in_building", min_length=1),
+        tuple[Annotated[str, AfterValidator(_task)], ...],
+        key("what is asked, in the order of the worlds", min_length=1, said=TASKS_SAID),
     ] = ("count", "pattern", "unique", "count_in_building")
     trials: Annotated[int, key("trials of each task in each condition", ge=1, le=100)] = 3
     training: Annotated[int, key("trials to practise on before those", ge=0, le=20)] = 1
@@ -141,11 +142,17 @@ class DesignTable(Table):
     _unique = field_validator("transparency", "tasks")(_once)
 
     def factors(self) -> Factors:
-        """The design's factors, tasks grouped by scenario in the order of the scenarios."""
-        scenarios = ("abstract", "walkthrough")
-        tasks = {s: tuple(t for t in self.tasks if TASK_SCENARIO[t] == s) for s in scenarios}
-        present = {s: ts for s, ts in tasks.items() if ts}
-        return Factors(self.transparency, present, self.trials, self.training, redraw=self.redraw)
+        """The design's factors, tasks grouped by world in the order of the worlds."""
+        worlds = {t: world_of(TASKS[t]) for t in self.tasks}
+        present = {
+            world.scenario: tuple(t for t in self.tasks if worlds[t] is world)
+            for world in WORLDS.values()
+            if world in worlds.values()
+        }
+        shared = tuple(w.scenario for w in worlds.values() if w.Parameters().scenes == SHARED)
+        return Factors(
+            self.transparency, present, self.trials, self.training, shared, redraw=self.redraw
+        )
 
 
 class DisplayTable(Table):

@@ -9,16 +9,17 @@ from pathlib import Path
 from typing import Any
 
 from seethrough.experiment.people.code_hash import code_sha256
-from seethrough.experiment.people.persons.profile import AVERAGE, Profile
 from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Slots, render
 from seethrough.experiment.people.runs.data_mode import Played, play_session
 from seethrough.experiment.people.runs.look_tables import views_of
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
-from seethrough.experiment.people.sight.looks import KeptLooks
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.workers import ordered_map
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
+from seethrough.tasks.kit.world import OWN
 
 
 @dataclass(frozen=True)
@@ -105,7 +106,7 @@ def keep_tables() -> None:
 
 
 def fill(batch: Batch, progress: Any = None) -> None:
-    """Draw what the tables lack of every abstract scene of the pool.
+    """Draw what the tables lack of every scene of the pool.
 
     Each scene is drawn from the viewpoints that a participant of this profile looks from. What was
     drawn is kept scene by scene: who is interrupted goes on there.
@@ -113,11 +114,12 @@ def fill(batch: Batch, progress: Any = None) -> None:
     prepare(batch)
     study, pool = _ready["study"], _ready["pool"]
     aspect = study.display.width / study.display.height
-    for trial in abstract_trials(study):
+    for trial in pooled_trials(study):
         for which in range(batch.pool):
-            view = TASKS[trial.task].view(pool.world(trial, which, aspect))
+            task = TASKS[trial.task]
+            view = task.view(pool.world(trial, which, aspect))
             eyes = pool.eyes(view.scene, trial.transparency)
-            for camera in views_of(trial.task, view.camera):
+            for camera in views_of(task.simulate.heights, view.camera):
                 eyes.look(view.scene, camera)
             pool.looks.flush()
             if progress is not None:
@@ -128,16 +130,16 @@ def make_worlds() -> None:
     """Make every world of this process's pool now, instead of when somebody first plays in it."""
     batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
     aspect = study.display.width / study.display.height
-    for trial in abstract_trials(study):
+    for trial in pooled_trials(study):
         for which in range(batch.pool):
             pool.world(trial, which, aspect)
 
 
-def abstract_trials(study: Study) -> list[Trial]:
-    """One trial of each abstract task at each transparency level."""
+def pooled_trials(study: Study) -> list[Trial]:
+    """One trial at each transparency level of each task whose scenes are everybody's own."""
     trials = {}
     for task_set in session_for(1, study.design.factors()):
         trial = task_set.trials[0]
-        if trial.scenario == "abstract":
+        if study.setting(trial).place.scenes == OWN:
             trials[trial.task, trial.transparency] = trial
     return list(trials.values())

@@ -10,7 +10,7 @@ from pathlib import Path
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.runs import batch as b
 from seethrough.experiment.people.runs.batch_files import Chunk, Results, Slots
-from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, find, load
 from seethrough.experiment.workers import ordered_map
@@ -69,7 +69,7 @@ def make_tables(job: b.Batch, walkers: int) -> bool:
     with closing(KeptLooks(job.tables)) as looks:
         if looks.is_filled(what, walkers):
             return False
-        worlds = len(b.abstract_trials(study)) * job.pool
+        worlds = len(b.pooled_trials(study)) * job.pool
         with Progress("making tables", worlds + walkers) as progress:
             b.fill(job, progress)
             for slot in range(1, walkers + 1):

@@ -1,6 +1,6 @@
-"""Scenes for data mode, made once: a pool of abstract worlds for each task, the study's buildings.
+"""Scenes for data mode, made once: a pool for each task whose scenes are everybody's own.
 
-Every abstract trial draws its world from the pool by its own stream; buildings are those of the
+Every such trial draws its scene from the pool by its own stream; shared scenes are those of the
 study, the same for everybody, as in the real session.
 """
 
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from seethrough.experiment.people.runs.look_tables import Draw, TableEyes
-from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import STUDY_SCENES, Trial, generator
 from seethrough.experiment.study.study_scenes import StudyScenes
@@ -21,6 +21,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Task, View
+from seethrough.tasks.kit.world import OWN
 
 SIMPLE = "simple models, "  # what tables were looked at with
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
@@ -42,7 +43,7 @@ class Pool(StudyScenes):
         self.size, self._draw = size, draw
         self.looks = looks or KeptLooks()
         self._scenes: dict[str, Any] = {}
-        self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, its scenario
+        self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, moving
         self._draws: dict[str, Draw | None] = {}
         self._eyes: dict[tuple[int, str], TableEyes] = {}
 
@@ -50,12 +51,12 @@ class Pool(StudyScenes):
         """The first state of a trial."""
         rng = generator(self.study.study.seed, trial.stream)
         stream = trial.stream
-        if trial.scenario == "abstract" and self.size:
+        if self.size and self.study.setting(trial).place.scenes == OWN:
             stream = self._stream(trial.task, int(rng.integers(self.size)))
         return self._begun(task, trial, aspect, stream)
 
     def world(self, trial: Trial, which: int, aspect: float) -> Any:
-        """As `begin`, in the pool's world number `which` of an abstract task."""
+        """As `begin`, in scene number `which` of the pool's for the task."""
         stream = self._stream(trial.task, which)
         return self._begun(TASKS[trial.task], trial, aspect, stream)
 
@@ -71,25 +72,23 @@ class Pool(StudyScenes):
         return self._eyes[key]
 
     def _stream(self, task: str, which: int) -> tuple[int, ...]:
-        return (STUDY_SCENES, POOL, sorted(TASKS).index(task), which)
+        return (STUDY_SCENES, POOL, sorted(self.study.design.tasks).index(task), which)
 
     def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> Any:
-        study = self.study
-        parameters: Any = study.abstract if trial.scenario == "abstract" else study.walkthrough
+        setting = self.study.setting(trial)
         name = f"{trial.task}-" + "-".join(map(str, stream))
         if name not in self._scenes:
-            made = task.make_scene(generator(study.study.seed, stream), parameters)
+            made = task.make_scene(generator(self.study.study.seed, stream), setting)
             self._scenes[name] = made
-            self._names[id(getattr(made, "scene", made))] = (name, trial.scenario)
-        rng = generator(study.study.seed, trial.stream)
-        return task.begin(rng, parameters, aspect, self._scenes[name])
+            self._names[id(made.scene)] = (name, setting.world.moving)
+        return task.begin(self._scenes[name], setting, aspect)
 
     def _open(self, scene: Scene, level: str) -> TableEyes:
-        name, scenario = self._names[id(scene)]
+        name, moving = self._names[id(scene)]
         table = f"{name}-{fingerprint(scene, self.study.dynamic, window_of(self.study))}/{level}"
         if level not in self._draws:
             self._draws[level] = None if self._draw is None else self._draw(level)
-        return TableEyes(self.looks, table, len(scene.objects), scenario, self._draws[level])
+        return TableEyes(self.looks, table, len(scene.objects), moving, self._draws[level])
 
 
 def drawing(study: Study, size: int, looks: KeptLooks | None = None) -> Pool:

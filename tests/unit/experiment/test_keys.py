@@ -6,12 +6,15 @@ import tomllib
 
 import pytest
 
+from seethrough.experiment.cli import main
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import Study, find, parse
 from seethrough.experiment.study.keys import REFERENCE, REQUIRED, TABLES, keys_of, reference
 from seethrough.renderer.declared import Of, declared
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
+from seethrough.tasks.kit.own_models import OwnModel
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 FOUND_OUT = {"folder"}  # of a model, when the study is read
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
@@ -95,3 +98,14 @@ def test_limits_that_follow_from_others_name_them():
 
 def test_language_lists_the_languages():
     assert keys_of("study")["language"].allowed == "one of de, en"
+
+
+def test_the_command_prints_the_page_or_a_table(capsys):
+    assert main(["keys"]) == 0
+    assert capsys.readouterr().out == reference()
+    assert main(["keys", "[display]"]) == 0
+    part = capsys.readouterr().out
+    assert part.startswith("## `[display]`") and part.count("\n## ") == 0
+    assert part in reference() and "`refresh`" in part
+    assert main(["keys", "displai"]) == 2
+    assert "unknown table, did you mean display?" in capsys.readouterr().err

@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from seethrough.tasks.kit.enclosure import bounding_radius, enclosing_pairs
 from seethrough.tasks.kit.letters import LETTERS, grid_reach, letter_points
-from seethrough.tasks.parameters import SHAPES, AbstractParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import SHAPES, AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import RED, abstract_scene, unit_mesh
-from seethrough.tasks.worlds.building.enclosure import bounding_radius, enclosing_pairs
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -163,3 +163,21 @@ def test_the_palettes_differ_in_colour_alone():
 def test_an_unknown_palette_is_named():
     with pytest.raises(ValueError, match=r"palette = 'pink', expected one of .published., "):
         AbstractParameters(palette="pink")
+
+
+def test_clutter_is_set_without_changing_targets():
+    """`targets` and `distractors` are counts of their own; without them `objects` is shared out."""
+    for targets, distractors, most in ((None, 80, 40), ((15, 25), 380, 25), ((15, 25), None, 25)):
+        p = AbstractParameters(side=200.0, targets=targets, distractors=distractors)
+        found = [abstract_scene(np.random.default_rng(s), p).targets for s in range(12)]
+        counts = {int(t.sum()) for t in found}
+        assert min(counts) >= (15 if targets else 20) and max(counts) <= most and len(counts) > 1
+        others = {len(t) - int(t.sum()) for t in found}
+        expected = {200 - n for n in counts} if distractors is None else {distractors}
+        assert others == expected
+
+
+def test_more_targets_than_objects_are_refused():
+    with pytest.raises(ValueError, match=r"targets = \[100, 250\], expected at most `objects`"):
+        AbstractParameters(targets=(100, 250))
+    assert AbstractParameters(targets=(100, 250), distractors=0).target_range == (100, 250)
