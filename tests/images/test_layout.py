@@ -260,7 +260,8 @@ def test_the_list_of_pages_is_complete():
     names = {page.name.split(" ")[0] for page in every_page()}
     assert {
         "welcome", "consent", "demographics", "color", "instruction", "feedback", "ready", "pause",
-        "time", "thanks", "leave", "menu", "ratings", "tlx", "sus", "comparison", "depth", "remarks",
+        "time", "thanks", "leave", "menu", "ratings", "tlx", "sus", "comparison", "depth",
+        "remarks",
     } == names  # fmt: skip
     assert {
         len(one_page("tlx", transparency="dynamic").blocks),
