@@ -33,10 +33,11 @@ COMMANDS = {
     "task": "list the tasks there are, or check one",
     "world": "list the worlds there are, or check one",
     "question": "list the kinds of questions there are, or check one",
-    "new": "begin a task, a world or a kind of question of your own",
     "render": "draw a scene into a picture",
     "view": "look at a scene of translucent polygons, ordered by a method",
     "bench": "measure accuracy against time",
+    "technique": "list techniques, or try one on all that it must keep to",
+    "new": "write a package with a plug-in of your own, to begin with",
     "gallery": "draw every mode, mask, granularity and hard case into a page",
     "demo": "play the short study and make its report",
 }

@@ -1,46 +1,61 @@
-"""`seethrough new`: the beginning of a plug-in that passes its suite, to be changed bit by bit."""
+"""`seethrough new`: a package of one's own that already passes its suite, to begin with."""
 
 from __future__ import annotations
 
 import argparse
-from importlib import resources
+import re
+from importlib.resources import files
 from pathlib import Path
 
 from seethrough import registry
-from seethrough.experiment.errors import InputError, shown
+from seethrough.experiment.errors import InputError
 
-KINDS = ("task", "world", "question")
+HELP = "write a package with a plug-in of your own, to begin with"
+NAME = re.compile(r"[a-z][a-z0-9_]{0,40}")
+KINDS = ("technique", "task", "world", "question")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.add_argument("kind", choices=KINDS, help="what to begin")
-    parser.add_argument("name", metavar="NAME", help="lower-case letters, digits and _")
-    parser.add_argument("folder", metavar="DIR", type=Path, help="made; must not be there yet")
+    parser.add_argument("kind", choices=KINDS, help="what kind of thing")
+    parser.add_argument("name", metavar="NAME", help="its name, as a study will say it")
+    parser.add_argument("folder", metavar="DIR", type=Path, help="a folder that is made for it")
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Write a package and say how to go on."""
-    kind, name, folder = arguments.kind, arguments.name, arguments.folder
-    if not (name.isidentifier() and name.isascii() and name == name.lower()):
-        raise InputError(f"NAME = {shown(name)}: expected lower-case letters, digits and _")
-    if name in registry.names(kind):
-        raise InputError(f"NAME = {shown(name)}: expected a name that no other {kind} has")
-    if folder.exists() or not folder.parent.is_dir():
-        raise InputError(f"{folder}: expected a folder that is not there yet, in one that is")
-    folder.mkdir()
-    for template, file in ((kind, f"{name}.py"), ("pyproject", "pyproject.toml")):
-        (folder / file).write_text(_filled(template, kind, name), "utf-8")
-    print(f"{folder}: a {kind} that passes its suite; change {folder / name}.py, then")
-    print(f"  pip install -e {folder}")
-    print(f"  seethrough {kind} check {name}")
+def run(args: argparse.Namespace) -> int:
+    """Write the package and say what to do with it."""
+    if not NAME.fullmatch(args.name):
+        raise InputError(
+            f"new {args.kind}: NAME = {args.name}: expected small letters, digits and _, a letter "
+            "first"
+        )
+    if args.name in registry.names(args.kind):
+        raise InputError(f"new {args.kind}: NAME = {args.name}: there is one of this name already")
+    templates = files("seethrough.experiment.suites").joinpath("templates")
+    where = registry.KINDS[args.kind]
+    words = {
+        "NAME": args.name,
+        "MODULE": f"seethrough_{args.name}",
+        "GROUP": where.group.removeprefix("seethrough."),
+        "CONSTANT": where.constant,
+    }
+    try:
+        args.folder.mkdir(parents=True)
+        for template, file in (
+            ("pyproject.txt", "pyproject.toml"),
+            (f"{args.kind}.txt", f"{words['MODULE']}.py"),
+        ):
+            text = templates.joinpath(template).read_text("utf-8")
+            for word, value in words.items():
+                text = re.sub(rf"\b{word}\b", value, text)
+            (args.folder / file).write_text(text, "utf-8")
+    except OSError as error:
+        raise InputError(
+            f"new {args.kind}: DIR = {args.folder}: {error.strerror or error}, expected a folder "
+            "that can be made"
+        ) from error
+    print(
+        f"{args.folder}: install it (pip install -e {args.folder}), then\n"
+        f"seethrough {args.kind} check {args.name}"
+    )
     return 0
-
-
-def _filled(template: str, kind: str, name: str) -> str:
-    file = resources.files("seethrough.experiment.plugins").joinpath("templates", f"{template}.txt")
-    words = {"NAME": name, "KIND": kind, "CONSTANT": registry.KINDS[kind].constant}
-    text = file.read_text("utf-8")
-    for word, value in words.items():
-        text = text.replace(word, value)
-    return text

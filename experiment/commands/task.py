@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from seethrough.experiment.plugins import command
+from seethrough.experiment.suites import command
 
 add_arguments = partial(command.add_arguments, "task")
 run = partial(command.run, "task")

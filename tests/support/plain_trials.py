@@ -3,7 +3,7 @@
 import numpy as np
 
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.plugins.plain_looks import plain_look
+from seethrough.experiment.suites.plain_looks import plain_look
 from seethrough.renderer.scene import geometry
 from seethrough.tasks.catalog import TASKS, setting
 from seethrough.tasks.worlds.building.building import count_building, unique_building

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.plugins.played import ASPECT, anything, no_clock
-from seethrough.experiment.plugins.suite import (
+from seethrough.experiment.suites.played import ASPECT, anything, no_clock
+from seethrough.experiment.suites.suite import (
     Rule,
     describes_itself,
     parameters_declared,

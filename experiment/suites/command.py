@@ -32,13 +32,10 @@ def run(kind: str, arguments: argparse.Namespace) -> int:
 
 
 def _check(kind: str, name: str) -> int:
-    from seethrough.experiment.plugins.suite import findings
+    from seethrough.experiment.suites.suite import findings
 
-    bad = 0
+    holds = True
     for finding in findings(kind, name):
-        bad += bool(finding.problems)
-        print(f"{'fails' if finding.problems else 'ok':6s} {finding.rule}")
-        for problem in finding.problems:
-            print(f"       {problem}")
-    print(f"{kind} {name}: {'is what it has to be' if not bad else f'{bad} rules do not hold'}")
-    return int(bad > 0)
+        print(finding, flush=True)
+        holds &= finding.holds
+    return 0 if holds else 1

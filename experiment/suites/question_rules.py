@@ -12,15 +12,15 @@ from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Page
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons.person import Person
-from seethrough.experiment.plugins.played import no_clock
-from seethrough.experiment.plugins.suite import (
+from seethrough.experiment.questions.kit import Asking
+from seethrough.experiment.suites.played import no_clock
+from seethrough.experiment.suites.suite import (
     Rule,
     describes_itself,
     parameters_declared,
     texts_in_every_language,
     unknown_texts,
 )
-from seethrough.experiment.questions.kit import Asking
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.skills.profile import AVERAGE
 

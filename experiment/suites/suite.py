@@ -14,6 +14,7 @@ from typing import Any, get_type_hints
 from seethrough import registry
 from seethrough.experiment.errors import one_line
 from seethrough.experiment.pages.texts import Texts, languages
+from seethrough.experiment.suites.finding import Finding
 from seethrough.renderer.declared import Key, declared
 
 Rule = Callable[[Any], Iterator[str]]
@@ -22,20 +23,14 @@ Rule = Callable[[Any], Iterator[str]]
 RULES = {kind: f"{__package__}.{kind}_rules" for kind in ("task", "world", "question")}
 
 
-@dataclasses.dataclass(frozen=True)
-class Finding:
-    """A rule that was tried, and what was found wrong, if anything was."""
-
-    rule: str
-    problems: tuple[str, ...]
-
-
 def findings(kind: str, name: str) -> Iterator[Finding]:
     """Every rule of a kind, tried on the plug-in of that name. Raises KeyError if there is none."""
     plugin = registry.get(kind, name)
     for rule in import_module(RULES[kind]).RULES:
         said = (rule.__doc__ or rule.__name__).split("\n\n")[0]
-        yield Finding(one_line(" ".join(said.split())).rstrip("."), tuple(_tried(rule, plugin)))
+        problems = _tried(rule, plugin)
+        said = one_line(" ".join(said.split())).rstrip(".")
+        yield Finding(said, not problems, "; ".join(problems) or "nothing found")
 
 
 def _tried(rule: Rule, plugin: Any) -> list[str]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.random import Generator
 
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.plugins.plain_looks import plain_look
+from seethrough.experiment.suites.plain_looks import plain_look
 from seethrough.tasks.kit.base import Outcome, Setting, Task, View
 from seethrough.tasks.kit.events import (
     Event,
