@@ -108,7 +108,8 @@ class Opinions:
         times = [(lv, fmean(t)) for (lv, k), t in self._times.items()
                  if not scenario or scenario_of(k) == scenario]  # fmt: skip
         own = [t for lv, t in times if lv == level]
-        return fmean(own) / fmean(t for _, t in times) if own else 1.0
+        usual = fmean(t for _, t in times) if own else 0.0
+        return fmean(own) / usual if usual else 1.0  # nothing has taken any time yet
 
     def _choice(self, page: Page, block: Choice) -> int:
         if block.prefer:
