@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from seethrough.benchmarks.rows import Row, row
-from seethrough.experiment.people.fitted.profile import Profile
-from seethrough.experiment.people.fitted.profile_file import find
-from seethrough.experiment.people.fitted.study_effects import EFFECTS, plan_effects
 from seethrough.experiment.people.participant import STRATEGIES, SimulatedParticipant
+from seethrough.experiment.people.persons.profile import Profile
+from seethrough.experiment.people.persons.profile_file import find
+from seethrough.experiment.people.persons.study_effects import EFFECTS, plan_effects
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.people.sight.looks import KeptLooks

@@ -19,13 +19,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.experiment.display.driver import open_context
 from seethrough.experiment.pages.pages import Page, Paragraph
-from seethrough.experiment.people.fitted.profile import AVERAGE
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.persons.profile import AVERAGE
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import Pool, drawing
-from seethrough.experiment.session.driver import open_context
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, Trial, generator, session_for
 from seethrough.renderer.gpu.renderer import Renderer

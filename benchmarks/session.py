@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from seethrough.benchmarks.rows import Row, row
+from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.replay.replayer import find_trial, replay
-from seethrough.experiment.session.clock import SimulatedClock
-from seethrough.experiment.session.looking import Looking
-from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.renderer.gpu.device.context import standalone
@@ -34,7 +34,7 @@ DRAGGED = 10.0  # s
 FIRST_FRAME = """
 import sys, time
 from seethrough.experiment.study.config import load
-from seethrough.experiment.session.clock import RealClock
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.pages.pages import Page, Paragraph
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.display.window import Window
@@ -101,11 +101,11 @@ def _recording(folder: Path) -> tuple[float, float]:
 def _replay(folder: Path) -> float:
     """How many times faster than real time a simulated demo session is replayed and looked at."""
     from seethrough.experiment.display.offscreen import OffscreenDisplay
-    from seethrough.experiment.display.simulated_input import SimulatedInput
     from seethrough.experiment.people.participant import SimulatedParticipant
+    from seethrough.experiment.people.simulated_input import SimulatedInput
     from seethrough.experiment.session.session import run_session
     from seethrough.experiment.session.software import provenance
-    from seethrough.experiment.session.surroundings import World
+    from seethrough.experiment.session.surroundings import Surroundings
 
     study, clock, context = load("demo"), SimulatedClock(), standalone()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
@@ -115,7 +115,7 @@ def _replay(folder: Path) -> float:
     run_session(
         study,
         1,
-        World(display, SimulatedInput(person, display, clock), clock, recorder, TASKS),
+        Surroundings(display, SimulatedInput(person, display, clock), clock, recorder, TASKS),
     )
     shown, start = 0.0, time.perf_counter()
     for number in range(1, 9):

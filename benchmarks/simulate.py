@@ -24,8 +24,8 @@ from seethrough.benchmarks.memory import Watch
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.people.fitted.calibration import FITTED, HELD_OUT, measured, published
 from seethrough.experiment.people.fitted.fitting import Crowd
-from seethrough.experiment.people.fitted.profile import Profile
-from seethrough.experiment.people.fitted.profile_file import find
+from seethrough.experiment.people.persons.profile import Profile
+from seethrough.experiment.people.persons.profile_file import find
 from seethrough.experiment.people.runs import batch, data_run
 from seethrough.experiment.people.runs.pool import drawing
 from seethrough.experiment.people.sight.looks import KeptLooks
@@ -214,7 +214,7 @@ def _say(what: str) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Parts of the benchmark from tables that are kept."""
-    from seethrough.experiment.commands.bench import line
+    from seethrough.benchmarks.bench import line
 
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--tables", type=Path, required=True, help="made if it is not there")

@@ -19,7 +19,7 @@ from seethrough.benchmarks.paper_way import PaperWay
 from seethrough.benchmarks.rows import Row as Figure
 from seethrough.benchmarks.rows import row
 from seethrough.benchmarks.scenes import SCENES
-from seethrough.experiment.session.looking import HEIGHT
+from seethrough.experiment.display.looking import HEIGHT
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified

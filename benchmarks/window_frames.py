@@ -16,11 +16,11 @@ import time
 from pathlib import Path
 from typing import Any
 
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.window import _KEYS, Window
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import RealClock
-from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
@@ -73,7 +73,7 @@ def measured(transparency: str, seconds: float) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         recorder = FileRecorder(Path(folder), Who("published", "P01", "pilot", 1, {}))
         hand = Hand(window, seconds)
-        run = TrialRun(study, World(window, window, window.clock, recorder, TASKS))
+        run = TrialRun(study, Surroundings(window, window, window.clock, recorder, TASKS))
         record = run.play(trial, 0.0)
         recorder.trial_ends(record)
         recorder.close("complete")

@@ -36,6 +36,8 @@ COMMANDS = {
     "demo": "play the short study and make its report",
 }
 
+ELSEWHERE = {"bench": "seethrough.benchmarks.bench"}  # commands that are not the experiment's
+
 
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in one line; the usage is in --help."""
@@ -55,7 +57,7 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     for name, summary in COMMANDS.items():
         sub = commands.add_parser(name, help=summary, description=summary)
         if name == chosen:
-            module = importlib.import_module(f"seethrough.experiment.commands.{name}")
+            module = importlib.import_module(ELSEWHERE.get(name, f"{__package__}.commands.{name}"))
             module.add_arguments(sub)
             sub.set_defaults(run=module.run)
     return parser

@@ -11,7 +11,7 @@ from tempfile import TemporaryFile
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.code_hash import code_sha256
-from seethrough.experiment.people.fitted.profile_file import find, write
+from seethrough.experiment.people.persons.profile_file import find, write
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import load
 

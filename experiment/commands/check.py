@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     _design(study, said)
     if arguments.config_only:
         return said.sum_up()
-    from seethrough.experiment.session.driver import describe, on_the_processor, open_context
+    from seethrough.experiment.display.driver import describe, on_the_processor, open_context
 
     context = open_context()
     for name, value in describe(context).items():
@@ -243,8 +243,8 @@ def _refresh(study: Study, said: Verdicts) -> None:
         said.say("machine", "window: none can be opened", WARNING, why)
         return
     from seethrough.experiment.display import refresh
+    from seethrough.experiment.display.clock import RealClock
     from seethrough.experiment.display.window import Window
-    from seethrough.experiment.session.clock import RealClock
 
     window = Window(study.display, Texts("en"), RealClock(), "check")
     rate, declared = window.measured, window.declared

@@ -60,7 +60,7 @@ def _next_folder(parent: Path) -> Path:
 
 
 def _in_window(data: Path, simulated: bool, speed: float) -> str:
-    from seethrough.experiment.session.clock import RealClock
+    from seethrough.experiment.display.clock import RealClock
     from seethrough.experiment.session.live import play_in_window
 
     study = load("demo")

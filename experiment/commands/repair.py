@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record.folders import check_participant, folder_of, taken
+from seethrough.experiment.files.folders import check_participant, folder_of, taken
 
 if TYPE_CHECKING:
     from seethrough.experiment.ledger.ledger_lock import Locks

@@ -77,8 +77,8 @@ def _verify(recorded: Recorded) -> int:
 
 def _visibility(recorded: Recorded, path: Path) -> None:
     """One row for each look and target: how much of it could be seen, how strongly."""
-    from seethrough.experiment.session.driver import open_context
-    from seethrough.experiment.session.looking import Looking
+    from seethrough.experiment.display.driver import open_context
+    from seethrough.experiment.display.looking import Looking
 
     looking = Looking(open_context(), recorded.size)
     looking.technique = recorded.technique
@@ -106,9 +106,9 @@ def _thinned(frames: Iterable[Frame], every: float) -> Iterable[tuple[float, Fra
 
 
 def _watch(recorded: Recorded, speed: float) -> None:
+    from seethrough.experiment.display.clock import RealClock
     from seethrough.experiment.display.window import Window
     from seethrough.experiment.pages.texts import Texts
-    from seethrough.experiment.session.clock import RealClock
 
     study = recorded.study
     texts = Texts(study.study.language, study.texts)

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
+from seethrough.experiment.display.interrupt import check, deferred
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record.folders import check_participant, folder_of, next_free, taken
-from seethrough.experiment.record.private import make_folder
-from seethrough.experiment.session.interrupt import check, deferred
+from seethrough.experiment.files.folders import check_participant, folder_of, next_free, taken
+from seethrough.experiment.files.private import make_folder
 from seethrough.experiment.study.config import Study, find, load, shipped
 
 
@@ -67,6 +67,7 @@ def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
 
 def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
     """A participant's session in the slot that the ledger gives."""
+    from seethrough.experiment.files.network_drive import network_drive
     from seethrough.experiment.ledger import ledger_place as place
     from seethrough.experiment.ledger.ledger import (
         Ledger,  # SQLAlchemy: only where a ledger is needed
@@ -75,7 +76,6 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
     from seethrough.experiment.ledger.ledger_lock import playing
     from seethrough.experiment.ledger.ledger_place import note_study
     from seethrough.experiment.ledger.ledger_plan import plan_of
-    from seethrough.experiment.record.network_drive import network_drive
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
     if not place.exists_elsewhere(data, url) and (kind := network_drive(data)):
@@ -121,7 +121,7 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
 def _play(
     study: Study, participant: str, slot: int, source: str, data: Path, guard: Callable[[], None]
 ) -> str:
-    from seethrough.experiment.session.clock import RealClock
+    from seethrough.experiment.display.clock import RealClock
     from seethrough.experiment.session.live import (
         play_in_window,  # OpenGL and the window: not for --help
     )

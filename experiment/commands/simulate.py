@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
-from seethrough.experiment.people.fitted.profile_file import find, names
-from seethrough.experiment.people.fitted.study_effects import EFFECTS, checked
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.people.persons.profile import AVERAGE, Profile
+from seethrough.experiment.people.persons.profile_file import find, names
+from seethrough.experiment.people.persons.study_effects import EFFECTS, checked
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
@@ -84,7 +84,7 @@ def simulate(
     explain: bool = False,
 ) -> None:
     """Play `count` sessions into the data folder `out`. Raises InputError if they are there."""
-    from seethrough.experiment.session.driver import open_context
+    from seethrough.experiment.display.driver import open_context
 
     context = open_context()
     trials = sum(len(s.trials) for s in session_for(1, study.design.factors())) * count
@@ -98,11 +98,11 @@ def _one(  # type: ignore[no-untyped-def]
     study: Study, slot: int, seed: int, out: Path, context, progress, person, explain: bool
 ) -> None:
     from seethrough.experiment.display.offscreen import OffscreenDisplay
-    from seethrough.experiment.display.simulated_input import SimulatedInput
+    from seethrough.experiment.people.simulated_input import SimulatedInput
     from seethrough.experiment.record.recorder import FileRecorder, Who
     from seethrough.experiment.session.session import run_session
     from seethrough.experiment.session.software import provenance
-    from seethrough.experiment.session.surroundings import World
+    from seethrough.experiment.session.surroundings import Surroundings
     from seethrough.experiment.study.own_model_files import keep
 
     clock = SimulatedClock()
@@ -117,7 +117,7 @@ def _one(  # type: ignore[no-untyped-def]
 
     session_input = SimulatedInput(person, display, clock)
     keep(study.walkthrough, out)
-    world = World(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
+    world = Surroundings(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
     run_session(study, slot, world)
 
 
@@ -125,7 +125,7 @@ def _watch(
     study: Study, count: int, seed: int, out: Path, profile: Profile, without: frozenset[str]
 ) -> int:
     """Play the sessions in a window until somebody leaves one."""
-    from seethrough.experiment.session.clock import RealClock
+    from seethrough.experiment.display.clock import RealClock
     from seethrough.experiment.session.live import play_in_window
 
     for slot in range(1, count + 1):

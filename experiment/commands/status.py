@@ -14,8 +14,8 @@ from seethrough.analysis.load.ledger import differences
 from seethrough.analysis.load.whole import examined
 from seethrough.experiment.commands.withdraw import WITHDRAWN
 from seethrough.experiment.errors import one_line
+from seethrough.experiment.files.folders import folder_of, taken
 from seethrough.experiment.ledger.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
-from seethrough.experiment.record.folders import folder_of, taken
 
 if TYPE_CHECKING:
     from seethrough.experiment.ledger.ledger import Ledger

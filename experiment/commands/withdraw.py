@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record.folders import check_participant, folder_of
+from seethrough.experiment.files.folders import check_participant, folder_of
 from seethrough.experiment.record.repair import set_aside
 
 WITHDRAWN = "withdrawn"

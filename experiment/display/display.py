@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.pages.pages import Answers, Page
+from seethrough.experiment.pages.pages import Answers, Page, Paragraph
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
+
+MEANT = ("escape", "f1")  # keys that are for the session, whenever they were pressed
+LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
 
 
 class Leave(Exception):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from seethrough.experiment.session.clock import Clock
-from seethrough.experiment.session.driver import describe
-from seethrough.experiment.session.looking import Looking
+from seethrough.experiment.display.clock import Clock
+from seethrough.experiment.display.driver import describe
+from seethrough.experiment.display.looking import Looking
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
 

@@ -18,8 +18,8 @@ import pyglet
 pyglet.options.shadow_window = False
 import pyglet.window
 
+from seethrough.experiment.display.driver import no_window
 from seethrough.experiment.display.event_time import EventTime, x11_stamp
-from seethrough.experiment.session.driver import no_window
 from seethrough.experiment.study.study_tables import DisplayTable
 
 ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")

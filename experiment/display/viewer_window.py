@@ -7,8 +7,8 @@ import pyglet
 pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
+from seethrough.experiment.display.driver import no_window, window_context
 from seethrough.experiment.display.viewer import Viewer, ViewState
-from seethrough.experiment.session.driver import no_window, window_context
 from seethrough.renderer.models.translucent.scenes import TranslucentScene
 from seethrough.renderer.polygons.prepared import Prepared
 

@@ -16,24 +16,23 @@ import pyglet
 pyglet.options.shadow_window = False
 from pyglet.window import key, mouse
 
-from seethrough.experiment.display.display import DisplayLost, Leave
+from seethrough.experiment.display.clock import Clock
+from seethrough.experiment.display.display import LEAVE, MEANT, DisplayLost, Leave
+from seethrough.experiment.display.driver import describe, samples_for, window_context
 from seethrough.experiment.display.event_time import EventTime
+from seethrough.experiment.display.interrupt import check
 from seethrough.experiment.display.refresh import rate_of
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.display.system_window import (
     ON_X11,
     open_window,
     say_when_the_server_goes,
 )
+from seethrough.experiment.display.waiting import Waits
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.key_names import KEY_NAMES
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.clock import Clock
-from seethrough.experiment.session.driver import describe, samples_for, window_context
-from seethrough.experiment.session.interrupt import check
-from seethrough.experiment.session.stage import Stage
-from seethrough.experiment.session.trial import LEAVE, MEANT
-from seethrough.experiment.session.waiting import Waits
 from seethrough.experiment.study.study_tables import DisplayTable
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import (

@@ -17,9 +17,9 @@ from typing import Any
 from seethrough.analysis.load.chain import read_rows
 from seethrough.analysis.load.whole import verified
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.folders import PARTICIPANT, plain
+from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.record.columns import TABLES, Column
-from seethrough.experiment.record.folders import PARTICIPANT, plain
-from seethrough.experiment.record.private import make_folder, write_new
 from seethrough.experiment.record.record_files import csv_line
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "'")

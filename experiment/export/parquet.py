@@ -10,8 +10,8 @@ from pathlib import Path
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.dataset import Dataset
+from seethrough.experiment.files.private import FILE, make_folder
 from seethrough.experiment.record.columns import TABLES, Column
-from seethrough.experiment.record.private import FILE, make_folder
 
 TYPES = {"text": "VARCHAR", "integer": "BIGINT", "number": "DOUBLE", "boolean": "BOOLEAN"}
 INSTALL = "pip install 'seethrough[parquet]'"

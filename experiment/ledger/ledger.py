@@ -20,6 +20,8 @@ import sqlalchemy as sql
 from sqlalchemy.engine import Connection, Engine
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.folders import check_participant
+from seethrough.experiment.files.private import make_folder
 from seethrough.experiment.ledger import ledger_place as place
 from seethrough.experiment.ledger import ledger_store as store
 from seethrough.experiment.ledger import ledger_sums as sums
@@ -39,8 +41,6 @@ from seethrough.experiment.ledger.ledger_slots import (
     stale_before,
     stamp,
 )
-from seethrough.experiment.record.folders import check_participant
-from seethrough.experiment.record.private import make_folder
 
 
 class Ledger:

@@ -10,6 +10,8 @@ from datetime import datetime
 from pathlib import Path
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.folders import PARTICIPANT, check_participant, folder_of, taken
+from seethrough.experiment.files.private import write, write_new
 from seethrough.experiment.ledger.ledger import Ledger
 from seethrough.experiment.ledger.ledger_slots import (
     COMPLETE,
@@ -20,8 +22,6 @@ from seethrough.experiment.ledger.ledger_slots import (
     moment,
     stamp,
 )
-from seethrough.experiment.record.folders import PARTICIPANT, check_participant, folder_of, taken
-from seethrough.experiment.record.private import write, write_new
 
 SOURCE = "human"
 WITHDRAWN = "withdrawn.csv"

@@ -23,10 +23,10 @@ from pathlib import Path
 import sqlalchemy as sql
 from sqlalchemy.engine import Connection, Engine
 
+from seethrough.experiment.display.interrupt import check
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.ledger import ledger_store as store
 from seethrough.experiment.ledger.ledger_slots import stamp
-from seethrough.experiment.session.interrupt import check
 
 BEAT = 2.0  # s between heartbeats
 LEASE = 6.0  # s after its last heartbeat that a session writes without asking

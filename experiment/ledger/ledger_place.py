@@ -13,8 +13,8 @@ from sqlalchemy.engine import URL, Engine
 from sqlalchemy.exc import DBAPIError
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.ledger import ledger_store as store
-from seethrough.experiment.record.private import make_folder, write_new
 
 FILE = "ledger.sqlite"
 LOCKS = "locks.sqlite"  # of sessions without a ledger: pilots

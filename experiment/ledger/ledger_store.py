@@ -18,8 +18,8 @@ from sqlalchemy.engine import URL, Connection, Engine, make_url
 from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.network_drive import network_drive
 from seethrough.experiment.ledger.ledger_slots import COMPLETE, LIVE
-from seethrough.experiment.record.network_drive import network_drive
 
 DAMAGED = (
     "the ledger is damaged: put back a copy, or move it away and it is made again from the data"

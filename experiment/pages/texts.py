@@ -8,7 +8,12 @@ from importlib import resources
 from typing import Any
 
 from seethrough.experiment.errors import InputError, short, shown, unknown
-from seethrough.experiment.study.study_tables import languages
+
+
+def languages() -> tuple[str, ...]:
+    """The languages that there are texts in."""
+    folder = resources.files("seethrough.experiment.pages").joinpath("languages")
+    return tuple(sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml")))
 
 
 class Texts:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.people.counting import seconds_to_count, slips
 from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
 from seethrough.experiment.people.sight.glance import WHOLE, Glance, heading, noticed, uncrowded
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event

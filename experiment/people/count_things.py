@@ -7,7 +7,7 @@ from math import dist
 
 from seethrough.experiment.people.counting import slips
 from seethrough.experiment.people.find_unique import _go_on
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
 from seethrough.experiment.people.sight.glance import Glance
 from seethrough.experiment.people.sight.places import Place
 from seethrough.experiment.people.walking import Found, Walker

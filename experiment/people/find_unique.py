@@ -8,7 +8,7 @@ from math import dist
 import numpy as np
 
 from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
 from seethrough.experiment.people.sight.glance import Glance
 from seethrough.experiment.people.sight.places import THERE, Place
 from seethrough.experiment.people.walking import Walker

@@ -18,7 +18,7 @@ from seethrough.experiment.pages.pages import (
     Scale,
     TextField,
 )
-from seethrough.experiment.people.person import Person
+from seethrough.experiment.people.persons.person import Person
 
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from math import hypot, log2
 
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
 from seethrough.tasks.kit.events import (
     Event,
     KeyPress,

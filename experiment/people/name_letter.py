@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seethrough.experiment.people.count_red import learn_gain, red_things
 from seethrough.experiment.people.counting import saccade
 from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
 from seethrough.experiment.people.sight.glance import Glance, heading, recognised
 from seethrough.tasks.kit.events import Event
 

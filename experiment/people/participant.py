@@ -19,11 +19,11 @@ from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.count_red import count_red
 from seethrough.experiment.people.count_things import count_things
 from seethrough.experiment.people.find_unique import find_unique
-from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
-from seethrough.experiment.people.fitted.study_effects import EffectUse, checked
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.name_letter import name_letter
-from seethrough.experiment.people.person import Mood, Person, mood_for
+from seethrough.experiment.people.persons.person import Mood, Person, mood_for
+from seethrough.experiment.people.persons.profile import AVERAGE, Profile
+from seethrough.experiment.people.persons.study_effects import EffectUse, checked
 from seethrough.experiment.people.sight.glance import Glance
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.people.counting import saccade
 from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
 from seethrough.experiment.people.sight.glance import CLEAR, WHOLE, WINDOW_PIXELS, Glance, likely
 from seethrough.experiment.people.sight.places import (
     CELL,

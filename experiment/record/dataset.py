@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.record.columns import TABLES, Column
-from seethrough.experiment.record.private import make_folder, write_new
 
 FILE = "dataset_description.json"
 

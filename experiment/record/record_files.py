@@ -18,9 +18,9 @@ from typing import Any
 
 import numpy as np
 
+from seethrough.experiment.files.private import FILE, refused, sync_folder, write, write_new
 from seethrough.experiment.record.chain import link
 from seethrough.experiment.record.columns import Column
-from seethrough.experiment.record.private import FILE, refused, sync_folder, write, write_new
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, Tick
 

@@ -18,6 +18,8 @@ from typing import Any
 
 from seethrough.analysis.load.person import Folder
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.folders import folder_of, next_free, plain, stem_of, taken
+from seethrough.experiment.files.private import make_folder, refused, write_new
 from seethrough.experiment.record.chain import (
     END,
     TRIALS_TABLE,
@@ -29,10 +31,8 @@ from seethrough.experiment.record.chain import (
 )
 from seethrough.experiment.record.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
 from seethrough.experiment.record.dataset import describe_dataset
-from seethrough.experiment.record.folders import folder_of, next_free, plain, stem_of, taken
-from seethrough.experiment.record.private import make_folder, refused, write_new
 from seethrough.experiment.record.record_files import Table, Traces, header_of, mend
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event

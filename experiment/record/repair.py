@@ -20,9 +20,9 @@ from pathlib import Path
 from typing import Any
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.folders import folder_of
+from seethrough.experiment.files.private import make_folder, sync_folder, write_new
 from seethrough.experiment.record.chain import END, SIDECAR, TRIALS_TABLE
-from seethrough.experiment.record.folders import folder_of
-from seethrough.experiment.record.private import make_folder, sync_folder, write_new
 
 ASIDE = "aside"  # beside `data`: what no report and no export reads
 MARK = "_repair.json"

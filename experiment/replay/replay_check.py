@@ -6,11 +6,11 @@ import csv
 from collections.abc import Iterator
 from dataclasses import asdict
 
+from seethrough.experiment.display.driver import open_context
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.record_files import cell
 from seethrough.experiment.replay.replayer import Frame, Recorded
-from seethrough.experiment.session.driver import open_context
-from seethrough.experiment.session.stage import Stage
 
 
 def has_pictures(recorded: Recorded) -> bool:

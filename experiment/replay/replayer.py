@@ -19,7 +19,7 @@ from seethrough.analysis.load.person import CHUNK, Session
 from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record.folders import check_participant, folder_of
+from seethrough.experiment.files.folders import check_participant, folder_of
 from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from seethrough.experiment.display.driver import open_context
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.replay.replayer import Recorded, replay
-from seethrough.experiment.session.driver import open_context
-from seethrough.experiment.session.stage import Stage
 
 RATE = 30
 

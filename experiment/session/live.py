@@ -8,16 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seethrough.experiment.display import refresh
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.display import Input
+from seethrough.experiment.display.interrupt import check
 from seethrough.experiment.display.window import Window
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import RealClock
-from seethrough.experiment.session.interrupt import check
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import going_on, starting_point
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import changed_since, provenance
-from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.own_model_files import keep
 from seethrough.tasks.catalog import TASKS
@@ -65,7 +66,7 @@ def play_in_window(
         person: Input = window if watched is None else _simulated(watched, window)
         keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts, guard=guard)
-        world = World(
+        world = Surroundings(
             window,
             person,
             clock,
@@ -82,8 +83,8 @@ def play_in_window(
 
 
 def _simulated(participant: SimulatedParticipant, window: Window) -> Input:
-    from seethrough.experiment.display.watched_input import WatchedInput
-    from seethrough.experiment.session.looking import Looking
+    from seethrough.experiment.display.looking import Looking
+    from seethrough.experiment.people.watched_input import WatchedInput
 
     looking = Looking(window.context, window.size, simple=True)
     return WatchedInput(participant, window, looking)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.session.driver import samples_for
+from seethrough.experiment.display.driver import samples_for
 from seethrough.experiment.session.trial import MISSED
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial

@@ -13,10 +13,10 @@ from typing import Any
 
 from seethrough.analysis.load.chain import LONGEST_CELL
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.pages.questionnaire import Given, Item, item_of
+from seethrough.experiment.files.folders import folder_of, next_free
 from seethrough.experiment.record.chain import ANSWERS_TABLE
-from seethrough.experiment.record.folders import folder_of, next_free
 from seethrough.experiment.record.record_files import whole_rows
+from seethrough.experiment.session.questionnaire import Given, Item, item_of
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, session_for
 

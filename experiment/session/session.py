@@ -11,10 +11,11 @@ from collections.abc import Iterator
 from functools import partial
 
 from seethrough.experiment.display.display import DisplayLost, Leave
-from seethrough.experiment.pages import questionnaire
 from seethrough.experiment.pages.pages import Page, Paragraph, Picture, PlanPicture, Values
-from seethrough.experiment.pages.questionnaire import Given, Step
-from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.record.trial_record import TrialRecord
+from seethrough.experiment.session import questionnaire
+from seethrough.experiment.session.questionnaire import Given, Step
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, Trial, session_for
@@ -28,7 +29,7 @@ class TimeIsUp(Leave):
 def run_session(
     study: Study,
     slot: int,
-    world: World,
+    world: Surroundings,
     done: frozenset[int] = frozenset(),
     given: Given | None = None,
 ) -> str:
@@ -53,7 +54,7 @@ def run_session(
     return status
 
 
-def _run(study: Study, slot: int, world: World, done: frozenset[int], given: Given) -> None:
+def _run(study: Study, slot: int, world: Surroundings, done: frozenset[int], given: Given) -> None:
     start = world.clock.now()
     task_sets = session_for(slot, study.design.factors())
     total = sum(len(s.trials) for s in task_sets)
@@ -78,7 +79,7 @@ def _run(study: Study, slot: int, world: World, done: frozenset[int], given: Giv
     world.input.ask(_page("thanks"))
 
 
-def _ask(steps: Iterator[Step], world: World, given: Given) -> None:
+def _ask(steps: Iterator[Step], world: Surroundings, given: Given) -> None:
     """Each page's answers are on disk before the next page is shown."""
     for rows in questionnaire.asked(steps, world.input, given):
         world.recorder.answers(rows)

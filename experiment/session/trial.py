@@ -7,10 +7,11 @@ from functools import partial
 from math import acos, dist, inf
 from typing import Any, TypeGuard
 
-from seethrough.experiment.display.display import Leave
-from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, Paragraph, TextField
+from seethrough.experiment.display.display import LEAVE, MEANT, Leave
+from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, TextField
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import viewpoint
-from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
@@ -33,10 +34,8 @@ MISSED = 1.5
 DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares, closer at the start:
 DIGEST_SOONEST = 0.25  # so that a short trial has some too
 
-MEANT = ("escape", "f1")  # keys that are for the session, whenever they were pressed
 POINTER = "pointer"  # the left button, among the keys that are down
 
-LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
 MENU = Page(
     "menu",
     "menu.title",
@@ -89,7 +88,7 @@ class _Watch:
 class TrialRun:
     """Plays trials of a study in a world."""
 
-    def __init__(self, study: Study, world: World) -> None:
+    def __init__(self, study: Study, world: Surroundings) -> None:
         self.study = study
         self.world = world
         self.scenes = world.scenes or StudyScenes(study)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.session.looking import Looking
+from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.study_scenes import StudyScenes

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record.private import make_folder, write_new
+from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.model_files import check_files
 from seethrough.tasks.kit.own_models import READER, kept_as, mesh_of, packed, read
 from seethrough.tasks.parameters import BuildingParameters

@@ -7,12 +7,12 @@ renderer/techniques/). All of them make docs/keys.md (experiment/study/keys.py).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib import resources
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator
 
-from seethrough.experiment.record.folders import PARTICIPANT
+from seethrough.experiment.files.folders import PARTICIPANT
+from seethrough.experiment.pages.texts import languages
 from seethrough.experiment.study.design import Factors
 
 TaskName = Literal["count", "pattern", "unique", "count_in_building"]
@@ -31,12 +31,6 @@ EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
 NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
-
-
-def languages() -> tuple[str, ...]:
-    """The languages that there are texts in."""
-    folder = resources.files("seethrough.experiment.pages").joinpath("languages")
-    return tuple(sorted(f.name[:-5] for f in folder.iterdir() if f.name.endswith(".toml")))
 
 
 def key(meaning: str, unit: str = "", said: str = "", **limits: Any) -> Any:

@@ -49,7 +49,7 @@ def modules(sources: list[Path]) -> list[str]:
     """The names under which our files are imported; `__main__` is run, not imported."""
     paths = [f.relative_to(ROOT).with_suffix("") for f in sources if f.name != "__main__.py"]
     names = [".".join(p.parent.parts if p.name == "__init__" else p.parts) for p in paths]
-    return [name if name == "seethrough" else f"seethrough.{name}" for name in names]
+    return [n if n.partition(".")[0] == "seethrough" else f"seethrough.{n}" for n in names]
 
 
 @pytest.fixture(scope="session")

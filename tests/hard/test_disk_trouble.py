@@ -23,7 +23,7 @@ from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.columns import TRIALS, Column
 from seethrough.experiment.record.record_files import Table
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import Outcome
 
@@ -37,7 +37,7 @@ import numpy as np
 from seethrough.experiment import cli
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
@@ -139,7 +139,7 @@ def test_a_row_that_does_not_fit_is_taken_back_wherever_the_disk_ends(tmp_path, 
     table.append(row)
     before, chain = table.path.read_bytes(), table.chain
     length = len(before) - len("text,chain\n")
-    monkeypatch.setattr("seethrough.experiment.record.private.os.write", write)
+    monkeypatch.setattr("seethrough.experiment.files.private.os.write", write)
     for room in range(length):
         disk["room"] = room
         with pytest.raises(InputError, match=r"t_data\.csv: cannot be written: No space left"):

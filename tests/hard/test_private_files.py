@@ -10,7 +10,7 @@ from made_data import Made, make_folder
 from seethrough.analysis.written import own_folder, write_over
 from seethrough.experiment import cli
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.record.private import write_new
+from seethrough.experiment.files.private import write_new
 from seethrough.experiment.record.recorder import FileRecorder, Who
 
 WRITES = 200  # of each of two processes

@@ -34,7 +34,7 @@ from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.session.resume import starting_point
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.tasks.kit.base import Outcome
 
 ledger_lock.BEAT, ledger_lock.LEASE, ledger_lock.DEAD = {BEAT}, {LEASE}, {DEAD}

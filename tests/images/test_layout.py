@@ -12,12 +12,12 @@ import pytest
 from every_page import pages, views
 from imgui_bundle import imgui
 
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages import blocks, page_blocks, page_drawing
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import HudDrawing
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, TextField
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.stage import Stage
 
 SIZES = [(800, 600), (1024, 768), (1920, 1080), (2560, 1080)]
 LANGUAGES = ["en", "de"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from seethrough.experiment.display.looking import HEIGHT, Looking
 from seethrough.experiment.people.runs.pool import LazyDraw
-from seethrough.experiment.session.looking import HEIGHT, Looking
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes

@@ -3,15 +3,15 @@
 import pytest
 
 from seethrough.experiment import cli
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.offscreen import OffscreenDisplay
-from seethrough.experiment.display.simulated_input import SimulatedInput
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.runs import batch
 from seethrough.experiment.people.runs.data_mode import Played, play_session
 from seethrough.experiment.people.runs.pool import LazyDraw, Pool
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.session.session import run_session
-from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import SIMULATED, generator
 from seethrough.tasks.catalog import TASKS
@@ -26,7 +26,7 @@ def with_open_eyes(context, study, slot, seed, without):
     person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), without=without)
     played = Played(study.study.name, f"S{slot:02d}", slot, keep=True)
     seat = SimulatedInput(person, display, clock)
-    run_session(study, slot, World(display, seat, clock, played, TASKS))
+    run_session(study, slot, Surroundings(display, seat, clock, played, TASKS))
     return played
 
 

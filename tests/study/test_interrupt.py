@@ -8,8 +8,8 @@ import time
 import pytest
 from desktop import Desktop
 
+from seethrough.experiment.display import interrupt
 from seethrough.experiment.ledger.ledger import Ledger
-from seethrough.experiment.session import interrupt
 
 LINE = "seethrough: interrupted; every completed trial is saved"
 

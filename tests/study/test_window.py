@@ -41,7 +41,7 @@ types = ["chair", "table", "cat"]
 HASTY = """
 import gc
 from pyglet.window import key
-from seethrough.experiment.session.clock import RealClock
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.study.config import load
 from seethrough.experiment.pages.pages import Page
 from seethrough.experiment.pages.texts import Texts

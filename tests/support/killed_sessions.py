@@ -17,12 +17,12 @@ from pathlib import Path
 
 import numpy as np
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.session.session import run_session
-from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
@@ -100,7 +100,7 @@ def play(folder, told):
     who = Who("k", "P01", "human", 1, {"study_sha256": STUDY.digest()}, start.session)
     script, recorder = Script(clock, told), Telling(folder, who, attempts=start.attempts)
     recorder.told = told
-    world = World(script, script, clock, recorder, TASKS, lambda _: os.write(told, b"."))
+    world = Surroundings(script, script, clock, recorder, TASKS, lambda _: os.write(told, b"."))
     assert run_session(STUDY, 1, world, start.done, start.given) == "complete"
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.software import provenance
-from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.renderer.scene.camera import look_at

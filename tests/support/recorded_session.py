@@ -2,14 +2,14 @@
 
 import numpy as np
 
+from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.display.driver import describe
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.clock import SimulatedClock
-from seethrough.experiment.session.driver import describe
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import provenance
-from seethrough.experiment.session.stage import Stage
-from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
@@ -100,5 +100,5 @@ def play_recorded(folder):
     clock = SimulatedClock(1000.0)
     display = DrawnDisplay(clock)
     who = Who("t", "P01", "human", 1, provenance(study, display.describe()))
-    world = World(display, Script(clock), clock, FileRecorder(folder, who), TASKS)
+    world = Surroundings(display, Script(clock), clock, FileRecorder(folder, who), TASKS)
     assert run_session(study, 1, world) == "complete"

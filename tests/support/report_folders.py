@@ -23,7 +23,7 @@ from seethrough.experiment.people.runs.batch import Batch
 from seethrough.experiment.people.runs.batch_files import CHUNK, Results, render
 from seethrough.experiment.people.runs.data_mode import Played
 from seethrough.experiment.record.recorder import FileRecorder, Who, trial_row
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.config import Study, find, parse
 from seethrough.experiment.study.design import session_for
 

@@ -3,8 +3,8 @@
 import numpy as np
 from scipy import ndimage
 
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.stage import Stage
 
 BUTTON = (41, 102, 179)
 FRAME = 1 / 60

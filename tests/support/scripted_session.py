@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
-from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
@@ -120,6 +120,6 @@ def play(config, slot=1, done=frozenset(), period=None, **script):
     clock = SimulatedClock(100.0)
     display, recorder = FakeDisplay(clock), MemoryRecorder()
     person = ScriptedInput(clock, ANSWERS, **script)
-    world = World(display, person, clock, recorder, TASKS, period=period)
+    world = Surroundings(display, person, clock, recorder, TASKS, period=period)
     status = run_session(config, slot, world, done)
     return status, recorder, person, display

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from seethrough.experiment.people.code_hash import code_sha256
-from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
+from seethrough.experiment.people.persons.profile import AVERAGE, Profile
 from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Slots, render
 from seethrough.experiment.people.runs.data_mode import Played, play_session
 from seethrough.experiment.people.runs.look_tables import views_of

@@ -19,13 +19,13 @@ from typing import Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.parquet import INSTALL, ParquetWriter
+from seethrough.experiment.files.folders import stem_of
+from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.people.runs.data_mode import Played
 from seethrough.experiment.people.sight.looks import Rows
 from seethrough.experiment.record.chain import link, seal_of, start_of
 from seethrough.experiment.record.columns import QUESTIONNAIRE, TRIALS, Column
 from seethrough.experiment.record.dataset import describe_dataset
-from seethrough.experiment.record.folders import stem_of
-from seethrough.experiment.record.private import make_folder, write_new
 from seethrough.experiment.record.record_files import cell, csv_line, header_of
 from seethrough.experiment.study.config import Study
 

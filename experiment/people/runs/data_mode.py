@@ -10,14 +10,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from seethrough.experiment.display.simulated_input import SimulatedInput
-from seethrough.experiment.people.fitted.profile import AVERAGE, Profile
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.persons.profile import AVERAGE, Profile
 from seethrough.experiment.people.runs.pool import Pool
+from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.record.recorder import trial_row
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.session import run_session
-from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import SIMULATED, Trial, generator
@@ -152,8 +153,8 @@ def play_trial(
     return record, played.events[-1]
 
 
-def _world(person: SimulatedParticipant, pool: Pool, study: Study, played: Played) -> World:
+def _world(person: SimulatedParticipant, pool: Pool, study: Study, played: Played) -> Surroundings:
     clock = SimulatedClock()
     display = TableDisplay(pool, clock, study.display.width / study.display.height)
     seat = SimulatedInput(person, display, clock)
-    return World(display, seat, clock, played, TASKS, scenes=pool)
+    return Surroundings(display, seat, clock, played, TASKS, scenes=pool)

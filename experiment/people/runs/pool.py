@@ -131,8 +131,8 @@ class LazyDraw:
 
     def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:
         if self._looking is None:
-            from seethrough.experiment.session.driver import open_context
-            from seethrough.experiment.session.looking import Looking
+            from seethrough.experiment.display.driver import open_context
+            from seethrough.experiment.display.looking import Looking
 
             self._looking = Looking(open_context(), window_of(self.study), simple=True)
         self._looking.technique = technique

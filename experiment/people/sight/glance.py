@@ -9,7 +9,7 @@ from math import asin, atan2
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.fitted.profile import Profile
+from seethrough.experiment.people.persons.profile import Profile
 from seethrough.experiment.people.sight.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility

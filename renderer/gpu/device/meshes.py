@@ -8,8 +8,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device.outlines import Outlines
 from seethrough.renderer.gpu.device.programs import Shader
-from seethrough.renderer.gpu.masks.outlines import Outlines
 from seethrough.renderer.masks.contours import HalfEdges, half_edges
 from seethrough.renderer.masks.silhouettes import Topology, topology
 from seethrough.renderer.scene.geometry import Mesh

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.reused import kept
-from seethrough.renderer.gpu.masks.exact_masks import SLACK, ExactJob, ExactMasks
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
+from seethrough.renderer.gpu.per_pixel.exact_masks import SLACK, ExactJob, ExactMasks
 from seethrough.renderer.gpu.per_pixel.exact_sorter import Filled, PixelSorter
 from seethrough.renderer.gpu.per_pixel.few_sorter import too_many
 from seethrough.renderer.gpu.per_pixel.pixel_cells import (

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
-from seethrough.renderer.gpu.levels.looked_up import LookedUp
+from seethrough.renderer.gpu.masks.looked_up import LookedUp
 from seethrough.renderer.gpu.per_pixel.few_sorter import FewSorter
 from seethrough.renderer.gpu.per_pixel.pixel_cells import MOST, Cells
 from seethrough.renderer.plan import blocks

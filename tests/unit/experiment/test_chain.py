@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene

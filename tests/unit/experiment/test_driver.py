@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from seethrough.experiment.display.driver import open_context, samples_for
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.session.driver import open_context, samples_for
 from seethrough.renderer.gpu.device import context as gpu
 
 

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.private import write_new
 from seethrough.experiment.ledger import ledger_place, ledger_store
 from seethrough.experiment.ledger.ledger import Ledger
 from seethrough.experiment.ledger.ledger_plan import Plan, plan_of
 from seethrough.experiment.ledger.ledger_slots import last_open, next_slot
-from seethrough.experiment.record.private import write_new
 from seethrough.experiment.study.config import load, parse
 
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)

@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import pytest
 
 from seethrough.experiment.commands import simulate
+from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.people.fitted.profile_file import find
+from seethrough.experiment.people.persons.profile_file import find
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import live
-from seethrough.experiment.session.clock import RealClock
-from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import Outcome

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from seethrough.experiment.files.network_drive import network_drive
 from seethrough.experiment.ledger import ledger_store
 from seethrough.experiment.ledger.ledger import Ledger
 from seethrough.experiment.ledger.ledger_plan import Plan
-from seethrough.experiment.record.network_drive import network_drive
 
 MOUNTED = r"""/dev/sda1 / ext4 rw 0 0
 server:/far /shared nfs4 rw 0 0

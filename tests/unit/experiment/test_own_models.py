@@ -167,7 +167,7 @@ def test_check_lists_the_models(tmp_path, capsys):
 def test_check_puts_a_picture_of_each_model_into_a_sheet(tmp_path):
     from PIL import Image
 
-    from seethrough.experiment.session.driver import open_context
+    from seethrough.experiment.display.driver import open_context
     from seethrough.experiment.study.contact_sheet import write
 
     study, sheet = load(str(written(tmp_path))), tmp_path / "own-models.png"

@@ -7,13 +7,14 @@ import pytest
 from every_page import begun, ended
 from every_page import marked as mark
 
+from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.display.waiting import PATIENCE, meanwhile
 from seethrough.experiment.pages.pages import PlanPicture
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.session.clock import SimulatedClock
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.session import _feedback
-from seethrough.experiment.session.surroundings import TrialRecord, World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
-from seethrough.experiment.session.waiting import PATIENCE, meanwhile
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.tasks.catalog import TASKS
@@ -58,7 +59,7 @@ def played(trial, **how):
     """(views, record) of a trial that ends at its limit of 2 s."""
     clock = SimulatedClock(1.0)
     looker = Looker(clock)
-    world = World(looker, looker, clock, looker, TASKS, **how)
+    world = Surroundings(looker, looker, clock, looker, TASKS, **how)
     return looker.shown, TrialRun(STUDY, world).play(trial, 2.0)
 
 

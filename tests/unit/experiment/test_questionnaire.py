@@ -7,12 +7,13 @@ import pytest
 
 from seethrough.experiment.display.display import Leave
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.pages import blocks, questionnaire
+from seethrough.experiment.pages import blocks
 from seethrough.experiment.pages.color_plates import FIGURE, GROUND, plates
 from seethrough.experiment.pages.depth_test import RATIO, depth_test
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Choice, PlatePicture, Scale, TextField
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.session import questionnaire
 from seethrough.experiment.study.config import load, parse
 
 PUBLISHED = load("published")

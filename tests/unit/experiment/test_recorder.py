@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.folders import check_participant, next_free, stem_of
 from seethrough.experiment.record.columns import TABLES, TRIALS
-from seethrough.experiment.record.folders import check_participant, next_free, stem_of
 from seethrough.experiment.record.record_files import cell
 from seethrough.experiment.record.recorder import FileRecorder, Who
-from seethrough.experiment.session.surroundings import TrialRecord
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene

@@ -11,8 +11,8 @@ from seethrough.analysis.load.study import load_study
 from seethrough.experiment import cli
 from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import starting_point
-from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.tasks.kit.base import Outcome

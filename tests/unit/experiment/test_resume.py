@@ -4,8 +4,8 @@ import pytest
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.record.recorder import FileRecorder, Who
+from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import already_done, going_on, past, starting_point
-from seethrough.experiment.session.surroundings import TrialRecord
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.tasks.kit.base import Outcome

@@ -5,10 +5,10 @@ from collections import Counter
 import pytest
 from scripted_session import ANSWERS, FRAME, FakeDisplay, MemoryRecorder, ScriptedInput, play, study
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.display import DisplayLost, Leave
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
-from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.events import FocusChange, KeyPress, PointerPress, Tick
 
@@ -103,7 +103,7 @@ def test_going_on_after_escape_subtracts_the_question_from_the_clean_time():
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
     person = GoesOn(clock, ANSWERS, leave_at=2)
-    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    run_session(study(), 1, Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS))
     first = recorder.ended[0]
     assert first.away == 2.0
     assert first.time - first.away == 4 * FRAME
@@ -125,7 +125,7 @@ def test_what_came_with_a_question_is_not_taken_after_it():
 
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
-    world = World(FakeDisplay(clock), Interrupted(clock, ANSWERS), clock, recorder, TASKS)
+    world = Surroundings(FakeDisplay(clock), Interrupted(clock, ANSWERS), clock, recorder, TASKS)
     run_session(study(), 1, world)
     assert {r.outcome.answer for r in recorder.ended if r.trial.task == "count"} == {"20"}
 
@@ -143,7 +143,7 @@ def test_an_error_in_a_task_still_closes_the_record():
 
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
-    world = World(FakeDisplay(clock), Broken(clock, ANSWERS), clock, recorder, TASKS)
+    world = Surroundings(FakeDisplay(clock), Broken(clock, ANSWERS), clock, recorder, TASKS)
     with pytest.raises(RuntimeError, match="lost"):
         run_session(study(), 1, world)
     assert recorder.status == "left"
@@ -160,7 +160,7 @@ def test_a_lost_display_ends_the_session_and_is_told_to_the_caller_and_the_recor
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
     config = study(design={"trials": 2, "training": 0, "tasks": ["count", "pattern"]})
-    world = World(Fails(clock), ScriptedInput(clock, ANSWERS), clock, recorder, TASKS)
+    world = Surroundings(Fails(clock), ScriptedInput(clock, ANSWERS), clock, recorder, TASKS)
     with pytest.raises(DisplayLost, match=r"^display: .*\(GL_CONTEXT_LOST\); every completed tr"):
         run_session(config, 1, world)
     assert recorder.status == "display lost"
@@ -188,7 +188,7 @@ def test_pointer_presses_answer_the_letter_too():
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
     person = Clicks(clock, ANSWERS)
-    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    run_session(study(), 1, Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS))
     patterns = [r for r in recorder.ended if r.trial.task == "pattern"]
     assert {r.outcome.answer for r in patterns} == {"X"}
 
@@ -206,7 +206,9 @@ def test_f1_takes_a_note_and_repeats_the_trial_as_another_attempt():
 
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
-    run_session(study(), 1, World(FakeDisplay(clock), Menu(clock, ANSWERS), clock, recorder, TASKS))
+    run_session(
+        study(), 1, Surroundings(FakeDisplay(clock), Menu(clock, ANSWERS), clock, recorder, TASKS)
+    )
     assert [r.trial.number for r in recorder.ended[:3]] == [1, 1, 2]
     assert recorder.ended[0].repeat and recorder.ended[0].outcome is None
     assert recorder.ended[1].outcome is not None
@@ -226,7 +228,7 @@ def test_time_without_focus_is_subtracted_from_the_clean_time():
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
     person = Looks(clock, ANSWERS)
-    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    run_session(study(), 1, Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS))
     assert {(r.time, r.away) for r in recorder.ended} == {(4 * FRAME, 2 * FRAME)}
 
 
@@ -239,7 +241,7 @@ def test_refusing_consent_ends_the_session_before_any_trial():
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
     config = study(texts={"consent.text": "Please."})
-    world = World(FakeDisplay(clock), Refuses(clock, ANSWERS), clock, recorder, TASKS)
+    world = Surroundings(FakeDisplay(clock), Refuses(clock, ANSWERS), clock, recorder, TASKS)
     assert run_session(config, 1, world) == "left"
     assert recorder.begun == [] and recorder.rows == []
 
@@ -256,7 +258,7 @@ def test_keys_from_before_the_first_frame_answer_nothing():
     clock = SimulatedClock(50.0)
     recorder = MemoryRecorder()
     person = Hasty(clock, ANSWERS)
-    run_session(study(), 1, World(FakeDisplay(clock), person, clock, recorder, TASKS))
+    run_session(study(), 1, Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS))
     assert all(r.time == 4 * FRAME for r in recorder.ended)
     assert {r.outcome.answer for r in recorder.ended if r.trial.task == "count"} == {"20"}
 
@@ -275,6 +277,6 @@ def test_escape_from_before_the_first_frame_asks_at_it():
 
     clock = SimulatedClock(50.0)
     recorder = MemoryRecorder()
-    world = World(FakeDisplay(clock), Leaves(clock, ANSWERS), clock, recorder, TASKS)
+    world = Surroundings(FakeDisplay(clock), Leaves(clock, ANSWERS), clock, recorder, TASKS)
     assert run_session(study(), 1, world) == "left"
     assert asked.count("leave") == 1 and recorder.ended == []

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import pytest
 from scripted_session import ANSWERS, FRAME, FakeDisplay, MemoryRecorder, ScriptedInput, study
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.window import Window
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
-from seethrough.experiment.session.surroundings import World
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.events import (
     FocusChange,
@@ -49,7 +49,7 @@ def acted(at, when=1, flip_within=0.0, config=None, **script):
     """The first trial's record and the events that it took."""
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
     person = Acts(clock, ANSWERS, at=at, when=when, **script)
-    world = World(
+    world = Surroundings(
         FakeDisplay(clock), person, clock, recorder, TASKS, flip_within=lambda: flip_within
     )
     run_session(config or study(design=NO_TRAINING), 1, world)
@@ -97,7 +97,7 @@ def test_what_was_typed_under_a_page_is_not_taken_after_it_and_held_keys_came_up
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
     held = lambda now: [KeyPress(now - 0.1, "left"), KeyPress(now, "escape")]  # noqa: E731
     person = Late(clock, ANSWERS, at=held, when=2, page={"button": "0"})
-    world = World(FakeDisplay(clock), person, clock, recorder, TASKS)
+    world = Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS)
     run_session(study(design=NO_TRAINING), 1, world)
     first = recorder.ended[0]
     assert first.outcome.answer == "20" and first.early == 2
@@ -127,7 +127,7 @@ def test_an_answer_given_in_time_counts_though_it_came_in_after_the_limit():
             return events
 
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
-    world = World(FakeDisplay(clock), Stalls(clock, ANSWERS), clock, recorder, TASKS)
+    world = Surroundings(FakeDisplay(clock), Stalls(clock, ANSWERS), clock, recorder, TASKS)
     config = study(design=NO_TRAINING, session={"trial_limit": 2.0, "questionnaire": []})
     run_session(config, 1, world)
     assert recorder.ended[0].outcome.answer == "8" and not recorder.ended[0].timed_out
@@ -166,7 +166,7 @@ def test_focus_lost_under_a_page_counts_from_its_end():
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
     asks = lambda now: [KeyPress(now, "escape")]  # noqa: E731
     person = Late(clock, ANSWERS, at=asks, when=2, page={"button": "0"})
-    world = World(FakeDisplay(clock), person, clock, recorder, TASKS)
+    world = Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS)
     run_session(study(design=NO_TRAINING), 1, world)
     first = recorder.ended[0]
     assert first.time == 4 * FRAME + 2.0 and first.away == 2.0 + 2 * FRAME
@@ -178,7 +178,7 @@ def test_a_page_over_a_trial_is_no_missed_frame():
     """60 Hz, frames every 0.25 s would all be missed; here the period is longer than a frame."""
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
     person = Acts(clock, ANSWERS, at=lambda now: [KeyPress(now, "escape")], page={"button": "0"})
-    world = World(FakeDisplay(clock), person, clock, recorder, TASKS, period=FRAME)
+    world = Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS, period=FRAME)
     run_session(study(design=NO_TRAINING), 1, world)
     first = recorder.ended[0]
     assert first.away == 2.0 and first.frames_missed == 0 and first.worst_frame == FRAME

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.experiment.session.looking import HEIGHT, Looking
+from seethrough.experiment.display.looking import HEIGHT, Looking
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models import MODELS, proxy
 from seethrough.renderer.models.simple import simplified

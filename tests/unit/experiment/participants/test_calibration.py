@@ -28,9 +28,9 @@ from seethrough.experiment.people.fitted.fitting import (
     calibrate,
     with_free,
 )
-from seethrough.experiment.people.fitted.profile import AVERAGE
-from seethrough.experiment.people.fitted.profile_file import SHIPPED, find, read, write
-from seethrough.experiment.people.person import TRAITS, Person, mood_for
+from seethrough.experiment.people.persons.person import TRAITS, Person, mood_for
+from seethrough.experiment.people.persons.profile import AVERAGE
+from seethrough.experiment.people.persons.profile_file import SHIPPED, find, read, write
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import generator

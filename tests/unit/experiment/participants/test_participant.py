@@ -9,10 +9,10 @@ from numpy.testing import assert_allclose
 from plain_trials import ASPECT, QUIET, begun, play, sight
 
 from seethrough.experiment.people.count_red import _red
-from seethrough.experiment.people.fitted.profile import PROFILES, Profile, profile
-from seethrough.experiment.people.fitted.study_effects import EFFECTS, plan_effects
 from seethrough.experiment.people.hands import Hands
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.persons.profile import PROFILES, Profile, profile
+from seethrough.experiment.people.persons.study_effects import EFFECTS, plan_effects
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.catalog import TASKS

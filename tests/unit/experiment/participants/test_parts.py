@@ -11,8 +11,6 @@ from numpy.testing import assert_allclose
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, TextField
 from seethrough.experiment.people.count_things import Tally
 from seethrough.experiment.people.counting import seconds_to_count, slips
-from seethrough.experiment.people.fitted.profile import AVERAGE
-from seethrough.experiment.people.fitted.study_effects import plan_effects
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.hands import Hands
 from seethrough.experiment.people.name_letter import (
@@ -22,7 +20,9 @@ from seethrough.experiment.people.name_letter import (
     _templates,
     letter_chances,
 )
-from seethrough.experiment.people.person import Mood, Person
+from seethrough.experiment.people.persons.person import Mood, Person
+from seethrough.experiment.people.persons.profile import AVERAGE
+from seethrough.experiment.people.persons.study_effects import plan_effects
 from seethrough.experiment.people.sight.glance import likely, noticed, uncrowded
 from seethrough.experiment.people.sight.places import Known, apart, bearing, crossed, layout
 from seethrough.experiment.people.walking import REACH, _nearby

@@ -5,7 +5,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from seethrough.experiment.people.fitted.profile import AVERAGE
+from seethrough.experiment.people.persons.profile import AVERAGE
 from seethrough.experiment.people.sight.glance import CLEAR, WINDOW_PIXELS, likely
 from seethrough.experiment.people.sight.looks import KeptLooks
 from seethrough.experiment.people.sight.sight import sight

@@ -7,9 +7,9 @@ import pytest
 from numpy.testing import assert_allclose
 from plain_trials import MODELS
 
-from seethrough.experiment.people.fitted.profile import AVERAGE
-from seethrough.experiment.people.fitted.study_effects import plan_effects
-from seethrough.experiment.people.person import Mood
+from seethrough.experiment.people.persons.person import Mood
+from seethrough.experiment.people.persons.profile import AVERAGE
+from seethrough.experiment.people.persons.study_effects import plan_effects
 from seethrough.experiment.people.sight.glance import CLEAR, Glance
 from seethrough.experiment.people.sight.places import crossed
 from seethrough.experiment.people.sight.sight import Sight, Thing

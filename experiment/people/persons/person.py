@@ -9,8 +9,8 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.fitted.profile import Profile
-from seethrough.experiment.people.fitted.study_effects import WALKING, EffectUse, plan_effects
+from seethrough.experiment.people.persons.profile import Profile
+from seethrough.experiment.people.persons.study_effects import WALKING, EffectUse, plan_effects
 
 TASKS = ("count", "pattern", "unique", "count_in_building")
 TRAITS = 2 + len(TASKS)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.scene_table import SceneTable
-from seethrough.renderer.gpu.levels.looked_up import LookedUp
+from seethrough.renderer.gpu.masks.looked_up import LookedUp
 from seethrough.renderer.gpu.masks.mask_painter import BITS, MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_sorter import COLORS, DEPTHS, PARTS
 from seethrough.renderer.gpu.per_pixel.pixel_cells import Cells, emptied

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.session.clock import SimulatedClock
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, Tick

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import deque
 
 from seethrough.experiment.display.display import Leave
+from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.display.window import Window
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.session.looking import Looking
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import (
     Event,

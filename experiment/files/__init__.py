@@ -1,0 +1,1 @@
+"""What lies on disk: private, whole, and whose folder is whose."""

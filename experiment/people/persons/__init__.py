@@ -1,0 +1,1 @@
+"""What tells simulated people apart: skills, habits, luck."""
