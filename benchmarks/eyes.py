@@ -171,7 +171,7 @@ def _se(differences: NDArray[np.float64]) -> float:
 def run(repeats: int) -> list[dict[str, Any]]:
     """Every way to look, the reference first."""
     study = load("published")
-    trials = [s.trials[0] for s in session_for(1, study.design.factors())]
+    trials = [s.trials[0] for s in session_for(1, study.plan)]
     renderer = Renderer(open_context(), (800, 600))
     seen = []
     for way in WAYS:

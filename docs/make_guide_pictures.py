@@ -76,7 +76,7 @@ def main() -> None:
     camera.page(_page("welcome"))
     list(asked(before(study, 1), camera))  # type: ignore[arg-type]
     run = TrialRun(study, SimpleNamespace(scenes=None, display=camera.stage, tasks=TASKS))  # type: ignore[arg-type]
-    task_sets = session_for(1, study.design.factors())
+    task_sets = session_for(1, study.plan)
     shown = set()
     for number, task_set in enumerate(task_sets):
         camera.stage.done = number / len(task_sets)

@@ -9,24 +9,20 @@ RATINGS = ("efficiency", "ease", "enjoy")
 TLX = ("mental", "physical", "temporal", "performance", "effort", "frustration")
 SUS_ITEMS = 10
 
+Levels = tuple[tuple[str, str], ...]  # factor and level of what a page is about
 
-def ratings(transparency: str, scenario: str) -> Page:
-    """Efficiency, ease and enjoyment of one condition, 0–4."""
+
+def ratings(title: str, levels: Levels) -> Page:
+    """Efficiency, ease and enjoyment at some levels, 0–4."""
     scales = tuple(Scale(item, f"rating.{item}", "rating.low", "rating.high") for item in RATINGS)
-    return Page(f"rating {transparency} {scenario}", f"rating.{transparency}.{scenario}", scales)
+    return Page(_name("rating", levels), title, scales, levels=levels)
 
 
-def comparison() -> Page:
+def comparison(options: tuple[str, ...], title: str, depth: bool, levels: Levels) -> Page:
     """Which the participant would rather work with; self-reported depth perception, 0–4."""
-    options = ("name.dynamic", "name.neutral", "name.standard")
-    return Page(
-        "comparison",
-        "comparison.title",
-        (
-            Choice("preference", "comparison.preference", options),
-            Scale("depth_self_report", "comparison.depth", "rating.low", "rating.high"),
-        ),
-    )
+    scale = Scale("depth_self_report", "comparison.depth", "rating.low", "rating.high")
+    choice = Choice("preference", "comparison.preference", options)
+    return Page("comparison", title, (choice, scale) if depth else (choice,), levels=levels)
 
 
 def remarks() -> Page:
@@ -34,7 +30,7 @@ def remarks() -> Page:
     return Page("remarks", "remarks.title", (TextField("remarks", "remarks.text"),))
 
 
-def tlx(transparency: str) -> Page:
+def tlx(title: str, levels: Levels) -> Page:
     """NASA-TLX without weights: six scales of 21 steps, each 0–20."""
     scales = tuple(
         Scale(
@@ -46,15 +42,19 @@ def tlx(transparency: str) -> Page:
         )
         for item in TLX
     )
-    return Page(f"tlx {transparency}", f"tlx.{transparency}", scales)
+    return Page(_name("tlx", levels), title, scales, levels=levels)
 
 
-def sus(transparency: str) -> Page:
+def sus(title: str, levels: Levels) -> Page:
     """System Usability Scale: ten statements, 0 (strongly disagree) to 4 (strongly agree)."""
     scales = tuple(
         Scale(f"sus_{n}", f"sus.item{n}", "sus.low", "sus.high") for n in range(1, SUS_ITEMS + 1)
     )
-    return Page(f"sus {transparency}", f"sus.{transparency}", scales)
+    return Page(_name("sus", levels), title, scales, levels=levels)
+
+
+def _name(kind: str, levels: Levels) -> str:
+    return " ".join([kind, *(level for _, level in levels)])
 
 
 def sus_score(answers: dict[str, str]) -> float:

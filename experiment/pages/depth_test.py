@@ -63,7 +63,8 @@ def depth_test(study: Study) -> DepthTest:
     is large enough to be recognised. The window's shape plays no part: every picture on
     a page has the same.
     """
-    return _made(study.study.seed, study.walkthrough)
+    building = next((p for p in study.places() if isinstance(p, BuildingParameters)), None)
+    return _made(study.study.seed, building or BuildingParameters())
 
 
 @lru_cache(maxsize=4)

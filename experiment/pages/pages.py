@@ -120,6 +120,7 @@ class Page:
     title: str
     blocks: tuple[Block, ...] = ()
     buttons: tuple[str, ...] = ("continue",)
+    levels: tuple[tuple[str, str], ...] = ()  # factor and level of what it is about
 
     @property
     def asks(self) -> bool:

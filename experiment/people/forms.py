@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import exp, hypot, log2
+from math import exp, hypot, log, log2
 from statistics import fmean
 
 import numpy as np
@@ -23,12 +23,8 @@ from seethrough.experiment.people.persons.person import Person
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]
 MIDDLE, STEEPNESS, WOBBLE = 0.57, 0.28, 0.15  # ratings, 0–1, against log2 of relative time [ours]
-SCENARIO = {
-    "count": "abstract",
-    "pattern": "abstract",
-    "unique": "walkthrough",
-    "count_in_building": "walkthrough",
-}
+
+Levels = tuple[tuple[str, str], ...]  # factor and level
 
 
 class Opinions:
@@ -36,24 +32,24 @@ class Opinions:
 
     def __init__(self, person: Person) -> None:
         self.person = person
-        self._level = ""
-        self._times: dict[tuple[str, str], list[float]] = {}
+        self._levels: Levels = ()
+        self._times: dict[tuple[Levels, str], list[float]] = {}
 
     def begin(self, task: str) -> None:
         """A trial of `task` begins, under the instruction read last."""
-        self._times.setdefault((self._level, task), []).append(0.0)
+        self._times.setdefault((self._levels, task), []).append(0.0)
 
     def spent(self, task: str, seconds: float) -> None:
         """The running trial has taken so long by now."""
-        self._times[self._level, task][-1] = seconds
+        self._times[self._levels, task][-1] = seconds
 
     def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Answers by name ("button": which one), and the seconds that took."""
         answers, seconds = {"button": "0"}, 1.0
+        if page.name == "instruction":
+            self._levels = page.levels
         for block in page.blocks:
             if isinstance(block, Paragraph):
-                if block.text.startswith("transparency."):
-                    self._level = block.text.removeprefix("transparency.")
                 seconds += READ
             elif isinstance(block, Scale):
                 answers[block.name] = str(self._rating(page, block))
@@ -67,23 +63,23 @@ class Opinions:
 
     def _rating(self, page: Page, block: Scale) -> int:
         """Liking what was quick; load is the other way round, as are the SUS's even items."""
-        kind, level, scenario = [*page.name.split(" "), "", ""][:3]
-        liking = MIDDLE - STEEPNESS * log2(max(self._relative(level, scenario), 1e-6))
+        kind = page.name.partition(" ")[0]
+        liking = MIDDLE - STEEPNESS * log2(max(self._relative(page.levels), 1e-6))
         liking += WOBBLE * self.person.rng.standard_normal()
         against = kind == "tlx" or (kind == "sus" and int(block.name.rpartition("_")[2]) % 2 == 0)
         share = min(1.0, max(0.0, 1 - liking if against else liking))
         return round(share * (block.steps - 1))
 
-    def _relative(self, level: str, scenario: str) -> float:
-        """Time with this level over time with any, within the scenario; 1 where unknown."""
-        times = [(lv, fmean(t)) for (lv, k), t in self._times.items()
-                 if not scenario or SCENARIO.get(k) == scenario]  # fmt: skip
-        own = [t for lv, t in times if lv == level]
-        return fmean(own) / fmean(t for _, t in times) if own else 1.0
+    def _relative(self, levels: Levels) -> float:
+        """Time at these levels over time at any, of the same tasks; 1 where unknown."""
+        own = {task for met, task in self._times if set(levels) <= set(met)}
+        times = [(met, fmean(t)) for (met, task), t in self._times.items() if task in own]
+        here = [t for met, t in times if set(levels) <= set(met)]
+        return fmean(here) / fmean(t for _, t in times) if here else 1.0
 
     def _choice(self, page: Page, block: Choice) -> int:
         if block.name == "preference":
-            return self._preference(len(block.options))
+            return self._preference(page.levels)
         for other in page.blocks:
             if isinstance(other, PlatePicture):
                 # Every simulated participant has full colour vision.
@@ -108,14 +104,19 @@ class Opinions:
             looks.append(true * exp(spread * self.person.rng.standard_normal()))
         return int(np.argmin(looks))
 
-    def _preference(self, options: int) -> int:
-        """0 for see-through, the last for none of it: by the times taken, and by chance."""
+    def _preference(self, offered: Levels) -> int:
+        """One of the levels on offer, by the times taken with each, and by chance."""
         times = {
-            level: [fmean(t) for (lv, _), t in self._times.items() if lv == level]
-            for level in ("dynamic", "standard")
+            k: [fmean(t) for (met, _), t in self._times.items() if level in met]
+            for k, level in enumerate(offered)
         }
-        if not all(times.values()):
-            return options // 2
-        odds = log2(fmean(times["standard"]) / fmean(times["dynamic"]))
-        chance = 1 / (1 + exp(-3 * odds))
-        return 0 if self.person.rng.random() < chance else options - 1
+        met = [k for k, own in times.items() if own]
+        if len(met) < 2:
+            return len(offered) // 2
+        weights = [fmean(times[k]) ** (-3 / log(2)) for k in met]  # of two: odds of 3 log2 ratios
+        draw, reached = self.person.rng.random() * sum(weights), 0.0
+        for k, weight in zip(met, weights, strict=True):
+            reached += weight
+            if draw < reached:
+                return k
+        return met[-1]

@@ -14,13 +14,20 @@ from seethrough.experiment.pages import blocks
 from seethrough.experiment.pages.color_plates import DIGITS, Plate, plates
 from seethrough.experiment.pages.depth_test import PAIRS, depth_test
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, PlatePicture, TextField
-from seethrough.experiment.study.config import Study
+from seethrough.experiment.record.columns import RESERVED
+from seethrough.experiment.session import levels as words
+from seethrough.experiment.session.levels import Pairs
 from seethrough.experiment.study.design import PARTICIPANT, generator
+from seethrough.experiment.study.factors import ALONE, Levels
+from seethrough.experiment.study.study import Study
+from seethrough.experiment.study.study_tables import QuestionTable
 
 Row = Mapping[str, str]
-Item = tuple[str, str, str]  # item, transparency, scenario; the last two empty where none applies
+Item = tuple[str, Pairs]  # item, and factor and level of what it is about
 Given = Mapping[Item, str]  # values of the items that were answered
 OLDEST = 120  # years; what is above is a slip of the finger
+STARTS = ("consent", "demographics", "color_check")
+NEUTRAL = "neutral"
 COLOR_STREAM = 999_999  # last word of the plates' stream: no trial has it
 
 
@@ -46,42 +53,99 @@ def asked(steps: Iterator[Step], person: Input, given: Given | None = None) -> I
 
 def item_of(row: Row) -> Item:
     """What tells a participant's answers apart."""
-    return row["item"], row.get("transparency", ""), row.get("scenario", "")
+    about = ((k, v) for k, v in row.items() if v and k not in RESERVED)
+    return row["item"], tuple(sorted(about))
 
 
 def before(study: Study, slot: int) -> Iterator[Step]:
-    """Consent, age and gender, colour check."""
-    if "consent.text" in study.texts:
-        yield Step((("consent", "", ""),), _consent)
-    if study.session.demographics:
-        yield Step((("age", "", ""), ("gender", "", "")), _demographics)
-    if study.session.color_check:
+    """Every page that the study asks for at the start, in its order."""
+    part = study.session_part(slot)
+    for name in study.questions:
+        question = part.questions[name]
+        if question.off or _when(question) != "start":
+            continue
+        yield from _at_start(study, slot, name, question)
+
+
+def _at_start(study: Study, slot: int, name: str, question: QuestionTable) -> Iterator[Step]:
+    if question.use == "consent" and f"{name}.text" in study.texts:
+        yield Step((("consent", ()),), _consent)
+    elif question.use == "demographics":
+        yield Step((("age", ()), ("gender", ())), _demographics)
+    elif question.use == "color_check":
         rng = generator(study.study.seed, (PARTICIPANT, slot, COLOR_STREAM))
         for number, plate in enumerate(plates(rng), start=1):
             yield _plate(f"color_plate_{number}", plate)
+    else:
+        yield from _of_levels(study, question, ())
 
 
-def after(study: Study) -> Iterator[Step]:
-    """Every block the study asks for, in the order of its config."""
-    levels = study.design.transparency
-    for block in study.session.questionnaire:
-        if block == "ratings":
-            for transparency, scenario in study.design.factors().conditions:
-                page = blocks.ratings(transparency, scenario)
-                yield _scales(page, blocks.RATINGS, transparency, scenario)
-        elif block == "comparison" and len(levels) > 1:
-            yield Step((("depth_self_report", "", ""),), _comparison)
-        elif block == "tlx":
-            for level in levels:
-                yield _scales(blocks.tlx(level), blocks.TLX, level, prefix="tlx_")
-        elif block == "sus":
-            for level in levels:
-                yield _sus(level)
-        elif block == "depth_test":
-            for number in range(PAIRS):
-                yield _pair(study, number)
-        elif block == "remarks":
-            yield Step((("remarks", "", ""),), _remarks)
+def of_condition(study: Study, at: Levels) -> Iterator[Step]:
+    """Every page that is asked after a condition: the levels of a trial of it."""
+    part = study.part(at)
+    for name in study.questions:
+        question = part.questions[name]
+        if not question.off and _when(question) == "condition" and _meant(question, dict(at)):
+            yield from _of_levels(study, question, words.of_blocks(study, at))
+
+
+def after(study: Study, slot: int) -> Iterator[Step]:
+    """Every page that the study asks for at the end, in its order."""
+    cells = [study.plan.levels(c) for c in study.plan.groups[study.plan.group_of(slot)[0]].cells]
+    for name, question in study.questions.items():
+        if _when(question) != "end":
+            continue
+        asked = [
+            levels for levels in cells
+            if not study.part(levels).questions[name].off and _meant(question, levels)
+        ]  # fmt: skip
+        each = _each(study, question)
+        for about in dict.fromkeys(tuple((f, at[f]) for f in each) for at in asked):
+            if question.use == "depth_test":
+                for number in range(PAIRS):
+                    yield _pair(study, number, asked[0])
+            else:
+                yield from _of_levels(study, question, about)
+
+
+def _when(question: QuestionTable) -> str:
+    return question.when or ("start" if question.use in STARTS else "end")
+
+
+def _meant(question: QuestionTable, at: Levels) -> bool:
+    """Whether a cell is among the levels that a question is only for."""
+    return all(
+        at[factor] in ((wanted,) if isinstance(wanted, str) else wanted)
+        for factor, wanted in question.only.items()
+    )
+
+
+def _each(study: Study, question: QuestionTable) -> tuple[str, ...]:
+    """The factors for each of whose levels a question is asked once."""
+    if question.each is not None:
+        return question.each
+    if question.use == "ratings":
+        return tuple(f.name for f in study.factors if f.block)
+    if question.use in ("tlx", "sus"):
+        return tuple(f.name for f in study.factors if f.block and f.scenes == ALONE)
+    return ()
+
+
+def _of_levels(study: Study, question: QuestionTable, about: Pairs) -> Iterator[Step]:
+    """A page about some levels, or about the whole session."""
+    if question.use == "ratings":
+        page = blocks.ratings(words.title(study, "rating", about), about)
+        yield _scales(page, blocks.RATINGS, about)
+    elif question.use == "tlx":
+        yield _scales(
+            blocks.tlx(words.title(study, "tlx", about), about), blocks.TLX, about, "tlx_"
+        )
+    elif question.use == "sus":
+        yield _sus(words.title(study, "sus", about), about)
+    elif question.use == "comparison":
+        yield _comparison(study, question)
+    elif question.use == "remarks":
+        yield Step((("remarks", ()),), _remarks)
 
 
 def _consent(person: Input, given: Given) -> list[Row]:
@@ -119,62 +183,73 @@ def _plate(item: str, plate: Plate) -> Step:
         text = f"{answer.removeprefix('color.')}, shown {plate.digit}"
         return [_row(item, str(int(answer == str(plate.digit))), text=text)]
 
-    return Step(((item, "", ""),), ask)
+    return Step(((item, ()),), ask)
 
 
-def _comparison(person: Input, given: Given) -> list[Row]:
-    page = blocks.comparison()
-    answers = person.ask(page)
-    options = next(b.options for b in page.blocks if isinstance(b, Choice))
-    chosen = options[int(answers["preference"])].removeprefix("name.")
-    return [
-        # the paper's 1 and 0; who prefers neither is told from who prefers the standard by the text
-        _row("preference", str(int(chosen == "dynamic")), text=chosen),
-        _row("depth_self_report", answers["depth_self_report"]),
-    ]
+def _comparison(study: Study, question: QuestionTable) -> Step:
+    """Which level one would rather work with: of two, the second one first, as published."""
+    factor = study.factor(question.of or next(f.name for f in study.factors if f.block))
+    offered = factor.names[::-1] if len(factor.names) == 2 else factor.names
+    at = 1 if len(offered) == 2 else len(offered)
+    answers_ = (*offered[:at], NEUTRAL, *offered[at:])
+    options = tuple(
+        f"name.{NEUTRAL}" if level == NEUTRAL else words.name(study, factor.name, level)
+        for level in answers_
+    )
+    offers = tuple((factor.name, level) for level in answers_)
+    second = factor.level(factor.names[1]).part.get("technique", {}).get("use")
+    depth = len(factor.names) == 2 and second == "dynamic"  # what the published page asks
+    title = "comparison.title" if depth else "comparison.any"
+    items = (*([("depth_self_report", ())] if depth else []), ("preference", ()))
+
+    def ask(person: Input, given: Given) -> list[Row]:
+        answers = person.ask(blocks.comparison(options, title, depth, offers))
+        chosen = answers_[int(answers["preference"])]
+        # the paper's 1 and 0; who prefers neither is told from who prefers the first by the text
+        value = str(int(chosen not in (NEUTRAL, factor.baseline)))
+        rows = [_row("preference", value, text=chosen)]
+        return rows + ([_row("depth_self_report", answers["depth_self_report"])] if depth else [])
+
+    return Step(items[:1], ask)
 
 
-def _scales(
-    page: Page, items: tuple[str, ...], transparency: str, scenario: str = "", prefix: str = ""
-) -> Step:
+def _scales(page: Page, items: tuple[str, ...], about: Pairs, prefix: str = "") -> Step:
     def ask(person: Input, given: Given) -> list[Row]:
         answers = person.ask(page)
-        return [
-            _row(prefix + item, answers[item], transparency=transparency, scenario=scenario)
-            for item in items
-        ]
+        return [_row(prefix + item, answers[item], **dict(about)) for item in items]
 
-    return Step(((prefix + items[-1], transparency, scenario),), ask)
+    return Step(((prefix + items[-1], tuple(sorted(about))),), ask)
 
 
-def _sus(level: str) -> Step:
+def _sus(title: str, about: Pairs) -> Step:
     """Ten statements and their score."""
     items = [f"sus_{n}" for n in range(1, blocks.SUS_ITEMS + 1)]
+    where = tuple(sorted(about))
 
     def ask(person: Input, given: Given) -> list[Row]:
-        answers = person.ask(blocks.sus(level))
-        values = {item: given.get((item, level, ""), answers[item]) for item in items}
-        rows = [_row(item, value, transparency=level) for item, value in values.items()]
-        return [*rows, _row("sus", f"{blocks.sus_score(values):g}", transparency=level)]
+        answers = person.ask(blocks.sus(title, about))
+        values = {item: given.get((item, where), answers[item]) for item in items}
+        rows = [_row(item, value, **dict(about)) for item, value in values.items()]
+        return [*rows, _row("sus", f"{blocks.sus_score(values):g}", **dict(about))]
 
-    return Step((("sus", level, ""),), ask)
+    return Step((("sus", where),), ask)
 
 
-def _pair(study: Study, number: int) -> Step:
+def _pair(study: Study, number: int, at: Levels) -> Step:
     """A pair of the depth test; value 1 where it was right. The last brings the score."""
     item = f"depth_pair_{number + 1}"
 
     def ask(person: Input, given: Given) -> list[Row]:
         test = depth_test(study)
-        answers = person.ask(test.pages(study.dynamic)[number])
+        answers = person.ask(test.pages(study.part(at).technique)[number])
         rows = [_row(item, str(int(test.right(number, answers))))]
         if number == PAIRS - 1:
-            before_it = (given[f"depth_pair_{n}", "", ""] for n in range(1, PAIRS))
+            before_it = (given[f"depth_pair_{n}", ()] for n in range(1, PAIRS))
             score = sum(value == "1" for value in (*before_it, rows[0]["value"]))
             rows.append(_row("depth_test", str(score)))
         return rows
 
-    return Step((("depth_test" if number == PAIRS - 1 else item, "", ""),), ask)
+    return Step((("depth_test" if number == PAIRS - 1 else item, ()),), ask)
 
 
 def _remarks(person: Input, given: Given) -> list[Row]:

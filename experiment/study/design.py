@@ -123,6 +123,18 @@ class Design:
         """The slot of a group's number, from 1."""
         return (number - 1) * len(self.groups) + group + 1
 
+    def slots(self, count: int) -> list[int]:
+        """The slots of the first people, as they are assigned where nobody drops out: each time the
+        group that has least of its places taken."""
+        taken = [0] * len(self.groups)
+        found = []
+        for _ in range(count):
+            shares = [taken[g] / max(group.people, 1) for g, group in enumerate(self.groups)]
+            which = shares.index(min(shares))
+            taken[which] += 1
+            found.append(self.slot_of(which, taken[which]))
+        return found
+
     def rows(self, group: int = 0) -> int:
         """Orders of the conditions over a complete cycle of the group's slots."""
         return self.branch(group).cycle
@@ -198,7 +210,7 @@ class _Session:
     def _task_set(
         self, mixed: Sequence[Cell], plan: CellPlan, place: tuple[int, int, int], played: int
     ) -> TaskSet:
-        block, task_set, which = place
+        block, task_set, _ = place
         order = [self._round(mixed, (block, task_set, n)) for n in range(1, plan.trials + 1)]
         trials = []
         for round_, cells in enumerate(order, start=1):

@@ -28,7 +28,23 @@ from seethrough.experiment.study.scopes import (
 )
 from seethrough.experiment.study.squares import MIXED, SQUARES
 
-KEYS = ("levels", "set", "values", "vary", "people", "order", "baseline", "labels", "text")
+FACTOR_KEYS = {  # key → what it may be, what it means
+    "levels": ("a table of levels, levels.NAME = { … }",
+               "two or more; each is the part of a study that holds there"),
+    "set": ('a key, as "world.abstract.objects"', "the one key that `values` are of"),
+    "values": ("an array of numbers, of texts, or of true and false",
+               "short for levels that differ in one key; alone for a measured factor"),
+    "vary": ('one of "within", "between", "measured"',
+             "whether each person meets all levels, is assigned one, or brings one along"),
+    "people": ("a whole number, or one for each level, as { a = 10, b = 4 }",
+               "how many people each level of a between or measured factor has"),
+    "order": ('one of "williams", "latin", "fixed", "random", "mixed"',
+              "a square of its own; mixed: from trial to trial within a block; none: the design's"),
+    "baseline": ("a level", "what the others are compared with; none: the first"),
+    "labels": ("a table of level and text", "what participants and reports read of a level"),
+    "text": ("text", "what is asked of a person about a measured factor"),
+}  # fmt: skip
+KEYS = tuple(FACTOR_KEYS)
 NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 NAMED = "a name of 1 to 32 lower-case letters, digits and _, a letter first"
 LEVEL = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,31}")

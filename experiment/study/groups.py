@@ -19,9 +19,7 @@ class Group:
     people: int
 
 
-def groups_of(
-    factors: Sequence[Factor], cells: Sequence[Cell], people: int
-) -> tuple[Group, ...]:
+def groups_of(factors: Sequence[Factor], cells: Sequence[Cell], people: int) -> tuple[Group, ...]:
     """The groups that have cells, in file order; one group of no levels where nobody is grouped."""
     which = [i for i, f in enumerate(factors) if f.kind != WITHIN]
     found: dict[Cell, list[Cell]] = {}

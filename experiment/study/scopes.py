@@ -15,6 +15,7 @@ FIXED, SESSION, BLOCK, TRIAL = "fixed", "session", "block", "trial"
 
 # Tables whose keys plug-ins declare; every key in them has the table's scope.
 OF_PLUGINS = {"technique": TRIAL, "world": TRIAL, "task": BLOCK, "questions": BLOCK, "texts": FIXED}
+
 SCENES = ("world", "task")  # tables that make scenes
 
 

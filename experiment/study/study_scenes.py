@@ -11,20 +11,22 @@ from seethrough.tasks.kit.base import Task
 
 
 class StudyScenes:
-    """Begins trials; keeps the building scenes of the study, which are the same for everybody."""
+    """Begins trials; keeps the scenes that are the same for everybody."""
 
     def __init__(self, study: Study) -> None:
         self.study = study
-        self._buildings: dict[tuple[int, ...], Any] = {}
+        self._shared: dict[tuple[Any, tuple[int, ...]], Any] = {}
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""
         rng = generator(self.study.study.seed, trial.stream)
-        if trial.scenario == "abstract":
-            return task.begin(rng, self.study.abstract, aspect)
-        if trial.stream not in self._buildings:
-            self._buildings[trial.stream] = task.make_scene(rng, self.study.walkthrough)
-        return task.begin(rng, self.study.walkthrough, aspect, self._buildings[trial.stream])
+        part = self.study.part(trial.levels)
+        if not part.plan.shared:
+            return task.begin(rng, part.place, aspect)
+        key = (part.place, trial.stream)
+        if key not in self._shared:
+            self._shared[key] = task.make_scene(rng, part.place)
+        return task.begin(rng, part.place, aspect, self._shared[key])
 
     def example(self, trial: Trial) -> Trial:
         """A trial like this one whose scene no trial of the study uses: for instructions."""

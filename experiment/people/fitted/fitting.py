@@ -80,7 +80,7 @@ class Crowd:
             person = SimulatedParticipant(
                 generator(self.seed, (SIMULATED, slot)), profile, traits=self.traits[slot - 1]
             )
-            for task_set in session_for(slot, self.study.design.factors()):
+            for task_set in session_for(slot, self.study.plan):
                 if task_set.trials[0].task not in tasks:
                     continue
                 for trial in task_set.training:

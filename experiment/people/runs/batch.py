@@ -16,6 +16,7 @@ from seethrough.experiment.people.runs.look_tables import views_of
 from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.people.sight.looks import KeptLooks
 from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.workers import ordered_map
 from seethrough.tasks.catalog import TASKS
@@ -39,6 +40,7 @@ class Batch:
         return {
             "mode": "data: decisions from visibility tables; a tool for planning, never evidence",
             "source": "simulated",
+            "design": design_entry(study),
             "provenance": {
                 "study": study.resolved(),
                 "study_sha256": study.digest(),
@@ -105,7 +107,7 @@ def keep_tables() -> None:
 
 
 def fill(batch: Batch, progress: Any = None) -> None:
-    """Draw what the tables lack of every abstract scene of the pool.
+    """Draw what the tables lack of every scene of the pool.
 
     Each scene is drawn from the viewpoints that a participant of this profile looks from. What was
     drawn is kept scene by scene: who is interrupted goes on there.
@@ -113,31 +115,34 @@ def fill(batch: Batch, progress: Any = None) -> None:
     prepare(batch)
     study, pool = _ready["study"], _ready["pool"]
     aspect = study.display.width / study.display.height
-    for trial in abstract_trials(study):
+    for trial in pooled_trials(study):
         for which in range(batch.pool):
             view = TASKS[trial.task].view(pool.world(trial, which, aspect))
-            eyes = pool.eyes(view.scene, trial.transparency)
+            eyes = pool.eyes(view.scene, study.part(trial.levels).technique)
             for camera in views_of(trial.task, view.camera):
                 eyes.look(view.scene, camera)
             pool.looks.flush()
             if progress is not None:
-                progress.step(f"{trial.task} {trial.transparency}")
+                progress.step(f"{trial.task} {' '.join(trial.levels.values())}")
 
 
 def make_worlds() -> None:
     """Make every world of this process's pool now, instead of when somebody first plays in it."""
     batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
     aspect = study.display.width / study.display.height
-    for trial in abstract_trials(study):
+    for trial in pooled_trials(study):
         for which in range(batch.pool):
             pool.world(trial, which, aspect)
 
 
-def abstract_trials(study: Study) -> list[Trial]:
-    """One trial of each abstract task at each transparency level."""
-    trials = {}
-    for task_set in session_for(1, study.design.factors()):
-        trial = task_set.trials[0]
-        if trial.scenario == "abstract":
-            trials[trial.task, trial.transparency] = trial
+def pooled_trials(study: Study) -> list[Trial]:
+    """One trial of each task whose scenes are everybody's own, with each technique, in each
+    place."""
+    trials: dict[Any, Trial] = {}
+    for slot in range(1, len(study.plan.groups) + 1):
+        for task_set in session_for(slot, study.plan):
+            for trial in task_set.trials:
+                part = study.part(trial.levels)
+                if not part.plan.shared:
+                    trials.setdefault((trial.task, part.technique, part.place), trial)
     return list(trials.values())
