@@ -22,10 +22,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import Any
 
 import numba
 import numpy as np
 
+from seethrough.renderer.arrays import Whole
 from seethrough.renderer.polygons.bsp import PreparedBsp
 from seethrough.renderer.polygons.feudal import PreparedFeudal
 from seethrough.renderer.polygons.feudal_stretches import BLOCK, Stretches
@@ -127,5 +129,7 @@ def _emitting(stretches: Stretches, points: Floats) -> Callable[[], int]:
     return _call(emit_stretches, stretches.arguments, points, out)
 
 
-def _call(kernel, arguments, points, out) -> Callable[[], int]:  # type: ignore[no-untyped-def]
+def _call(
+    kernel: Callable[..., int], arguments: tuple[Any, ...], points: Floats, out: Whole
+) -> Callable[[], int]:
     return lambda: int(_repeat(kernel, arguments, points, out))

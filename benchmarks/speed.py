@@ -8,11 +8,11 @@ and over; a camera's time is the least of its turns, and a scene's the sum over 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
+from moderngl import Context
 
 from seethrough.benchmarks.memory import used_by
 from seethrough.benchmarks.paper_way import PaperWay
@@ -24,6 +24,7 @@ from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
 from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
@@ -34,7 +35,9 @@ MUST = {"abstract": 2.5, "walkthrough": 2.0, "jeep": 2.0}
 TECHNIQUE = DynamicTransparency()
 
 
-def times(ways: dict[str, Callable[[Any], None]], cameras: list[Any], context: Any) -> dict:
+def times(
+    ways: Mapping[str, Callable[[Camera], object]], cameras: Sequence[Camera], context: Context
+) -> dict[str, float]:
     """Seconds of each way over all cameras: the least of TURNS turns each."""
     best = {name: np.full(len(cameras), np.inf) for name in ways}
     for turn in range(TURNS + 1):
@@ -68,7 +71,15 @@ def figures() -> Iterator[Figure]:
     yield from _of_memory()
 
 
-def _of_scene(renderer, paper, name, label, scene, cameras, software) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
+def _of_scene(
+    renderer: Renderer,
+    paper: PaperWay,
+    name: str,
+    label: str,
+    scene: Scene,
+    cameras: Sequence[Camera],
+    software: bool,
+) -> Iterator[Figure]:
     sorted_ = replace(TECHNIQUE, exact=True)
     spent = times(
         {
@@ -95,7 +106,7 @@ def _masks_alone(scene: Scene) -> Scene:
     return replace(scene, objects=tuple(o for o in scene.objects if o.target))
 
 
-def _of_masks(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
+def _of_masks(context: Context) -> Iterator[Figure]:
     """40 targets of the abstract scene: all that masks add, against the paper's ping-pong."""
     size = SIZES[0]
     scene, cameras = SCENES["abstract"](size[0] / size[1], VIEWS)
@@ -117,7 +128,7 @@ def _of_masks(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
     yield row("masks / paper's ping-pong", where, ours / spent["paper"], "×", 0.1, 0.03)
 
 
-def _of_many_targets(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
+def _of_many_targets(context: Context) -> Iterator[Figure]:
     size = SIZES[0]
     scene, cameras = SCENES["abstract"](size[0] / size[1], VIEWS)
     with_targets = {
@@ -152,7 +163,7 @@ def _of_plan() -> Figure:
     return row("plan()", f"200 objects, {count} targets", 1e3 * best.mean(), "ms", 2, 0.4)
 
 
-def _of_nothing(context) -> Figure:  # type: ignore[no-untyped-def]
+def _of_nothing(context: Context) -> Figure:
     """A building without occluded targets: what planning costs."""
     scene, cameras = SCENES["abstract"](4 / 3, VIEWS)
     free = replace(scene, objects=tuple(replace(o, target=False) for o in scene.objects))
@@ -169,7 +180,7 @@ def _of_nothing(context) -> Figure:  # type: ignore[no-untyped-def]
     return row("no target occluded: dynamic / standard", "abstract 800×600", value, "×", 1.1, 1.02)
 
 
-def _of_looks(context) -> Iterator[Figure]:  # type: ignore[no-untyped-def]
+def _of_looks(context: Context) -> Iterator[Figure]:
     """What a look of a simulated participant takes: small pictures of simple models, measured."""
     size = (200, HEIGHT)
     renderer = Renderer(context, SIZES[0])

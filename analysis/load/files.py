@@ -14,7 +14,7 @@ import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from seethrough.analysis.errors import DataError
 
@@ -67,7 +67,7 @@ def sha256_of(path: Path, data: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _opened(path: Path, data: Path):  # type: ignore[no-untyped-def]
+def _opened(path: Path, data: Path) -> BinaryIO:
     """The regular file, open for reading. Raises DataError."""
     shown = named(path, data)
     try:

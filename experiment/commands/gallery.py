@@ -5,10 +5,14 @@ from __future__ import annotations
 import argparse
 import html
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.gallery.gallery_plates import SIZE, Plate, Section
 from seethrough.experiment.gallery.gallery_scenes import sections
+
+if TYPE_CHECKING:
+    from seethrough.renderer.gpu.renderer import Renderer
 
 HELP = "draw every mode, mask, granularity and hard case into a page"
 WIDEST = 800  # pixels of a picture on the page
@@ -67,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def draw(renderer, plate: Plate, path: Path) -> None:  # type: ignore[no-untyped-def]
+def draw(renderer: Renderer, plate: Plate, path: Path) -> None:
     """Write one picture, no larger than the page shows it."""
     from PIL import Image
 

@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools, Floats, Floats32, Ints, Ints32
 from seethrough.renderer.masks.silhouettes import Topology
 
 # Pixels by which an outline may be moved where short edges are joined to one: a mask of 10 pixels
@@ -73,8 +74,20 @@ def distances(
 
 @njit(cache=True, nogil=True)
 def outline_distances(
-    points, planes, ends, first, faces, signs, eye, turn, move, lens, tile, reach, straight
-):  # type: ignore[no-untyped-def]
+    points: Floats,
+    planes: Floats,
+    ends: Ints32,
+    first: Ints,
+    faces: Ints32,
+    signs: NDArray[np.int8],
+    eye: Floats,
+    turn: Floats,
+    move: Floats,
+    lens: Floats,
+    tile: Ints,
+    reach: float,
+    straight: float,
+) -> Floats32:
     """`distances` of arrays alone, for other kernels."""
     pixels, edges = _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens)
     for v in range(len(pixels)):
@@ -92,7 +105,7 @@ def outline_distances(
 
 
 @njit(cache=True, nogil=True)
-def _cover(pixels, edges, out):  # type: ignore[no-untyped-def]
+def _cover(pixels: Floats, edges: Ints, out: Floats32) -> None:
     """Put −1 where the edges wind round a pixel's centre."""
     height, width = out.shape
     change = np.zeros((height, width + 1), np.int32)
@@ -116,7 +129,18 @@ def _cover(pixels, edges, out):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens):  # type: ignore[no-untyped-def]
+def _loops(
+    points: Floats,
+    planes: Floats,
+    ends: Ints32,
+    first: Ints,
+    faces: Ints32,
+    signs: NDArray[np.int8],
+    eye: Floats,
+    turn: Floats,
+    move: Floats,
+    lens: Floats,
+) -> tuple[Floats, Ints]:
     front = np.empty(len(planes), np.bool_)
     for f in range(len(planes)):
         p = planes[f]
@@ -158,7 +182,7 @@ def _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens):  #
 
 
 @njit(cache=True, nogil=True)
-def _walks(edges, count):  # type: ignore[no-untyped-def]
+def _walks(edges: Ints, count: int) -> tuple[Ints, Ints, Bools]:
     """Closed walks that together take each directed edge (k, 2) once: points (k,), where each walk
     begins (w + 1,), and for each of `count` points whether it is met more than once."""
     n = len(edges)
@@ -190,7 +214,9 @@ def _walks(edges, count):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _straight(pixels, points, base, size, i, j, slack):  # type: ignore[no-untyped-def]
+def _straight(
+    pixels: Floats, points: Ints, base: int, size: int, i: int, j: int, slack: float
+) -> bool:
     """Whether the points between i and j of a walk lie along the way, and hardly beside it."""
     ax, ay = pixels[points[base + i], 0], pixels[points[base + i], 1]
     b = points[base + j % size]
@@ -210,7 +236,9 @@ def _straight(pixels, points, base, size, i, j, slack):  # type: ignore[no-untyp
 
 
 @njit(cache=True, nogil=True)
-def _stretches(pixels, points, base, size, meets, slack, ends):  # type: ignore[no-untyped-def]
+def _stretches(
+    pixels: Floats, points: Ints, base: int, size: int, meets: Bools, slack: float, ends: Ints
+) -> int:
     """Where the nearly straight stretches of a walk end, into `ends`; returns how many."""
     n = i = 0
     while i < size:
@@ -226,7 +254,7 @@ def _stretches(pixels, points, base, size, meets, slack, ends):  # type: ignore[
 
 
 @njit(cache=True, nogil=True)
-def _hidden(px, py, qx, qy, out):  # type: ignore[no-untyped-def]
+def _hidden(px: float, py: float, qx: float, qy: float, out: Floats32) -> bool:
     """Whether the target covers every pixel about a stretch: then a pixel beside the target has
     a nearer piece of the outline."""
     height, width = out.shape
@@ -244,14 +272,16 @@ def _hidden(px, py, qx, qy, out):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _window(low, high, size):  # type: ignore[no-untyped-def]
+def _window(low: float, high: float, size: int) -> tuple[int, int]:
     """The pixels, of `size`, whose centres lie between two coordinates."""
     first = int(min(max(np.ceil(low - 0.5), 0.0), float(size)))
     return first, int(max(min(np.floor(high - 0.5) + 1.0, float(size)), 0.0))
 
 
 @njit(cache=True, nogil=True)
-def _beside(px, py, qx, qy, nx, ny, reach, out):  # type: ignore[no-untyped-def]
+def _beside(
+    px: float, py: float, qx: float, qy: float, nx: float, ny: float, reach: float, out: Floats32
+) -> None:
     """Squared distances of the pixels on the outer side (nx, ny) of a stretch from p to q."""
     height, width = out.shape
     ox, oy, length = nx * reach, ny * reach, np.sqrt((qx - px) ** 2 + (qy - py) ** 2)
@@ -267,7 +297,9 @@ def _beside(px, py, qx, qy, nx, ny, reach, out):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _about(px, py, ax, ay, bx, by, reach, out):  # type: ignore[no-untyped-def]
+def _about(
+    px: float, py: float, ax: float, ay: float, bx: float, by: float, reach: float, out: Floats32
+) -> None:
     """Squared distances of the pixels round a corner p from normal a to b, if it turns outwards;
     of all pixels round it where both are 0."""
     height, width = out.shape
@@ -295,7 +327,15 @@ def _about(px, py, ax, ay, bx, by, reach, out):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _skirt(pixels, points, starts, meets, reach, slack, out):  # type: ignore[no-untyped-def]
+def _skirt(
+    pixels: Floats,
+    points: Ints,
+    starts: Ints,
+    meets: Bools,
+    reach: float,
+    slack: float,
+    out: Floats32,
+) -> None:
     """Put the square of the least distance into `out` for the pixels outside the walks.
 
     Beside each stretch and round each corner that turns outwards; all round where walks meet;

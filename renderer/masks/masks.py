@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
@@ -139,7 +140,7 @@ def hulls_with_skirts(
 
 
 @njit(cache=True)
-def convex_hull(points):  # type: ignore[no-untyped-def]
+def convex_hull(points: Floats) -> Floats:
     """(h, 2) corners of the hull of (v, 2) points, turning one way round (monotone chain)."""
     order = np.argsort(points[:, 0], kind="mergesort")
     n = len(points)
@@ -177,7 +178,7 @@ def convex_hull(points):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _put(out, k, x, y, ox, oy):  # type: ignore[no-untyped-def]
+def _put(out: Floats32, k: int, x: float, y: float, ox: float, oy: float) -> int:
     out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4] = x, y, ox, oy, -1.0
     return k + 1
 
@@ -186,7 +187,7 @@ _BLUNT = 1.0  # radians: the corner of two triangles lies an eighth of the width
 
 
 @njit(cache=True)
-def _fan(out, k, corner, a, b, width):  # type: ignore[no-untyped-def]
+def _fan(out: Floats32, k: int, corner: Floats, a: Floats, b: Floats, width: float) -> int:
     """Two or three triangles round a corner from unit normal a to b, outside the circle of
     `width`, by little."""
     turn = np.arctan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
@@ -205,7 +206,7 @@ def _fan(out, k, corner, a, b, width):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _hull_with_skirt(hull, width, out, k):  # type: ignore[no-untyped-def]
+def _hull_with_skirt(hull: Floats, width: float, out: Floats32, k: int) -> int:
     n = len(hull)
     normals = np.empty((n, 2))
     for a in range(n):
@@ -227,7 +228,7 @@ def _hull_with_skirt(hull, width, out, k):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _hulls_with_skirts(pixels, starts, width):  # type: ignore[no-untyped-def]
+def _hulls_with_skirts(pixels: Floats, starts: Ints, width: float) -> tuple[Floats32, Ints]:
     n = len(starts) - 1
     out = np.empty((18 * len(pixels) + 72 * n, 5), np.float32)
     firsts = np.zeros(n + 1, np.int64)

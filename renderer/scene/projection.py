@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools, Floats, Ints
 from seethrough.renderer.scene.camera import Camera
 
 _EDGES = np.array(
@@ -54,7 +55,9 @@ def to_pixels(
 
 
 @njit(cache=True)
-def clouds(points, spans, turns, moves, lens):  # type: ignore[no-untyped-def]
+def clouds(
+    points: Floats, spans: Ints, turns: Floats, moves: Floats, lens: Floats
+) -> tuple[Floats, Ints]:
     """(p, 2) pixels of the points of k objects one after the other, and where each object's begin
     (k + 1,).
 
@@ -99,7 +102,9 @@ def screen_boxes(corners: NDArray[np.float64], camera: Camera, size: tuple[int, 
 
 
 @njit(cache=True)
-def _boxes(corners, eye, rotation, lens):  # type: ignore[no-untyped-def]
+def _boxes(
+    corners: Floats, eye: Floats, rotation: Floats, lens: Floats
+) -> tuple[Floats, Floats, Bools]:
     """(n, 4) extents of what lies beyond the near plane, (n, 2) depths, and whether it cuts."""
     n = len(corners)
     extents, depths = np.empty((n, 4)), np.empty((n, 2))

@@ -9,6 +9,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bytes, Floats, Ints
+
 # An object with less than this share of a pixel is not seen there: 1 in 64 changes a display's
 # colour by at most 4 of 255 steps, about the smallest difference people notice side by side.
 SEEN = 1.0 / 64.0
@@ -82,7 +84,7 @@ def visibility_of_shares(
     return _measured(which, pixel, share, picture, objects)
 
 
-def _measured(which, pixel, share, picture, objects):  # type: ignore[no-untyped-def]
+def _measured(which: Ints, pixel: Ints, share: Floats, picture: Bytes, objects: int) -> Visibility:
     height, width = picture.shape[:2]
     row, column = np.divmod(pixel, width)
     count = np.bincount(which, minlength=objects)
@@ -97,7 +99,9 @@ def _measured(which, pixel, share, picture, objects):  # type: ignore[no-untyped
     return Visibility(count, weight, np.stack([x, y], axis=1), contrast, total / (width * height))
 
 
-def _contrast(which, row, column, own, total, picture):  # type: ignore[no-untyped-def]
+def _contrast(
+    which: Ints, row: Ints, column: Ints, own: Floats, total: Floats, picture: Bytes
+) -> Floats:
     """(n,) distance of an object's mean colour from the rest of its box, half as large again."""
     height, width = picture.shape[:2]
     n = len(total)
@@ -121,7 +125,7 @@ def _contrast(which, row, column, own, total, picture):  # type: ignore[no-untyp
 
 
 @njit(cache=True)
-def _sums(picture, low, high):  # type: ignore[no-untyped-def]
+def _sums(picture: Bytes, low: Ints, high: Ints) -> Floats:
     """(k, 3) sums of a (h, w, 3) picture over boxes from `low` to `high` (k, 2: row, column)."""
     height, width = picture.shape[:2]
     # Of all that lies above and to the left: whole numbers, so that nothing rounds.

@@ -16,6 +16,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints, Ints32, Whole
 from seethrough.renderer.masks import contours
 from seethrough.renderer.plan import blocks
 
@@ -98,9 +99,28 @@ class Outlines:
 
 @njit(cache=True, nogil=True)
 def _fill(
-    points, planes, ends, first, faces, signs, starts, which, eyes, turns, moves, lens, windows,
-    corners, width, straight, out, numbers, bits, begin, step,
-):  # type: ignore[no-untyped-def]  # fmt: skip
+    points: Floats,
+    planes: Floats,
+    ends: Ints32,
+    first: Ints,
+    faces: Ints32,
+    signs: NDArray[np.int8],
+    starts: Ints,
+    which: Ints,
+    eyes: Floats,
+    turns: Floats,
+    moves: Floats,
+    lens: Floats,
+    windows: Ints,
+    corners: Ints,
+    width: float,
+    straight: float,
+    out: Floats32,
+    numbers: Ints,
+    bits: Whole,
+    begin: int,
+    step: int,
+) -> None:
     for t in range(begin, len(which), step):
         a, b = starts[which[t]], starts[which[t] + 1]
         window = windows[t]

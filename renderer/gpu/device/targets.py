@@ -5,11 +5,15 @@ Eight bits of alpha drift visibly over many layers: each mask and each layer rou
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device.reused import spoil
+
+Owned = TypeVar("Owned", moderngl.Texture, moderngl.Renderbuffer, moderngl.Framebuffer)
 
 
 class FrameTarget:
@@ -39,7 +43,7 @@ class FrameTarget:
             self.framebuffer = self._keep(context.framebuffer(pictures, depth))
             self.resolved = self.framebuffer
 
-    def _keep(self, thing):  # type: ignore[no-untyped-def]
+    def _keep(self, thing: Owned) -> Owned:
         self._owned.append(thing)
         return thing
 

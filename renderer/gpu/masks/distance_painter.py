@@ -14,6 +14,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints
 from seethrough.renderer.gpu.device import tiles
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.reused import kept
@@ -118,7 +119,9 @@ class DistancePainter:
         self._context.blend_equation = moderngl.FUNC_ADD
         return draws + len(made.covered)
 
-    def _upload(self, name: str, shader: Any, layout: str, names: tuple[str, ...], data) -> None:  # type: ignore[no-untyped-def]
+    def _upload(
+        self, name: str, shader: Any, layout: str, names: tuple[str, ...], data: Floats32
+    ) -> None:
         """Put float32 rows into the buffer of that name."""
         if name not in self._buffers or data.nbytes > self._buffers[name].size:
             if name in self._buffers:
@@ -204,7 +207,7 @@ class DistancePainter:
         return sum(len(part) for part in runs) + 1
 
 
-def _poses(table: SceneTable, targets: NDArray[np.int64], camera: Camera):  # type: ignore[no-untyped-def]
+def _poses(table: SceneTable, targets: Ints, camera: Camera) -> tuple[Floats, Floats, Floats]:
     """The eye in mesh space (k, 3), and turns (k, 3, 3) and moves (k, 3): camera ← mesh."""
     away = camera.eye - table.scene.transforms[targets, :3, 3]
     eyes = np.einsum("kij,kj->ki", table.inverse[targets], away)

@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints
 from seethrough.renderer.gpu.device import tiles
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.masks import masks
@@ -109,7 +110,9 @@ def _tiles(
     return tile, shift, height
 
 
-def _rectangles(pictured, grid, frame, shift, size):  # type: ignore[no-untyped-def]
+def _rectangles(
+    pictured: Ints, grid: Ints, frame: FramePlan, shift: Ints, size: tuple[int, int]
+) -> Floats:
     """(k, 6, 7) two triangles over what each mask can cover, that look up its tile and grid."""
     extents = np.clip(frame.reach[pictured], 0, [*size, *size])
     extents[:, :2], extents[:, 2:] = np.floor(extents[:, :2]), np.ceil(extents[:, 2:])
@@ -159,7 +162,14 @@ def _outline_points(
     return projection.to_pixels(points @ turn.T + move, camera, size)
 
 
-def _hulls(table, targets, frame, camera, width, size):  # type: ignore[no-untyped-def]
+def _hulls(
+    table: SceneTable,
+    targets: Ints,
+    frame: FramePlan,
+    camera: Camera,
+    width: float,
+    size: tuple[int, int],
+) -> tuple[Floats32, Ints]:
     points, spans = table.points(targets)
     scale = 0.5 * size[1] / np.tan(camera.fov_y / 2)
     lens = np.array([scale, size[0] / 2, size[1] / 2])
@@ -178,7 +188,15 @@ def _hulls(table, targets, frame, camera, width, size):  # type: ignore[no-untyp
     return rows, firsts
 
 
-def _ellipses(table, targets, frame, camera, shape, width, size):  # type: ignore[no-untyped-def]
+def _ellipses(
+    table: SceneTable,
+    targets: Ints,
+    frame: FramePlan,
+    camera: Camera,
+    shape: str,
+    width: float,
+    size: tuple[int, int],
+) -> Floats:
     rows = np.zeros((len(targets), 6, VERTEX))
     for k, t in enumerate(targets.tolist()):
         points = _outline_points(table, t, frame, camera, size)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from seethrough.renderer.arrays import Floats, Ints
 from seethrough.renderer.models.files.part import Array, to_shown
 from seethrough.renderer.models.files.texture import CLAMP, MIRROR
 
@@ -15,7 +16,7 @@ BINS = 1024  # quarters of a step of 255
 
 
 @njit(cache=True)
-def _texel(index, count, way):  # type: ignore[no-untyped-def]
+def _texel(index: int, count: int, way: int) -> int:
     """The texel in [0, count) of one that may lie beyond."""
     if way == CLAMP:
         return min(max(index, 0), count - 1)
@@ -26,7 +27,9 @@ def _texel(index, count, way):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _sample(picture, u, v, wrap_u, wrap_v, nearest, out):  # type: ignore[no-untyped-def]
+def _sample(
+    picture: Floats, u: float, v: float, wrap_u: int, wrap_v: int, nearest: bool, out: Floats
+) -> None:
     """RGBA at u, v into `out`, as Texture.sample has it."""
     height, width = picture.shape[0], picture.shape[1]
     x, y = u * width, v * height
@@ -48,7 +51,18 @@ def _sample(picture, u, v, wrap_u, wrap_v, nearest, out):  # type: ignore[no-unt
 
 
 @njit(cache=True)
-def compared(values, colors, sides, cutoff, areas, picture, wrap, nearest, table, bins):  # type: ignore[no-untyped-def]
+def compared(
+    values: Floats,
+    colors: Floats,
+    sides: Ints,
+    cutoff: Floats,
+    areas: Floats,
+    picture: Floats,
+    wrap: tuple[int, int],
+    nearest: bool,
+    table: Floats,
+    bins: Floats,
+) -> Floats:
     """(k, 3) for each triangle: its mean and its largest error, and the share of it that is seen.
 
     values (k, 3, 6): uv and linear RGBA of corners, which the picture's multiply; colors

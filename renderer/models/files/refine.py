@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Ints
 from seethrough.renderer.models.files.comparing import BINS, SHOWN, compared, sides_of
 from seethrough.renderer.models.files.part import Array, to_shown
 from seethrough.renderer.models.files.surface import Surface
@@ -211,7 +212,7 @@ def _split(made: _Cut, chosen: NDArray[np.int64], limit: int) -> bool:
     return True
 
 
-def _replace(made, rows, edge, longest, middle):  # type: ignore[no-untyped-def]
+def _replace(made: _Cut, rows: Ints, edge: Ints, longest: Ints, middle: Ints) -> None:
     """Put two, three or four triangles in the place of each of `rows`."""
     turn = (longest[rows][:, None] + np.arange(3)) % 3
     corner = np.take_along_axis(made.triangles[rows], turn, 1)
