@@ -72,7 +72,7 @@ class Tree:
             )
             abstract_scene = self._get("tasks.worlds.abstract.abstract_scene", "abstract_scene")
             orbit = self._get("tasks.kit.controls", "orbit")
-            parameters = self._get("tasks.parameters", "AbstractParameters")()
+            parameters = self._get("tasks.worlds.abstract.abstract_scene", "AbstractParameters")()
             renderer = self._get("renderer.gpu.renderer", "Renderer")(
                 context, SIZE, without=frozenset({"still"})
             )

@@ -136,7 +136,7 @@ def measure(eyes: Eyes, reference: Eyes) -> dict[str, Any]:
 
 def _looks(eyes: Eyes) -> float:
     """Looks a simulated second in the building, where every frame is looked at."""
-    walks = [t for t in eyes.trials if t.trial.scenario != "abstract"]
+    walks = [t for t in eyes.trials if t.trial.world != "abstract"]
     return sum(t.frames for t in walks) / sum(t.time for t in walks)
 
 

@@ -26,9 +26,10 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import SEEN
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.kit.controls import orbit, walk
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building import unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 EXACT = DynamicTransparency(exact=True)
 MANY = 5  # pixels of a target that count as a view of it

@@ -10,9 +10,10 @@ import numpy as np
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.controls import orbit, walk
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building import unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 Views = tuple[Scene, list[Camera]]
 

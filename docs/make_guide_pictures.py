@@ -81,7 +81,7 @@ def main() -> None:
     for number, task_set in enumerate(task_sets):
         camera.stage.done = number / len(task_sets)
         trial = task_set.trials[0]
-        if trial.transparency == "dynamic" or trial.task not in shown:
+        if trial.levels["transparency"] == "dynamic" or trial.task not in shown:
             shown.add(trial.task)
             camera.page(_instruction(trial, 8, run), f"instruction-{trial.task}")
             _task(camera, run, trial)

@@ -1,11 +1,47 @@
-"""The tasks by name."""
+"""Tasks and worlds by name: ours and those of other packages (seethrough/registry.py)."""
 
 from __future__ import annotations
 
-from seethrough.tasks.count.count_task import Count
-from seethrough.tasks.count_in_building.count_in_building_task import CountInBuilding
-from seethrough.tasks.kit.base import Task
-from seethrough.tasks.pattern.pattern_task import Pattern
-from seethrough.tasks.unique.unique_task import Unique
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar
 
-TASKS: dict[str, Task] = {t.name: t for t in (Count(), Pattern(), Unique(), CountInBuilding())}
+from seethrough import registry
+from seethrough.tasks.kit.base import Setting, Task
+from seethrough.tasks.kit.world import World
+
+Plugin = TypeVar("Plugin")
+
+
+class Registered(Mapping[str, Plugin]):
+    """All plug-ins of a kind by name; each is imported when it is asked for."""
+
+    def __init__(self, kind: str) -> None:
+        self._kind = kind
+
+    def __getitem__(self, name: str) -> Plugin:
+        found: Plugin = registry.get(self._kind, name)
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(registry.names(self._kind))
+
+    def __len__(self) -> int:
+        return len(registry.names(self._kind))
+
+
+TASKS: Mapping[str, Task] = Registered("task")
+WORLDS: Mapping[str, World] = Registered("world")
+
+
+def world_of(task: Task) -> World:
+    """The world that a task is set in where a study does not say it: its first."""
+    return WORLDS[task.worlds[0]]
+
+
+def setting(task: Task, place: Any = None, own: Any = None) -> Setting:
+    """A task in its first world, or in the one whose parameters are given; else with defaults."""
+    worlds = [WORLDS[name] for name in task.worlds]
+    world = next((w for w in worlds if place is None or isinstance(place, w.Parameters)), None)
+    if world is None:
+        raise ValueError(f"{type(place).__name__}: {task.name} cannot be set there")
+    return Setting(world, place or world.Parameters(), own or task.Parameters())

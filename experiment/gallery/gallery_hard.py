@@ -12,7 +12,7 @@ from seethrough.renderer.plan.planner import Technique
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.tasks.parameters import AbstractParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 
 RED, BLUE, GOLD, GREEN = (0.9, 0.15, 0.1), (0.2, 0.4, 0.9), (0.9, 0.7, 0.2), (0.3, 0.8, 0.4)

@@ -15,9 +15,10 @@ from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import GRANULARITIES, MASKS
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.controls import orbit, walk
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building import unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 BUILDING = 3  # the seed of one whose first room has models behind its walls
 

@@ -15,9 +15,9 @@ from seethrough.experiment.study.design import STUDY_SCENES, generator
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import rotation_y
-from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 PAIRS = 3
 RATIO = 1.2  # the farther of a pair is at least this much farther: ours
@@ -69,13 +69,12 @@ def depth_test(study: Study) -> DepthTest:
 
 @lru_cache(maxsize=4)
 def _made(seed: int, building: BuildingParameters) -> DepthTest:
-    task = TASKS["unique"]
+    world = WORLDS["building"]
     for number in range(MOST_SCENES):
         rng = generator(seed, (*STREAM, number))
-        scene = task.make_scene(rng, building)
-        shown = task.view(task.begin(rng, building, PICTURE_ASPECT, scene))
-        for camera in _around(shown.camera):
-            view = View(shown.scene, camera)
+        place = world.make(rng, building)
+        for camera in _around(world.viewer(place, building, PICTURE_ASPECT).camera()):
+            view = View(place.scene, camera)
             depths = _depths(view)
             names = [str(name) for name in rng.permutation(sorted(depths))]
             pairs = _pairs(names, depths)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterable, Mapping
 from importlib import resources
-from typing import Any
 
+from seethrough import registry
 from seethrough.experiment.errors import InputError, short, shown, unknown
+from seethrough.tasks.kit.own_texts import flat
 
 
 def languages() -> tuple[str, ...]:
@@ -26,7 +27,8 @@ class Texts:
             raise InputError(
                 f"study.language = {shown(language)}: expected one of {', '.join(languages())}"
             )
-        self._texts = _flat(tomllib.loads(file.read_text(encoding="utf-8")))
+        self._texts = flat(tomllib.loads(file.read_text(encoding="utf-8")))
+        self._texts |= _of_plugins(language)
         for key, text in (replaced or {}).items():
             if key not in self._texts:
                 raise InputError(f"texts.{short(key)}: {self.unknown(key)}")
@@ -67,11 +69,14 @@ class Texts:
         return frozenset(self._texts)
 
 
-def _flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
-    flat: dict[str, str] = {}
-    for key, value in table.items():
-        if isinstance(value, Mapping):
-            flat |= _flat(value, f"{prefix}{key}.")
-        else:
-            flat[prefix + key] = value
-    return flat
+def _of_plugins(language: str) -> dict[str, str]:
+    """What tasks, worlds and question kinds bring along; in English what they have no other of."""
+    found: dict[str, str] = {}
+    for kind in ("task", "world", "question"):
+        for name in registry.names(kind):
+            try:
+                texts = registry.get(kind, name).texts
+            except registry.PluginError:
+                continue  # a study that uses it is refused: this one may not
+            found |= texts.get("en", {}) | texts.get(language, {})
+    return found

@@ -11,7 +11,7 @@ import json
 import os
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -276,5 +276,6 @@ def trial_row(record: TrialRecord) -> dict[str, Any]:
         "turned": record.turned,
     }
     if outcome is not None:
-        row |= asdict(outcome)
+        row |= {f.name: getattr(outcome, f.name) for f in fields(outcome) if f.name != "more"}
+        row |= outcome.more
     return row

@@ -19,7 +19,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, Trial, session_for
-from seethrough.tasks.parameters import METRES
+from seethrough.tasks.worlds.building.building_parameters import METRES
 
 
 class TimeIsUp(Leave):
@@ -135,10 +135,10 @@ def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
     values = (("set", str(trial.task_set)), ("sets", str(total)))
     return Page(
         "instruction",
-        f"{trial.task}.title",
+        run.world.tasks[trial.task].title,
         (
-            Paragraph(f"{trial.task}.instruction"),
-            Paragraph(f"{trial.world}.controls"),
+            Paragraph(run.world.tasks[trial.task].instruction),
+            Paragraph(study.setting(trial).world.controls),
             *levels.instructions(study, trial.levels),
             Picture(partial(run.preview, trial), run.technique(trial)),
             Paragraph("progress", values),

@@ -21,6 +21,7 @@ from seethrough.experiment.study.study_tables import (
     QuestionTable,
     StudyTable,
 )
+from seethrough.tasks.kit.world import OWN
 
 VARIED = ("study", "design", "practice", "technique", "world", "task", "display", "questions")
 
@@ -45,7 +46,7 @@ class Part:
     @property
     def plan(self) -> CellPlan:
         """What the design needs to know of the cell."""
-        shared = plugins.scenes_of(self.place) != plugins.OWN
+        shared = self.place.scenes != OWN
         design = self.design
         return CellPlan(self.world, design.tasks, design.trials, self.practice.count, shared)
 

@@ -1,6 +1,6 @@
 """The difficulty certificate: how hard is each trial's scene, and are the conditions alike?
 
-Measured without the technique, from fixed views that every scene of a scenario shares, so that the
+Measured without the technique, from fixed views that every scene of a world shares, so that the
 numbers say something about the scene and nothing about a participant.
 """
 
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -19,16 +18,13 @@ from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.factors import ALONE
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.worlds.building.building import Building
 
-ABSTRACT_VIEWS = 6
-HEADINGS = 4
 # Shows every penetrable occluder half: a target's pixels are then those it would have alone, down
 # to six things in front of it (a share of 1/64 is the least that counts).
 UNCOVERED = DynamicTransparency(alpha_target=0.5, alpha_edge=1.0, width=0.0)
@@ -41,8 +37,8 @@ class Difficulty:
 
     visible: fraction of the targets' pixels that can be seen, mean over targets in view; hidden:
     targets of which no view shows anything; occluders: distractors that hide part of a target;
-    clutter: objects that can be seen; path: world units to walk past every asked object, 0 in the
-    abstract world.
+    clutter: objects that can be seen; path: world units to walk past every asked object, 0 where
+    nobody walks.
     """
 
     trial: Trial
@@ -107,11 +103,12 @@ class Certifier:
 
     def _measured(self, trial: Trial) -> Difficulty:
         task = TASKS[trial.task]
+        setting = self.study.setting(trial)
         state = self._scenes.begin(task, trial, self.aspect)
         first = task.view(state)
         scene = first.scene
-        building = getattr(state, "building", None)
-        cameras = _abstract(first.camera) if building is None else _walkthrough(first, building)
+        cameras = setting.world.views(setting.place, first.camera)
+        asked = list(task.example(state, self.aspect).asked)
         looks = [self._both(scene, camera) for camera in cameras]
         fractions = np.array([fraction for fraction, _, _ in looks])
         in_view = np.isfinite(fractions)
@@ -124,7 +121,7 @@ class Certifier:
             int((shown == 0).sum()),
             float(np.mean([occluders for _, occluders, _ in looks])),
             float(np.mean([clutter for _, _, clutter in looks])),
-            0.0 if building is None else walking_path(building),
+            setting.world.path(first.camera, scene.centers[asked]),
         )
 
     def _both(self, scene: Scene, camera: Camera) -> tuple[NDArray[np.float64], int, int]:
@@ -228,47 +225,3 @@ def worst(match: Match, measured: Iterable[Difficulty]) -> Difficulty:
 
     own = [d for d in measured if d.trial.task == match.task and of(d) in means]
     return max(own, key=pull)
-
-
-def walking_path(building: Building) -> float:
-    """World units from the start past every asked object, always to the nearest one next.
-
-    Straight: there is no collision in the building (004 §VI-D).
-    """
-    centers = building.scene.centers[building.asked_objects][:, [0, 2]]
-    left = list(centers)
-    way = [np.asarray(building.start, float)]
-    while left:
-        nearest = min(range(len(left)), key=lambda i: float(np.linalg.norm(left[i] - way[-1])))
-        way.append(left.pop(nearest))
-    return float(sum(np.linalg.norm(b - a) for a, b in pairwise(way)))
-
-
-def _abstract(camera: Camera) -> list[Camera]:
-    """Views from around the world at the orbit's distance: level, above and below in turn."""
-    distance = float(np.linalg.norm(camera.eye))
-    cameras = []
-    for k in range(ABSTRACT_VIEWS):
-        turn, rise = 2 * np.pi * k / ABSTRACT_VIEWS, (0.0, 0.6, -0.6)[k % 3]
-        flat = np.cos(rise)
-        eye = distance * np.array([flat * np.sin(turn), np.sin(rise), flat * np.cos(turn)])
-        lens = {"fov_y": camera.fov_y, "near": camera.near, "far": camera.far}
-        cameras.append(look_at(eye, np.zeros(3), **lens))
-    return cameras
-
-
-def _walkthrough(first: View, building: Building) -> list[Camera]:
-    """Four headings at the start and in the middle of each quarter of the building."""
-    camera, quarter = first.camera, building.parameters.side / 4
-    height = camera.eye[1]
-    places = [(camera.eye[0], camera.eye[2])]
-    places += [(x * quarter, z * quarter) for x in (-1, 1) for z in (-1, 1)]
-    cameras = []
-    for x, z in places:
-        eye = np.array([x, height, z])
-        for k in range(HEADINGS):
-            turn = 2 * np.pi * k / HEADINGS
-            ahead = eye + np.array([np.sin(turn), 0.0, -np.cos(turn)])
-            lens = {"fov_y": camera.fov_y, "near": camera.near, "far": camera.far}
-            cameras.append(look_at(eye, ahead, **lens))
-    return cameras

@@ -17,8 +17,7 @@ from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import rotation_x, scaling
 from seethrough.renderer.techniques.standard.opaque import Standard
-from seethrough.tasks.kit.own_models import mesh_of, read
-from seethrough.tasks.parameters import OwnModel
+from seethrough.tasks.kit.own_models import OwnModel, mesh_of, read
 from seethrough.tasks.worlds.building.building import shown_size
 
 METRE = 2.0  # world units

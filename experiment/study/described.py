@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from seethrough.experiment.study import plugins
 from seethrough.experiment.study.factors import Factor
 from seethrough.experiment.study.study import Study
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.measure import TIME
 
 
 def design_entry(study: Study) -> dict[str, Any]:
@@ -14,11 +15,10 @@ def design_entry(study: Study) -> dict[str, Any]:
     expected; plain JSON types."""
     analysis = study.resolved()["analysis"]
     margins = {k: v for k, v in analysis["margins"].items() if v is not None}
-    tasks = dict.fromkeys(t for part in study.parts.values() for t in part.design.tasks)
     return {
         "factors": [_factor(study, factor) for factor in study.factors],
         "excluded": [dict(levels) for levels in study.excluded],
-        "tasks": [_task(task, margins) for task in tasks],
+        "tasks": [_task(task, margins) for task in study.tasks()],
         "predictions": [
             {k: v for k, v in said.items() if v not in (None, "")}
             for said in analysis["predictions"]
@@ -40,7 +40,8 @@ def _factor(study: Study, factor: Factor) -> dict[str, Any]:
 
 
 def _task(name: str, margins: dict[str, float]) -> dict[str, Any]:
-    measures = plugins.measures_of(name)
+    task = TASKS[name]
+    measures = [measure.as_dict() for measure in (TIME, *task.measures)]
     for measure in measures:
         measure["margin"] = margins.get(measure["name"], measure["margin"])
-    return {"name": name, "code": plugins.code_of(name), "measures": measures}
+    return {"name": name, "code": task.code, "measures": measures}

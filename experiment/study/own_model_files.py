@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.model_files import check_files
-from seethrough.tasks.kit.own_models import READER, kept_as, mesh_of, packed, read
-from seethrough.tasks.parameters import OwnModel
+from seethrough.tasks.kit.own_models import READER, OwnModel, kept_as, mesh_of, packed, read
 
 if TYPE_CHECKING:
     from seethrough.experiment.study.study import Study

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 from seethrough.experiment.study.cells import Part
-from seethrough.experiment.study.design import Design
+from seethrough.experiment.study.design import Design, Trial
 from seethrough.experiment.study.factors import Cell, Factor, Levels
 from seethrough.experiment.study.reading import Chosen, Limits
 from seethrough.experiment.study.study_tables import (
@@ -23,6 +23,8 @@ from seethrough.experiment.study.study_tables import (
     SessionTable,
     StudyTable,
 )
+from seethrough.tasks.catalog import TASKS, WORLDS
+from seethrough.tasks.kit.base import Setting
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,16 @@ class Study:
     def part(self, levels: Levels) -> Part:
         """What holds at these levels: a level of every factor."""
         return self.parts[tuple(levels[factor.name] for factor in self.factors)]
+
+    def setting(self, trial: Trial) -> Setting:
+        """Where and how a trial's task is set."""
+        part = self.part(trial.levels)
+        own = part.limits.tables.get(trial.task) or TASKS[trial.task].Parameters()
+        return Setting(WORLDS[part.world], part.place, own)
+
+    def tasks(self) -> tuple[str, ...]:
+        """Every task that some cell asks for, in the order of the file."""
+        return tuple(dict.fromkeys(t for part in self.parts.values() for t in part.design.tasks))
 
     def session_part(self, slot: int) -> Part:
         """A part that has what holds in the whole session of a slot: its display and language."""

@@ -1,4 +1,4 @@
-"""The scenes of a study: abstract ones from the trial's own stream, buildings made once."""
+"""The scenes of a study: made for a trial, or once for everybody who shares them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import Any
 
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
-from seethrough.tasks.kit.base import Task
+from seethrough.tasks.kit.base import Setting, Task
+from seethrough.tasks.kit.world import OWN
 
 
 class StudyScenes:
@@ -15,18 +16,21 @@ class StudyScenes:
 
     def __init__(self, study: Study) -> None:
         self.study = study
-        self._shared: dict[tuple[Any, tuple[int, ...]], Any] = {}
+        self._shared: dict[tuple[Any, str, tuple[int, ...]], Any] = {}
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""
+        setting = self.study.setting(trial)
+        return task.begin(self._made(task, trial, setting), setting, aspect)
+
+    def _made(self, task: Task, trial: Trial, setting: Setting) -> Any:
         rng = generator(self.study.study.seed, trial.stream)
-        part = self.study.part(trial.levels)
-        if not part.plan.shared:
-            return task.begin(rng, part.place, aspect)
-        key = (part.place, trial.stream)
+        if setting.place.scenes == OWN:
+            return task.make_scene(rng, setting)
+        key = (setting.place, trial.task, trial.stream)
         if key not in self._shared:
-            self._shared[key] = task.make_scene(rng, part.place)
-        return task.begin(rng, part.place, aspect, self._shared[key])
+            self._shared[key] = task.make_scene(rng, setting)
+        return self._shared[key]
 
     def example(self, trial: Trial) -> Trial:
         """A trial like this one whose scene no trial of the study uses: for instructions."""

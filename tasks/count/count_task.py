@@ -7,22 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.random import Generator
 
-from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.base import Example, Outcome, View
+from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.controls import Orbit, of_view, orbit
 from seethrough.tasks.kit.entry import NumberEntry
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Label
-from seethrough.tasks.parameters import AbstractParameters
-from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.kit.measure import CORRECT, COUNT_ERROR, Measure
+from seethrough.tasks.kit.own_texts import OwnTexts
+from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
 
 @dataclass(frozen=True, eq=False)
 class CountState:
     """A trial between two events."""
 
-    scene: Scene
+    cloud: Cloud
     orbit: Orbit
     entry: NumberEntry
 
@@ -30,47 +31,45 @@ class CountState:
 class Count:
     """Count the red objects: drag or arrow keys orbit, digits and enter answer."""
 
-    name = "count"
-    scenario = "abstract"
+    name, code, version = "count", "T1", "1"
+    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    worlds = ("abstract",)
+    Parameters = NoParameters
+    measures: tuple[Measure, ...] = (COUNT_ERROR, CORRECT)
+    title, instruction = "count.title", "count.instruction"
+    texts: Texts = OwnTexts("seethrough.tasks.count")
 
-    def make_scene(self, rng: Generator, parameters: AbstractParameters) -> Scene:
+    def make_scene(self, rng: Generator, setting: Setting) -> Cloud:
         """A world of its own for each trial."""
-        return abstract_scene(rng, parameters)
+        return cloud(rng, setting.place)
 
-    def begin(
-        self,
-        rng: Generator,
-        parameters: AbstractParameters,
-        aspect: float,
-        scene: Scene | None = None,
-    ) -> CountState:
+    def begin(self, made: Cloud, setting: Setting, aspect: float) -> CountState:
         """The first state of a trial."""
-        scene = self.make_scene(rng, parameters) if scene is None else scene
-        return CountState(scene, orbit(parameters, aspect), NumberEntry(aspect))
+        return CountState(made, orbit(setting.place, aspect), NumberEntry(aspect))
 
     def on_event(self, state: CountState, event: Event) -> CountState:
         """The state after `event`."""
         entry = state.entry.on_event(event)
         turned = state.orbit.on_event(of_view(event, entry.pressed))
-        return CountState(state.scene, turned, entry)
+        return CountState(state.cloud, turned, entry)
 
     def view(self, state: CountState) -> View:
         """What to show for `state`."""
         hud = (Label("count.question", (0.02, 0.02)), *state.entry.elements())
-        return View(state.scene, state.orbit.camera(), hud)
+        return View(state.cloud.scene, state.orbit.camera(), hud)
 
     def outcome(self, state: CountState) -> Outcome | None:
         """The scored answer once confirmed: `count_error` is answer − truth."""
         if not state.entry.confirmed:
             return None
-        return number_outcome(state.entry, int(state.scene.targets.sum()))
+        return number_outcome(state.entry, int(state.cloud.scene.targets.sum()))
 
     def solution(self, state: CountState) -> None:
         """A number needs no picture."""
 
     def example(self, state: CountState, aspect: float) -> Example:
         """The red objects, from all sides."""
-        asked = tuple(np.nonzero(state.scene.targets)[0].tolist())
+        asked = tuple(np.nonzero(state.cloud.scene.targets)[0].tolist())
         return Example(asked, around(state.orbit, (state.orbit.pitch,), aspect))
 
 

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 from numpy.random import Generator
 
 from seethrough.tasks.count.count_task import number_outcome
-from seethrough.tasks.kit.base import Example, Outcome, View
+from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.entry import NumberEntry
 from seethrough.tasks.kit.events import Event, KeyPress
-from seethrough.tasks.kit.example import before
 from seethrough.tasks.kit.hud import Label
-from seethrough.tasks.kit.visit import Visit, visit
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.kit.measure import CORRECT, COUNT_ERROR, Measure
+from seethrough.tasks.kit.own_texts import OwnTexts
+from seethrough.tasks.kit.world import Texts
 from seethrough.tasks.worlds.building.building import Building, count_building
+from seethrough.tasks.worlds.building.visit import Visit, before, visit
 
 QUESTION = Label("count_in_building.question", (0.26, 0.02))
 
@@ -35,23 +36,21 @@ class CountInBuildingState:
 class CountInBuilding:
     """Count one type: the pointer turns, arrow keys walk, digits and enter answer."""
 
-    name = "count_in_building"
-    scenario = "walkthrough"
+    name, code, version = "count_in_building", "T4", "1"
+    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    worlds = ("building",)
+    Parameters = NoParameters
+    measures: tuple[Measure, ...] = (COUNT_ERROR, CORRECT)
+    title, instruction = "count_in_building.title", "count_in_building.instruction"
+    texts: Texts = OwnTexts("seethrough.tasks.count_in_building")
 
-    def make_scene(self, rng: Generator, parameters: BuildingParameters) -> Building:
+    def make_scene(self, rng: Generator, setting: Setting) -> Building:
         """One of the study's buildings: the same for everybody, so from the study's seed."""
-        return count_building(rng, parameters)
+        return count_building(rng, setting.place)
 
-    def begin(
-        self,
-        rng: Generator,
-        parameters: BuildingParameters,
-        aspect: float,
-        scene: Building | None = None,
-    ) -> CountInBuildingState:
+    def begin(self, made: Building, setting: Setting, aspect: float) -> CountInBuildingState:
         """The first state of a trial."""
-        building = self.make_scene(rng, parameters) if scene is None else scene
-        return CountInBuildingState(visit(building, parameters), NumberEntry(aspect))
+        return CountInBuildingState(visit(made, setting.place), NumberEntry(aspect))
 
     def on_event(self, state: CountInBuildingState, event: Event) -> CountInBuildingState:
         """The state after `event`: digits are typed, for the pointer turns the walker."""

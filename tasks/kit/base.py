@@ -1,8 +1,9 @@
-"""The shape that every task has. Adding a task is copying a file (README, tour)."""
+"""The shape that every task has. Adding a task is adding a folder (README, tour)."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from numpy.random import Generator
@@ -11,6 +12,8 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan
+from seethrough.tasks.kit.measure import Measure
+from seethrough.tasks.kit.world import Texts, World
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +30,8 @@ class View:
 class Outcome:
     """A confirmed answer and its score; None where a measure does not apply to the task.
 
-    `count_error` is answer − truth; `distance` is in world units, from mark to true place.
+    `count_error` is answer − truth; `distance` is in world units, from mark to true place; `more`
+    has the values of what a task measures besides, by the measures' names.
     """
 
     answer: str
@@ -35,6 +39,11 @@ class Outcome:
     correct: bool
     count_error: int | None = None
     distance: float | None = None
+    more: Mapping[str, float | int | bool] = field(default_factory=dict)
+
+    def value(self, measure: str) -> Any:
+        """What was measured, by the measure's name; None for what the task does not measure."""
+        return self.more.get(measure, getattr(self, measure, None))
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,20 +55,43 @@ class Example:
     cameras: tuple[Camera, ...]
 
 
+@dataclass(frozen=True)
+class Setting:
+    """Where and how a task is set: a world, the world's parameters (`place`), the `task`'s own."""
+
+    world: World
+    place: Any
+    task: Any
+
+
+@dataclass(frozen=True)
+class NoParameters:
+    """The parameters of a task or world that has none."""
+
+
 class Task(Protocol):
-    """One task, without state of its own: states are frozen values that replace each other."""
+    """One task, without state of its own: states are frozen values that replace each other.
+
+    `code` is how a paper calls it (T1), `worlds` are those it can be set in, `measures` what it
+    measures beside the time, `title` and `instruction` the names of its texts.
+    """
 
     name: str
-    scenario: str
+    code: str
+    version: str
+    source: str
+    worlds: tuple[str, ...]
+    Parameters: Any
+    measures: tuple[Measure, ...]
+    title: str
+    instruction: str
+    texts: Texts
 
-    def make_scene(self, rng: Generator, parameters: Any) -> Any:
-        """The world of a trial, with all that `begin` and the score need to know of it."""
+    def make_scene(self, rng: Generator, setting: Setting) -> Any:
+        """A scene of a trial, with all that `begin` and the score need to know of it."""
 
-    def begin(self, rng: Generator, parameters: Any, aspect: float, scene: Any = None) -> Any:
-        """The first state of a trial, in `scene` or in one of its own made with `rng`.
-
-        Walkthrough tasks are given the study's scenes. `aspect` is the view's width / height.
-        """
+    def begin(self, made: Any, setting: Setting, aspect: float) -> Any:
+        """The first state of a trial in a scene of `make_scene`'s, so wide for its height."""
 
     def on_event(self, state: Any, event: Event) -> Any:
         """The state after `event`."""

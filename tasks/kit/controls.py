@@ -8,17 +8,48 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import atan, cos, pi, sin, tan
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 
 from seethrough.renderer.scene.camera import Camera
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Tick
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 Value = TypeVar("Value")
 ARROWS = frozenset({"left", "right", "up", "down"})
 MARGIN = 1.02  # how much farther the camera stands than the tightest fit
+
+
+class Orbiting(Protocol):
+    """What a world says of turning it about its middle; `side`: it fits a cube so large."""
+
+    @property
+    def side(self) -> float: ...
+    @property
+    def fov_y(self) -> float: ...
+    @property
+    def start_pitch(self) -> float: ...
+    @property
+    def drag_gain(self) -> float: ...
+    @property
+    def key_rate(self) -> float: ...
+
+
+class Walking(Protocol):
+    """What a world says of walking through it; it ends `side` away."""
+
+    @property
+    def side(self) -> float: ...
+    @property
+    def eye_height(self) -> float: ...
+    @property
+    def fov_y(self) -> float: ...
+    @property
+    def speed(self) -> float: ...
+    @property
+    def turn_gain(self) -> float: ...
+    @property
+    def key_turn_rate(self) -> float: ...
 
 
 def of_view(event: Event, pressed: bool) -> Event:
@@ -103,7 +134,7 @@ class Orbit:
         )
 
 
-def orbit(parameters: AbstractParameters, aspect: float, yaw: float = 0.0) -> Orbit:
+def orbit(parameters: Orbiting, aspect: float, yaw: float = 0.0) -> Orbit:
     """An orbit from which the whole cube lies in the view, whichever way it is turned.
 
     The sphere about the cube fits the narrower angle of the frustum.
@@ -161,7 +192,7 @@ class Walk:
         return Camera(eye, turned(self.yaw), self.fov_y, 0.1, self.reach)
 
 
-def walk(parameters: BuildingParameters, start: tuple[float, float], yaw: float = 0.0) -> Walk:
+def walk(parameters: Walking, start: tuple[float, float], yaw: float = 0.0) -> Walk:
     """A walker at the start, who can see as far as the building's diagonal."""
     p = parameters
     return Walk(

@@ -7,34 +7,27 @@ from functools import lru_cache
 
 from numpy.random import Generator
 
-from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.base import Example, Outcome, View
+from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.controls import Orbit, changed, of_view, orbit
 from seethrough.tasks.kit.events import Event, KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Button, Element, Label, Rect, hint
 from seethrough.tasks.kit.letters import LETTERS
-from seethrough.tasks.parameters import AbstractParameters
-from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.kit.measure import CORRECT, Measure
+from seethrough.tasks.kit.own_texts import OwnTexts
+from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
 SIZE, GAP, EDGE = 0.07, 0.012, 0.02
 HIGHER = (1.0,)  # radians of pitch, for the instruction's picture
 NAMED = (("letters", ", ".join(sorted(LETTERS))),)
 
 
-@dataclass(frozen=True)
-class PatternScene:
-    """A world and the letter that its red cones form."""
-
-    scene: Scene
-    letter: str
-
-
 @dataclass(frozen=True, eq=False)
 class PatternState:
     """A trial between two events."""
 
-    world: PatternScene
+    cloud: Cloud
     orbit: Orbit
     aspect: float
     chosen: str | None = None
@@ -46,24 +39,22 @@ class PatternState:
 class Pattern:
     """Name the letter: drag or arrow keys orbit; letter keys or buttons choose, enter answers."""
 
-    name = "pattern"
-    scenario = "abstract"
+    name, code, version = "pattern", "T2", "1"
+    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    worlds = ("abstract",)
+    Parameters = NoParameters
+    measures: tuple[Measure, ...] = (CORRECT,)
+    title, instruction = "pattern.title", "pattern.instruction"
+    texts: Texts = OwnTexts("seethrough.tasks.pattern")
 
-    def make_scene(self, rng: Generator, parameters: AbstractParameters) -> PatternScene:
+    def make_scene(self, rng: Generator, setting: Setting) -> Cloud:
         """A world of its own for each trial, each letter equally likely."""
         letter = sorted(LETTERS)[int(rng.integers(len(LETTERS)))]
-        return PatternScene(abstract_scene(rng, parameters, letter), letter)
+        return cloud(rng, setting.place, letter)
 
-    def begin(
-        self,
-        rng: Generator,
-        parameters: AbstractParameters,
-        aspect: float,
-        scene: PatternScene | None = None,
-    ) -> PatternState:
+    def begin(self, made: Cloud, setting: Setting, aspect: float) -> PatternState:
         """The first state of a trial."""
-        world = self.make_scene(rng, parameters) if scene is None else scene
-        return PatternState(world, orbit(parameters, aspect), aspect)
+        return PatternState(made, orbit(setting.place, aspect), aspect)
 
     def on_event(self, state: PatternState, event: Event) -> PatternState:
         """The state after `event`."""
@@ -86,20 +77,20 @@ class Pattern:
         if state.hint:
             top = min(rect.y for rect in buttons(state.aspect).values())
             hud.append(hint(state.hint, (state.aspect, top), NAMED))
-        return View(state.world.scene, state.orbit.camera(), tuple(hud))
+        return View(state.cloud.scene, state.orbit.camera(), tuple(hud))
 
     def outcome(self, state: PatternState) -> Outcome | None:
         """Right or wrong, once confirmed."""
         if not state.confirmed or state.chosen is None:
             return None
-        return Outcome(state.chosen, state.world.letter, state.chosen == state.world.letter)
+        return Outcome(state.chosen, state.cloud.letter, state.chosen == state.cloud.letter)
 
     def solution(self, state: PatternState) -> None:
         """A letter needs no picture."""
 
     def example(self, state: PatternState, aspect: float) -> Example:
         """The letter's cones, from all sides and from higher up: they lie flat."""
-        things = state.world.scene.objects
+        things = state.cloud.scene.objects
         asked = tuple(i for i, o in enumerate(things) if o.target and o.kind == "cone")
         return Example(asked, around(state.orbit, (state.orbit.pitch, *HIGHER), aspect))
 

@@ -1,1 +1,5 @@
-"""T3: find one target, mark where it was."""
+"""T3: where is the thing that occurs once?"""
+
+from seethrough.tasks.unique.unique_task import Unique
+
+TASK = Unique()

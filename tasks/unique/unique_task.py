@@ -8,15 +8,16 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from seethrough.tasks.kit.base import Example, Outcome, View
+from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.events import Event, KeyPress
-from seethrough.tasks.kit.example import before
 from seethrough.tasks.kit.hud import FloorPlan, Label
-from seethrough.tasks.kit.plan_mark import PlanMark
-from seethrough.tasks.kit.visit import Visit, visit
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.kit.measure import CORRECT, DISTANCE, Measure
+from seethrough.tasks.kit.own_texts import OwnTexts
+from seethrough.tasks.kit.world import Texts
 from seethrough.tasks.worlds.building.building import Building, unique_building
 from seethrough.tasks.worlds.building.floor import room_at
+from seethrough.tasks.worlds.building.plan_mark import PlanMark
+from seethrough.tasks.worlds.building.visit import Visit, before, visit
 
 SEARCH = Label("unique.search", (0.26, 0.02))
 
@@ -38,23 +39,21 @@ class UniqueState:
 class Unique:
     """Find it: the pointer turns, arrow keys walk, space or enter ends the search; then mark it."""
 
-    name = "unique"
-    scenario = "walkthrough"
+    name, code, version = "unique", "T3", "1"
+    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    worlds = ("building",)
+    Parameters = NoParameters
+    measures: tuple[Measure, ...] = (DISTANCE, CORRECT)
+    title, instruction = "unique.title", "unique.instruction"
+    texts: Texts = OwnTexts("seethrough.tasks.unique")
 
-    def make_scene(self, rng: Generator, parameters: BuildingParameters) -> Building:
+    def make_scene(self, rng: Generator, setting: Setting) -> Building:
         """One of the study's buildings: the same for everybody, so from the study's seed."""
-        return unique_building(rng, parameters)
+        return unique_building(rng, setting.place)
 
-    def begin(
-        self,
-        rng: Generator,
-        parameters: BuildingParameters,
-        aspect: float,
-        scene: Building | None = None,
-    ) -> UniqueState:
+    def begin(self, made: Building, setting: Setting, aspect: float) -> UniqueState:
         """The first state of a trial."""
-        building = self.make_scene(rng, parameters) if scene is None else scene
-        return UniqueState(visit(building, parameters), PlanMark(aspect, parameters.side))
+        return UniqueState(visit(made, setting.place), PlanMark(aspect, setting.place.side))
 
     def on_event(self, state: UniqueState, event: Event) -> UniqueState:
         """The state after `event`."""

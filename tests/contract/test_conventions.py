@@ -21,8 +21,9 @@ from seethrough.renderer.scene.visibility import shares
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.controls import orbit, turned, walk
 from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 AHEAD = np.array([0.0, 0.0, -1.0])
 LEFT = np.array([-1.0, 0.0, 0.0])

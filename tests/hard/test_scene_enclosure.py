@@ -8,9 +8,9 @@ from scipy.spatial import ConvexHull
 from seethrough.renderer.scene.geometry import torus
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import moved, placed, random_rotation
-from seethrough.tasks.parameters import AbstractParameters
+from seethrough.tasks.kit.enclosure import encloses, enclosing_pairs
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene, unit_mesh
-from seethrough.tasks.worlds.building.enclosure import encloses, enclosing_pairs
 
 
 def thing(shape, place=(0, 0, 0), scale=1.0, turn=None):

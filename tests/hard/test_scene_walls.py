@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seethrough.renderer.scene.transforms import moved
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import random_floor
 from seethrough.tasks.worlds.building.walls import inner_walls, shell
 

@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from played_tasks import begin
 
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 SIZE = (800, 600)
 CLOUD = AbstractParameters(side=50.0, objects=60, target_share=(0.3, 0.4))
@@ -21,10 +23,9 @@ def views():
     """Eight clouds and a building, each with its first view."""
     found = []
     for seed, name in enumerate(["count", "pattern"] * 4 + ["unique"]):
-        rng, task = np.random.default_rng(seed), TASKS[name]
-        parameters = CLOUD if task.scenario == "abstract" else HOUSE
-        scene = task.make_scene(rng, parameters)
-        found.append(task.view(task.begin(rng, parameters, 4 / 3, scene)))
+        task = TASKS[name]
+        place = CLOUD if "abstract" in task.worlds else HOUSE
+        found.append(task.view(begin(name, place, seed=seed)))
     return found
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from instruction_pictures import SIZE, sights
+from played_tasks import PUBLISHED, begin
 
 from seethrough.experiment.session.viewpoint import best, shown
 from seethrough.renderer.gpu.renderer import Renderer
@@ -11,9 +12,8 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import box
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import translation
-from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.catalog import TASKS, world_of
 from seethrough.tasks.kit.base import Example
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 # Ours; `python tests/support/instruction_pictures.py SEEDS` prints the least over more seeds.
 LARGEST = {"unique": 0.01, "count_in_building": 0.01}  # of the picture, the largest thing asked for
@@ -30,11 +30,10 @@ def test_every_instruction_shows_what_is_asked_for(context, seed):
         assert sight.seen >= 1
 
 
-@pytest.mark.parametrize("task", TASKS)
+@pytest.mark.parametrize("task", PUBLISHED)
 def test_what_is_counted_is_the_nearest_surface_of_the_whole_scene(task):
     """Leaving out what lies outside of the view changes no pixel."""
-    kind = AbstractParameters if TASKS[task].scenario == "abstract" else BuildingParameters
-    state = TASKS[task].begin(np.random.default_rng(5), kind(objects=100), 4 / 3)
+    state = begin(task, world_of(TASKS[task]).Parameters(objects=100), seed=5)
     scene = TASKS[task].view(state).scene
     for camera in TASKS[task].example(state, 4 / 3).cameras[::12]:
         depth = fragments(scene, camera, (32, 24)).depth

@@ -18,8 +18,8 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import MASKS, DynamicTransparency
 from seethrough.tasks.kit.controls import walk
-from seethrough.tasks.parameters import BuildingParameters
 from seethrough.tasks.worlds.building.building import unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 SIZE = (76, 60)  # ends within a block, on both sides
 SORTED = DynamicTransparency(width=8, exact=True)

@@ -5,9 +5,9 @@ import numpy as np
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.visibility import Visibility
-from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.catalog import TASKS, setting
 from seethrough.tasks.worlds.building.building import count_building, unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 ASPECT = 4 / 3
 _MESHES = {
@@ -21,12 +21,13 @@ MODELS = {name: (lambda mesh=mesh: mesh) for name, mesh in _MESHES.items()}
 
 def begun(name, seed):
     """A trial's first state; buildings are furnished with plain shapes, which are quick to make."""
-    rng = np.random.default_rng(seed)
-    if TASKS[name].scenario == "abstract":
-        return TASKS[name].begin(rng, AbstractParameters(), ASPECT)
+    rng, task = np.random.default_rng(seed), TASKS[name]
+    if "abstract" in task.worlds:
+        given = setting(task)
+        return task.begin(task.make_scene(rng, given), given, ASPECT)
     make = unique_building if name == "unique" else count_building
     building = make(rng, BuildingParameters(), MODELS)
-    return TASKS[name].begin(rng, building.parameters, ASPECT, building)
+    return task.begin(building, setting(task, building.parameters), ASPECT)
 
 
 def sight(view, shown):

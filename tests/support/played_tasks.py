@@ -2,18 +2,27 @@
 
 import numpy as np
 
-from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.catalog import TASKS, setting, world_of
 from seethrough.tasks.kit.events import KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.kit.hud import Button
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
 
 ASPECT = 4 / 3
 
 
+PUBLISHED = ("count", "pattern", "unique", "count_in_building")  # the tasks of paper 004
+
+
+def begin(name, place=None, made=None, seed=1, aspect=ASPECT):
+    """A task's first state, in a scene that was made or in one of its own."""
+    task = TASKS[name]
+    given = setting(task, place)
+    made = task.make_scene(np.random.default_rng(seed), given) if made is None else made
+    return task.begin(made, given, aspect)
+
+
 def begun(name, seed=1, **changes):
     task = TASKS[name]
-    kind = AbstractParameters if task.scenario == "abstract" else BuildingParameters
-    return task, task.begin(np.random.default_rng(seed), kind(**changes), ASPECT)
+    return task, begin(name, world_of(task).Parameters(**changes), seed=seed)
 
 
 def play(task, state, events):

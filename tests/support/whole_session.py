@@ -25,8 +25,8 @@ from player import START, open_session, trials_of
 from seethrough.experiment import cli
 from seethrough.experiment.study.config import load
 from seethrough.tasks.kit.entry import NumberEntry
-from seethrough.tasks.kit.plan_mark import PlanMark
 from seethrough.tasks.pattern import pattern_task as pattern
+from seethrough.tasks.worlds.building.plan_mark import PlanMark
 
 STUDY = "published"
 KILLED = (8, 16)  # after so many trials of the design, in the middle of the next one

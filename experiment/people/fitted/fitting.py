@@ -89,7 +89,7 @@ class Crowd:
                     time = play_trial(person, self.pool, trial)[0].time
                     rows.append(
                         {"participant": slot, "task": trial.task,
-                         "transparency": trial.transparency, "time": time}
+                         "transparency": trial.levels["transparency"], "time": time}
                     )  # fmt: skip
             self.pool.looks.flush()
         return rows

@@ -95,11 +95,11 @@ class TableEyes:
     """
 
     def __init__(
-        self, looks: KeptLooks, name: str, objects: int, world: str, draw: Draw | None = None
+        self, looks: KeptLooks, name: str, objects: int, moving: str, draw: Draw | None = None
     ) -> None:
         self.looks, self.name, self.objects = looks, name, objects
         self.draw = draw
-        orbits = world == "abstract"
+        orbits = moving == "orbit"
         self._key = orbit_key if orbits else walk_key
         self._camera = orbit_camera if orbits else walk_camera
 

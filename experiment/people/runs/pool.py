@@ -1,6 +1,6 @@
-"""Scenes for data mode, made once: a pool of abstract worlds for each task, the study's buildings.
+"""Scenes for data mode, made once: a pool for each task whose scenes are everybody's own.
 
-Every abstract trial draws its world from the pool by its own stream; buildings are those of the
+Every such trial draws its scene from the pool by its own stream; shared scenes are those of the
 study, the same for everybody, as in the real session.
 """
 
@@ -21,6 +21,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Task, View
+from seethrough.tasks.kit.world import OWN
 
 SIMPLE = "simple models, "  # what tables were looked at with
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
@@ -42,7 +43,7 @@ class Pool(StudyScenes):
         self.size, self._draw = size, draw
         self.looks = looks or KeptLooks()
         self._scenes: dict[tuple[str, Any], Any] = {}
-        self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, its world
+        self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, moving
         self._draws: dict[Any, Draw | None] = {}
         self._eyes: dict[tuple[int, Any], TableEyes] = {}
 
@@ -50,7 +51,7 @@ class Pool(StudyScenes):
         """The first state of a trial."""
         rng = generator(self.study.study.seed, trial.stream)
         stream = trial.stream
-        if self.size and not self.study.part(trial.levels).plan.shared:
+        if self.size and self.study.setting(trial).place.scenes == OWN:
             stream = self._stream(trial.task, int(rng.integers(self.size)))
         return self._begun(task, trial, aspect, stream)
 
@@ -71,25 +72,24 @@ class Pool(StudyScenes):
         return self._eyes[key]
 
     def _stream(self, task: str, which: int) -> tuple[int, ...]:
-        return (STUDY_SCENES, POOL, sorted(TASKS).index(task), which)
+        return (STUDY_SCENES, POOL, sorted(self.study.tasks()).index(task), which)
 
     def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> Any:
-        study, place = self.study, self.study.part(trial.levels).place
+        setting = self.study.setting(trial)
         name = f"{trial.task}-" + "-".join(map(str, stream))
-        if (name, place) not in self._scenes:
-            made = task.make_scene(generator(study.study.seed, stream), place)
-            self._scenes[name, place] = made
-            self._names[id(getattr(made, "scene", made))] = (name, trial.world)
-        rng = generator(study.study.seed, trial.stream)
-        return task.begin(rng, place, aspect, self._scenes[name, place])
+        if (name, setting.place) not in self._scenes:
+            made = task.make_scene(generator(self.study.study.seed, stream), setting)
+            self._scenes[name, setting.place] = made
+            self._names[id(made.scene)] = (name, setting.world.moving)
+        return task.begin(self._scenes[name, setting.place], setting, aspect)
 
     def _open(self, scene: Scene, technique: Any) -> TableEyes:
-        name, world = self._names[id(scene)]
+        name, moving = self._names[id(scene)]
         own = fingerprint(scene, technique, window_of(self.study))
         table = f"{name}-{own}/{type(technique).__name__}"
         if technique not in self._draws:
             self._draws[technique] = None if self._draw is None else self._draw(technique)
-        return TableEyes(self.looks, table, len(scene.objects), world, self._draws[technique])
+        return TableEyes(self.looks, table, len(scene.objects), moving, self._draws[technique])
 
 
 def drawing(study: Study, size: int, looks: KeptLooks | None = None) -> Pool:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
-from math import ceil, floor
 
 import numpy as np
 from numpy.random import Generator
@@ -13,9 +13,9 @@ from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Color, Object, Scene
 from seethrough.renderer.scene.transforms import placed, random_rotation
+from seethrough.tasks.kit.enclosure import enclosing_pairs, farthest
 from seethrough.tasks.kit.letters import grid_reach, letter_points
-from seethrough.tasks.parameters import AbstractParameters
-from seethrough.tasks.worlds.building.enclosure import enclosing_pairs, farthest
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 
 RED = (1.0, 0.0, 0.0)
 VERMILION = (0.835, 0.369, 0.0)  # the red of Okabe and Ito's palette, apart from blue for everybody
@@ -51,6 +51,19 @@ def distractor_color(p: AbstractParameters, green: float, blue: float) -> Color:
     return (0.0, 0.2 + 0.45 * green, 0.45 + 0.55 * blue)
 
 
+@dataclass(frozen=True, eq=False)
+class Cloud:
+    """A place of the abstract world, and the letter that its red cones form, if they do."""
+
+    scene: Scene
+    letter: str = ""
+
+
+def cloud(rng: Generator, parameters: AbstractParameters, letter: str = "") -> Cloud:
+    """A place of its own for each call; see `abstract_scene`."""
+    return Cloud(abstract_scene(rng, parameters, letter or None), letter)
+
+
 def abstract_scene(
     rng: Generator, parameters: AbstractParameters, pattern: str | None = None
 ) -> Scene:
@@ -74,20 +87,20 @@ def abstract_scene(
     objects += [_random_object(rng, p, free, red) for _ in range(targets - len(places))]
     objects += [
         _random_object(rng, p, p.shapes, distractor_color(p, *rng.uniform(DARKEST, 1, 2)))
-        for _ in range(p.objects - targets)
+        for _ in range(p.others(targets))
     ]
     return Scene(tuple(_disclosed(rng, p, objects, len(places))))
 
 
 def _number_of_targets(rng: Generator, p: AbstractParameters, least: int) -> int:
-    low = max(ceil(p.target_share[0] * p.objects - 1e-9), least)
-    high = floor(p.target_share[1] * p.objects + 1e-9)
-    if low > high:
+    low, high = p.target_range
+    if high < least:
+        rule = "targets allow" if p.targets else "target_share allows"
         raise ValueError(
             f"objects = {p.objects}, expected enough of them: the letter takes {least} red cones, "
-            f"target_share allows {high}"
+            f"{rule} {high}"
         )
-    return int(rng.integers(low, high + 1))
+    return int(rng.integers(max(low, least), high + 1))
 
 
 def _random_object(rng: Generator, p: AbstractParameters, shapes: tuple[str, ...], color) -> Object:

@@ -14,7 +14,7 @@ from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import placed, rotation_y
 from seethrough.tasks.kit.own_models import mesh_of
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import Floor, random_floor
 from seethrough.tasks.worlds.building.walls import inner_walls, shell
 

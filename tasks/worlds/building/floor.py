@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.random import Generator
 
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import placed, rotation_y, scaling, translation
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import Floor, built_lengths
 
 INNER = (0.87, 0.84, 0.78)

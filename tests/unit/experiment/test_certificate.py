@@ -3,7 +3,6 @@
 import csv
 import re
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,7 +15,6 @@ from seethrough.experiment.study.certificate import (
     Certifier,
     Difficulty,
     matches,
-    walking_path,
     worst,
 )
 from seethrough.experiment.study.config import parse
@@ -25,6 +23,7 @@ from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.tasks.catalog import WORLDS
 
 STUDY = """
 [study]
@@ -96,9 +95,10 @@ def test_targets_out_of_view_have_no_fraction():
 
 
 def test_the_walking_path_goes_to_the_nearest_next():
-    scene = SimpleNamespace(centers=np.array([[3.0, 1, 0], [0, 1, 4.0], [0, 1, 9.0], [9, 9, 9]]))
-    building = SimpleNamespace(scene=scene, asked_objects=[0, 1, 2], start=(0.0, 0.0))
-    assert walking_path(building) == 3.0 + 5.0 + 5.0
+    asked = np.array([[3.0, 1, 0], [0, 1, 4.0], [0, 1, 9.0]])
+    start = look_at(np.array([0.0, 3.2, 0.0]), np.array([0.0, 3.2, -1.0]))
+    assert WORLDS["building"].path(start, asked) == 3.0 + 5.0 + 5.0
+    assert WORLDS["abstract"].path(start, asked) == 0.0
 
 
 def difficulty(task, level, visible, scene="s", **others):

@@ -77,7 +77,7 @@ WRONG = [
         [],
         r"design\.tasks = \[\]: expected an array of some of .*, each once, at least 1$",
     ),
-    ("design", "tasks", ["juggle"], r"design\.tasks\[0\] = \"juggle\": expected \"count\", \"patt"),
+    ("design", "tasks", ["juggle"], r"design\.tasks\[0\] = \"juggle\": expected one of \"coun"),
     ("design", "tasks", ["count", "count"], r"design\.tasks = .*: expected each name once"),
     ("study", "name", "a b", r"study\.name = \"a b\": expected 1 to 32 letters and digits "),
     ("study", "seed", -1, r"study\.seed = -1: expected a whole number from 0 to 2\^63"),

@@ -23,6 +23,7 @@ PUBLISHED = Factors(
     tasks={"abstract": ("count", "pattern"), "walkthrough": ("unique", "count_in_building")},
     trials=3,
     training=1,
+    static_scenarios=("walkthrough",),
 )
 
 

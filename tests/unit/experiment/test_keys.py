@@ -11,7 +11,9 @@ from seethrough.experiment.study.config import Study, find, parse
 from seethrough.experiment.study.keys import REFERENCE, REQUIRED, TABLES, keys_of, reference
 from seethrough.renderer.declared import Of, declared
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters, OwnModel
+from seethrough.tasks.kit.own_models import OwnModel
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 FOUND_OUT = {"folder"}  # of a model, when the study is read
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))

@@ -63,7 +63,7 @@ def played(trial, **how):
     return looker.shown, TrialRun(STUDY, world).play(trial, 2.0)
 
 
-@pytest.mark.parametrize("task", TASKS)
+@pytest.mark.parametrize("task", STUDY.design.tasks)
 def test_every_frame_of_a_practice_trial_is_marked_and_none_of_any_other(task):
     (task_set, *_) = [t for t in SETS if t.trials[0].task == task]
     for trial in (task_set.training[0], task_set.trials[0]):
@@ -149,4 +149,4 @@ def test_the_scene_is_made_while_the_world_waits():
 
     trial = next(t.trials[0] for t in SETS if t.trials[0].task == "count")
     views, _ = played(trial, waiting=waiting)
-    assert [state.scene for state in made] == [views[0].scene]
+    assert [state.cloud.scene for state in made] == [views[0].scene]

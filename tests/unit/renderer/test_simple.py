@@ -16,8 +16,8 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicT
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.controls import walk
-from seethrough.tasks.parameters import BuildingParameters
 from seethrough.tasks.worlds.building.building import unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 PARAMETERS = BuildingParameters()
 BUILDING = unique_building(np.random.default_rng(3), PARAMETERS)

@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from seethrough.tasks.kit.enclosure import bounding_radius, enclosing_pairs
 from seethrough.tasks.kit.letters import LETTERS, grid_reach, letter_points
-from seethrough.tasks.parameters import SHAPES, AbstractParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import SHAPES, AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import RED, abstract_scene, unit_mesh
-from seethrough.tasks.worlds.building.enclosure import bounding_radius, enclosing_pairs
 
 SEEDS = st.integers(0, 2**32 - 1)
 

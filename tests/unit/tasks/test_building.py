@@ -10,8 +10,8 @@ from numpy.testing import assert_allclose
 
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.transforms import moved
-from seethrough.tasks.parameters import BuildingParameters
 from seethrough.tasks.worlds.building.building import count_building, unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import random_floor, room_at
 from seethrough.tasks.worlds.building.walls import wall_with_doorway
 

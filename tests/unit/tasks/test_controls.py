@@ -10,8 +10,9 @@ from numpy.testing import assert_allclose
 
 from seethrough.tasks.kit.controls import orbit, turned, walk
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, Tick
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 ABSTRACT, BUILDING = AbstractParameters(), BuildingParameters()
 KEYS = st.sampled_from(["left", "right", "up", "down", "x"])

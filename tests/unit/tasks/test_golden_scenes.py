@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from seethrough.renderer.scene import geometry
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building import count_building, unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 # Meshes of this test alone: the models that ship may grow without these scenes changing.
 _MESHES = {

@@ -6,7 +6,7 @@ from played_tasks import begun, button, click, keys, of, play
 
 from seethrough.tasks.kit.events import KeyPress, PointerPress
 from seethrough.tasks.kit.hud import FloorPlan, Label
-from seethrough.tasks.parameters import METRES
+from seethrough.tasks.worlds.building.building_parameters import METRES
 from seethrough.tasks.worlds.building.floor import room_at
 
 ENTER = [KeyPress(1.0, "enter")]

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from played_tasks import ASPECT, begun, button, click, keys, of, play
+from played_tasks import ASPECT, PUBLISHED, begin, begun, button, click, keys, of, play
 
-from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.catalog import TASKS, setting
 from seethrough.tasks.kit.entry import NumberEntry
 from seethrough.tasks.kit.events import (
     KeyPress,
@@ -17,13 +17,13 @@ from seethrough.tasks.kit.events import (
 )
 from seethrough.tasks.kit.hud import Button, Entry, FloorPlan, Inset, Label
 from seethrough.tasks.kit.letters import LETTERS
-from seethrough.tasks.kit.plan_mark import wall_lines
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import RED
 from seethrough.tasks.worlds.building.floor import room_at
+from seethrough.tasks.worlds.building.plan_mark import wall_lines
 
 
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_a_trial_begins_without_an_answer_and_is_the_same_again(name):
     task, state = begun(name)
     assert task.name == name and task.outcome(state) is None
@@ -31,15 +31,14 @@ def test_a_trial_begins_without_an_answer_and_is_the_same_again(name):
     assert np.array_equal(view.scene.transforms, again.scene.transforms)
     assert np.array_equal(view.camera.eye, again.camera.eye)
     assert of(Label, view)
-    assert view.captured == (task.scenario == "walkthrough")
+    assert view.captured == ("building" in task.worlds)
 
 
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_a_scene_that_is_given_is_used(name):
     task, _ = begun(name)
-    parameters = AbstractParameters() if task.scenario == "abstract" else BuildingParameters()
-    scene = task.make_scene(np.random.default_rng(3), parameters)
-    states = [task.begin(np.random.default_rng(s), parameters, ASPECT, scene) for s in (1, 2)]
+    made = task.make_scene(np.random.default_rng(3), setting(task))
+    states = [begin(name, made=made, seed=s) for s in (1, 2)]
     assert task.view(states[0]).scene is task.view(states[1]).scene
 
 
@@ -135,8 +134,8 @@ def test_pattern_by_mouse_and_changed_minds():
 
 def test_all_five_letters_come_up():
     task = TASKS["pattern"]
-    p = AbstractParameters(objects=120, target_share=(0.2, 0.3))
-    letters = [task.make_scene(np.random.default_rng(s), p).letter for s in range(60)]
+    given = setting(task, AbstractParameters(objects=120, target_share=(0.2, 0.3)))
+    letters = [task.make_scene(np.random.default_rng(s), given).letter for s in range(60)]
     assert set(letters) == set(LETTERS)
 
 

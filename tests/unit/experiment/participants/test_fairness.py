@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from played_tasks import begin
 
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.renderer.gpu.device.context import standalone
@@ -14,9 +15,10 @@ from seethrough.renderer.scene.transforms import placed
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
-from seethrough.tasks.worlds.abstract.abstract_scene import RED, unit_mesh
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import RED, Cloud, unit_mesh
 from seethrough.tasks.worlds.building.building import count_building, unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 ASPECT = 4 / 3
 
@@ -57,8 +59,8 @@ def one_room(name):
 def play(renderer, scene, technique, seed, name="count", seen=lambda sight: sight):
     """Events and outcome of one trial; `seen` changes what the eyes report."""
     task = TASKS[name]
-    parameters, world = (AbstractParameters(), scene) if name == "count" else scene
-    state = task.begin(np.random.default_rng(1), parameters, ASPECT, world)
+    place, made = (AbstractParameters(), Cloud(scene)) if name == "count" else scene
+    state = begin(name, place, made)
     participant = SimulatedParticipant(np.random.default_rng(seed))
     participant.begin_trial(name, 0.0)
     now, events = 0.0, []

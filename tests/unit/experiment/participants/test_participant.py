@@ -6,7 +6,8 @@ from functools import partial
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from plain_trials import ASPECT, QUIET, begun, play, sight
+from plain_trials import QUIET, begun, play, sight
+from played_tasks import PUBLISHED, begin
 
 from seethrough.experiment.people.count_red import _red
 from seethrough.experiment.people.hands import Hands
@@ -17,7 +18,8 @@ from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
-from seethrough.tasks.parameters import AbstractParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.abstract.abstract_scene import Cloud
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -132,7 +134,7 @@ def test_what_nobody_could_see_is_not_counted():
         return np.arange(len(scene.objects)) % 2 == 0
 
     outcome = play("count", shown=half, without=QUIET)[0]
-    scene = TASKS["count"].begin(np.random.default_rng(1), AbstractParameters(), ASPECT).scene
+    scene = begin("count").cloud.scene
     assert int(outcome.answer) == int(scene.targets[::2].sum())
 
 
@@ -151,17 +153,14 @@ def test_invisible_objects_do_not_change_a_thing():
         return np.arange(len(scene.objects)) % 2 == 1
 
     task = TASKS["count"]
-    state = task.begin(np.random.default_rng(1), AbstractParameters(), ASPECT)
-    scene = state.scene
+    scene = begin("count").cloud.scene
     swapped = tuple(
         o if i % 2 else type(o)(o.mesh, o.transform, (1.0, 0.0, 0.0), True)
         for i, o in enumerate(scene.objects)
     )
     runs = []
     for objects in (scene.objects, swapped):
-        world = task.begin(
-            np.random.default_rng(1), AbstractParameters(), ASPECT, type(scene)(objects)
-        )
+        world = begin("count", made=Cloud(type(scene)(objects)))
         participant = SimulatedParticipant(np.random.default_rng(9))
         participant.begin_trial("count", 0.0)
         now, events, state = 0.0, [], world
@@ -176,7 +175,7 @@ def test_invisible_objects_do_not_change_a_thing():
     assert runs[0] == runs[1]
 
 
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_one_seed_one_performance(name):
     first, again, other = (
         play(name, 2, profile=PROFILES[p]) for p in ("average",) * 2 + ("hasty",)
@@ -185,12 +184,12 @@ def test_one_seed_one_performance(name):
     assert first[2] != other[2]
 
 
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_events_come_in_order_and_tell_the_task_enough(name):
     _, _, events, _ = play(name, 3)
     times = [e.time for e in events if not isinstance(e, Tick)]
     assert times == sorted(times)
-    if TASKS[name].scenario == "abstract":
+    if "abstract" in TASKS[name].worlds:
         assert any(isinstance(e, PointerPress) for e in events)
         assert all(e.dragging for e in events if isinstance(e, PointerMove))
     else:
@@ -200,7 +199,7 @@ def test_events_come_in_order_and_tell_the_task_enough(name):
 def test_a_drag_gain_that_surprises_is_learned():
     task = TASKS["count"]
     p = AbstractParameters(drag_gain=1.5)
-    state = task.begin(np.random.default_rng(1), p, ASPECT)
+    state = begin("count", p)
     participant = SimulatedParticipant(np.random.default_rng(4), without=["motor_noise"])
     participant.begin_trial("count", 0.0)
     now, yaws = 0.0, [state.orbit.yaw]
@@ -278,7 +277,7 @@ def test_effects_are_planned_with_reasons():
     assert participant.effects["drift"].used and not participant.effects["slips"].used
 
 
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("name", PUBLISHED)
 def test_leaving_out_an_effect_changes_the_trials_that_call_for_it_and_no_others(name):
     """With everything visible: the same luck, event for event, where it is not called for."""
     whole = play(name, 2)[2]
@@ -341,9 +340,7 @@ def test_bad_input_is_named(build, message):
 
 def test_an_answer_that_did_not_count_is_confirmed_again():
     outcome, now, _, participant = play("count")
-    view = TASKS["count"].view(
-        TASKS["count"].begin(np.random.default_rng(1), AbstractParameters(), ASPECT)
-    )
+    view = TASKS["count"].view(begin("count"))
     more = participant.events(view, lambda: None, now, "count")
     assert outcome is not None
     assert any(isinstance(e, KeyPress) and e.key == "enter" for e in more)

@@ -30,8 +30,8 @@ from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.events import PointerMove
 from seethrough.tasks.kit.letters import LETTERS, letter_points
-from seethrough.tasks.parameters import BuildingParameters
 from seethrough.tasks.worlds.building.building import unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 
 def mood(task="count", seed=1, without=(), care=1.0):

@@ -14,7 +14,7 @@ from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.controls import changed, walk
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, Tick
-from seethrough.tasks.parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 THINGS = (True, False, True, True, False, True)  # what may be asked for; the others are walls
 SCENE = Scene(tuple(Object(geometry.box(), target=thing) for thing in THINGS))

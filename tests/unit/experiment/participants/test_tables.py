@@ -26,7 +26,8 @@ from seethrough.experiment.study.design import generator
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.controls import orbit, walk
-from seethrough.tasks.parameters import AbstractParameters, BuildingParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 ASPECT = 4 / 3
 
@@ -165,7 +166,7 @@ def test_tables_made_beforehand_play_the_same_without_drawing(tmp_path):
 def test_a_table_belongs_to_its_scene_technique_and_window():
     study = small_study()
     trial = trial_of(study, "count", "dynamic")
-    scene = Pool(study, 2).begin(TASKS["count"], trial, ASPECT).scene
+    scene = Pool(study, 2).begin(TASKS["count"], trial, ASPECT).cloud.scene
     moved = scene.objects[0].transform.copy()
     moved[0, 3] += 0.001
     objects = (type(scene.objects[0])(scene.objects[0].mesh, moved), *scene.objects[1:])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from plain_trials import MODELS
+from played_tasks import begin
 
 from seethrough.experiment.people.persons.person import Mood
 from seethrough.experiment.people.persons.profile import AVERAGE
@@ -16,8 +17,8 @@ from seethrough.experiment.people.sight.sight import Sight, Thing
 from seethrough.experiment.people.walking import Walker
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.parameters import BuildingParameters
 from seethrough.tasks.worlds.building.building import count_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 TASK = TASKS["count_in_building"]
 BUILDING = count_building(np.random.default_rng(1), BuildingParameters(), MODELS)
@@ -25,7 +26,7 @@ BUILDING = count_building(np.random.default_rng(1), BuildingParameters(), MODELS
 
 def walker(look=None, seed=1):
     """Somebody at the building's start."""
-    state = TASK.begin(np.random.default_rng(1), BUILDING.parameters, 4 / 3, BUILDING)
+    state = begin("count_in_building", BUILDING.parameters, BUILDING)
     effects = plan_effects("count_in_building", 0, frozenset())
     mood = Mood(np.random.default_rng(seed), AVERAGE, effects, 1.0, 1.0)
     return Walker(mood, Glance(TASK.view(state), look, 0.0))

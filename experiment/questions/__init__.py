@@ -1,0 +1,1 @@
+"""Kinds of questions that a study may ask."""
