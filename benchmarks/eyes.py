@@ -31,7 +31,6 @@ from seethrough.experiment.study.design import SIMULATED, Trial, generator, sess
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
 from seethrough.renderer.scene.visibility import Visibility
-from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, Tick
 
@@ -92,9 +91,8 @@ class OpenEyes(Pool):
         self.renderer, self.way = renderer, way
         self.picture = (round(way.height * ASPECT), way.height)
 
-    def look(self, view: View, level: str) -> Visibility:
+    def look(self, view: View, technique: Any) -> Visibility:
         """What is seen in the view, drawn anew."""
-        technique = self.study.dynamic if level == "dynamic" else Standard()
         scene = simplified(view.scene) if self.way.simple else view.scene
         return self.renderer.look(scene, view.camera, technique, self.picture)
 
@@ -107,8 +105,8 @@ def play(trials: Sequence[Trial], pool: Pool, way: Way, repeats: int) -> Eyes:
     for k, trial in enumerate(trials):
         for repeat in range(repeats):
             person = SimulatedParticipant(generator(1, (SIMULATED, 1 + k, repeat)), profile)
-            text = Paragraph(f"transparency.{trial.transparency}")
-            person.answer(Page("instruction", "", (text,)))
+            levels = tuple(trial.levels.items())
+            person.answer(Page("instruction", "", (Paragraph("ready.text"),), levels=levels))
             record, sent = play_trial(person, pool, trial)
             played.append(record)
             events.append(sent)

@@ -43,8 +43,11 @@ def designs(draw, orders=("williams", "latin", "fixed", "random")):
     tasks = tuple(f"task{k}" for k in range(draw(st.integers(1, 3))))
     shared = draw(st.booleans())
     plan = CellPlan("world", tasks, draw(st.integers(1, 2)), draw(st.integers(0, 2)), shared)
-    there = [c for c in every
-             if not left_out(dict(zip([f.name for f in factors], c, strict=True)), excluded)]
+    there = [
+        c
+        for c in every
+        if not left_out(dict(zip([f.name for f in factors], c, strict=True)), excluded)
+    ]
     return Design(
         tuple(factors),
         dict.fromkeys(there, plan),

@@ -102,9 +102,7 @@ def test_a_new_last_factors_first_level_leaves_every_scene_as_it_was(made, slot)
     before = {t.stream: t.levels for s in session_for(slot, made) for t in s.trials}
     after = [t for s in session_for(slot, wider) for t in s.trials if t.levels["new"] == "old"]
     assert {t.stream for t in after} == set(before)
-    assert all(
-        {n: t.levels[n] for n in made.names} == dict(before[t.stream]) for t in after
-    )
+    assert all({n: t.levels[n] for n in made.names} == dict(before[t.stream]) for t in after)
 
 
 def three_views(order="williams"):

@@ -33,13 +33,16 @@ description = "x"
 participants = 2
 seed = 5
 [design]
-trials = 1
 tasks = ["count"]
-[abstract]
+trials = 1
+[factors.transparency]
+levels.standard = { technique.use = "standard" }
+levels.dynamic = { technique.use = "dynamic" }
+[world.abstract]
 side = 50.0
 objects = 60
 target_share = [0.3, 0.4]
-[walkthrough]
+[world.building]
 grid = 6
 objects = 8
 count = [1, 3]
@@ -47,6 +50,12 @@ types = ["chair", "table", "cat"]
 [display]
 width = 320
 height = 240
+[world]
+use = "abstract"
+[questions] # in this order
+ratings = { when = "end", each = ["transparency"] }
+comparison = { when = "end", of = "transparency" }
+remarks = { when = "end" }
 """
 
 
@@ -224,7 +233,7 @@ def test_check_fails_names_the_trial_finds_redraws_and_they_match(
 def test_a_scene_drawn_again_comes_from_another_stream():
     study = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
                              "seed": 1}}, "x")  # fmt: skip
-    first = session_for(1, study.design.factors())[0].trials[0]
+    first = session_for(1, study.plan)[0].trials[0]
     again = study.design.model_copy(update={"redraw": (first.scene, first.scene)})
     second = session_for(1, again.factors())[0].trials[0]
     assert second.stream == (*first.stream, 2) and second.scene == first.scene

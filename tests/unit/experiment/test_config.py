@@ -28,7 +28,7 @@ def test_the_published_study_is_the_published_study():
     study = load("configs/published.toml")
     assert study.study.participants == 16
     assert study.design.trials == 3
-    assert len(study.design.factors().conditions) == 4
+    assert len(study.plan.conditions) == 4
     assert (study.abstract.side, study.abstract.objects) == (100.0, 200)
     assert study.abstract.target_share == (0.1, 0.2)
     assert (study.walkthrough.grid, study.walkthrough.objects) == (16, 50)
