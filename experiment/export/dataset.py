@@ -19,7 +19,7 @@ from seethrough.analysis.load.whole import verified
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, plain
 from seethrough.experiment.files.private import make_folder, write_new
-from seethrough.experiment.record.columns import TABLES, Column, columns_in
+from seethrough.experiment.record.columns import TABLES, Column, columns_in, versions
 from seethrough.experiment.record.record_files import csv_line
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "'")
@@ -144,7 +144,7 @@ def _rows(path: Path, data: bytes, table: str) -> list[Row]:
         raise InputError(f"{path}: not readable as a table: {error}") from None
     columns = columns_in(table, header)
     empty = dict.fromkeys((column.name for column in columns), "")
-    columns = tuple(c for c in columns if not c.added or c.name in header)
+    columns = next((v for v in versions(columns) if [c.name for c in v] == header), columns)
     names = [column.name for column in columns]
     if header != names:
         odd = sorted(set(header) ^ set(names))

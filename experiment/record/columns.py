@@ -1,13 +1,14 @@
 """Every column of every table the recorder writes: the data dictionary is made from this file.
 
 Every study has the columns of TABLES; its factors are columns besides, in the order of its file,
-where FACTORS_BEFORE says.
+after the column that FACTORS_AFTER says.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import Any
 
 
@@ -15,8 +16,9 @@ from typing import Any
 class Column:
     """A column: its type ("text", "integer", "number" or "boolean"), unit, meaning and levels.
 
-    In the file, booleans are `true` and `false`, and what does not apply is empty. Tables that
-    were recorded before a column was `added` lack it, and are read with empty cells.
+    In the file, booleans are `true` and `false`, and what does not apply is empty. Columns that
+    came later say with which version of the tables they were `added`; tables of an earlier one lack
+    them all, and are read with empty cells.
     """
 
     name: str
@@ -24,7 +26,7 @@ class Column:
     description: str
     unit: str = ""
     levels: tuple[str, ...] = ()
-    added: bool = False
+    added: int = 0
 
 
 _WHO = (
@@ -46,7 +48,7 @@ TRIALS = (
     Column("task_set", "integer", "position of the task set in the session, from 1"),
     Column("trial_in_set", "integer", "position of the trial in its task set, from 1"),
     Column("attempt", "integer", "1, and one more each time the trial was repeated"),
-    Column("world", "text", "the world that the task was done in", added=True),
+    Column("world", "text", "the world that the task was done in", added=2),
     Column("task", "text", "what was to be done: a task's name, as T1 count"),
     Column("scene", "text", "which scene: a name of the study's set, or the stream it came from"),
     Column("targets", "integer", "number of targets in the scene"),
@@ -67,7 +69,7 @@ TRIALS = (
         "how much longer than `time` it may have been: the first frame's flip and the last event "
         "are known no better",
         "s",
-        added=True,
+        added=1,
     ),
     Column("time_clean", "number", "time, less what passed while the window had no focus", "s"),
     Column("timed_out", "boolean", "whether the trial ended at its time limit"),
@@ -75,7 +77,7 @@ TRIALS = (
         "early",
         "integer",
         "keys and buttons pressed before a frame could answer them: not taken",
-        added=True,
+        added=1,
     ),
     Column("frames", "integer", "frames shown", "frames"),
     Column(
@@ -118,7 +120,7 @@ NOTES = (
 )
 
 TABLES = {"trials": TRIALS, "questionnaire": QUESTIONNAIRE, "notes": NOTES}
-FACTORS_BEFORE = {"trials": "world", "questionnaire": "value", "notes": ""}
+FACTORS_AFTER = {"trials": "attempt", "questionnaire": "item", "notes": ""}
 RESERVED = tuple(dict.fromkeys(column.name for table in TABLES.values() for column in table))
 
 
@@ -140,13 +142,21 @@ def with_factors(factors: Iterable[Mapping[str, Any]]) -> dict[str, tuple[Column
 
 def _inserted(table: str, factors: tuple[Column, ...]) -> tuple[Column, ...]:
     columns = TABLES[table]
-    at = next((i for i, c in enumerate(columns) if c.name == FACTORS_BEFORE[table]), None)
+    at = next((i for i, c in enumerate(columns, start=1) if c.name == FACTORS_AFTER[table]), None)
     return columns if at is None else (*columns[:at], *factors, *columns[at:])
 
 
 def columns_in(table: str, header: Sequence[str]) -> tuple[Column, ...]:
-    """The columns of a file of a table by its header: what is none of every study's is a factor's,
-    if it stands where factors do."""
-    before = {c.name for c in TABLES[table]}
-    names = [name for name in header if name not in before]
+    """The columns of a file of a table by its header: those that stand where factors do are its
+    study's factors."""
+    known = {column.name for column in TABLES[table]}
+    after = FACTORS_AFTER[table]
+    rest = header[list(header).index(after) + 1 :] if after in header else []
+    names = takewhile(lambda name: name not in known, rest)
     return _inserted(table, tuple(factor_column(name) for name in names))
+
+
+def versions(columns: Sequence[Column]) -> list[tuple[Column, ...]]:
+    """The columns as each version of the tables had them, this one last."""
+    last = max(column.added for column in columns)
+    return [tuple(c for c in columns if c.added <= version) for version in range(last + 1)]

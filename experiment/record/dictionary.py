@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from seethrough.experiment.record.columns import FACTORS_BEFORE, TABLES, Column
+from seethrough.experiment.record.columns import FACTORS_AFTER, TABLES, Column
 
 README = Path(__file__).resolve().parents[2] / "data" / "README.md"
 BEGIN = (
@@ -28,7 +28,7 @@ def dictionary() -> str:
     for name, columns in TABLES.items():
         head = [f"## `…_{name}_data.csv`", "", "| column | type | unit | meaning |"]
         rows = list(map(_row, columns))
-        at = [i for i, column in enumerate(columns) if column.name == FACTORS_BEFORE[name]]
+        at = [i for i, column in enumerate(columns, start=1) if column.name == FACTORS_AFTER[name]]
         for place in at:
             rows.insert(place, FACTORS)
         parts.append("\n".join([*head, "| --- | --- | --- | --- |", *rows]))

@@ -134,9 +134,7 @@ def _unfit(
             faults.setdefault(("", ""), Fault("design.tasks", MISSING, said))
         for number, task in enumerate(design.tasks):
             key = _task_key(factors, cell, number)
-            if task not in known:
-                faults.setdefault((key, task), Fault(key, task, f"one of {', '.join(known)}"))
-            elif world.use not in plugins.worlds_of(task):
+            if world.use not in plugins.worlds_of(task):
                 here = [t for t in known if world.use in plugins.worlds_of(t)]
                 said = f"a task of the world {world.use}{where}: {', '.join(here) or 'none'}"
                 faults.setdefault((key, task), Fault(key, task, said))

@@ -154,7 +154,7 @@ def reference() -> str:
 
 def _row(key: StudyKey) -> str:
     default = "required" if key.default is REQUIRED else _default(key.default)
-    default = "none" if default == "``" else default
+    default = "none" if default == '`""`' and key.table == "factors.NAME" else default
     return f"| `{key.name}` | {key.allowed} | {default} | {key.unit} | {key.meaning} |"
 
 

@@ -12,6 +12,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator
 
+from seethrough import registry
+from seethrough.experiment.errors import shown
 from seethrough.experiment.files.folders import PARTICIPANT
 from seethrough.experiment.pages.texts import languages
 from seethrough.experiment.study.scopes import BLOCK, FIXED, SESSION
@@ -20,6 +22,7 @@ from seethrough.experiment.study.scopes import BLOCK, FIXED, SESSION
 AnalysisTest = Literal["time", "accuracy", "ratings", "tradeoff", "validity", "mixed"]
 EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
+TASKS_SAID = f"an array of some of {', '.join(map(shown, registry.names('task')))}, each once"
 NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
@@ -56,6 +59,12 @@ def _exclusion(value: str) -> str:
     kind, _, name = value.partition(":")
     if value not in EXCLUSIONS and not (kind == "participant" and PARTICIPANT.fullmatch(name)):
         raise ValueError(f"one of {', '.join(EXCLUSIONS)} or participant:ID")
+    return value
+
+
+def _task(value: str) -> str:
+    if value not in registry.names("task"):
+        raise ValueError(f"one of {', '.join(map(shown, registry.names('task')))}")
     return value
 
 
@@ -112,9 +121,9 @@ class DesignTable(Table):
         key("square over the conditions of all factors that have no order of their own"),
     ] = "williams"
     tasks: Annotated[
-        tuple[str, ...],
+        tuple[Annotated[str, AfterValidator(_task)], ...],
         key("what people do in each condition, in this order in the first slot", scope=BLOCK,
-            said="an array of names of tasks, each once, at least 1"),
+            said=TASKS_SAID, min_length=1),
     ] = ()  # fmt: skip
     trials: Annotated[int, key("trials of each task in each cell", scope=BLOCK, ge=1, le=100)] = 3
     exclude: Annotated[

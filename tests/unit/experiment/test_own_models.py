@@ -165,7 +165,7 @@ def test_what_is_wrong_with_the_entry_is_named(tmp_path, old, new, message):
     path = written(tmp_path, study=STUDY.replace(old, new))
     with pytest.raises(InputError) as caught:
         load(str(path))
-    assert re.search(rf"^\S*own\.toml: walkthrough\..*{message}", caught.value.lines[0])
+    assert re.search(rf"^\S*own\.toml: world\.building\..*{message}", caught.value.lines[0])
 
 
 def test_check_lists_the_models(tmp_path, capsys):

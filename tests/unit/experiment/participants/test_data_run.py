@@ -85,7 +85,7 @@ def test_own_models_and_a_cluster_are_refused_in_a_line(tmp_path, capsys):
     words = ["simulate", str(tmp_path / "own.toml"), "--mode", "data", "--out", str(tmp_path / "o")]
     assert cli.main([*words, "--scheduler", "tcp://127.0.0.1:1"]) == 2
     told = capsys.readouterr().err
-    line = f"seethrough: {tmp_path / 'own.toml'}: walkthrough.models = ['wedge']: expected none"
+    line = f"seethrough: {tmp_path / 'own.toml'}: world.building.models = ['wedge']: expected none"
     assert told.startswith(line) and told.count("\n") == 1
     assert not (tmp_path / "o").exists()
 
