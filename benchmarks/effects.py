@@ -16,15 +16,16 @@ from typing import Any
 import numpy as np
 
 from seethrough.benchmarks.rows import Row, row
-from seethrough.experiment.people.participant import STRATEGIES, SimulatedParticipant
-from seethrough.experiment.people.persons.profile import Profile
+from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.persons.profile_file import find
-from seethrough.experiment.people.persons.study_effects import EFFECTS, plan_effects
 from seethrough.experiment.people.runs.data_mode import play_trial
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
-from seethrough.experiment.people.sight.looks import KeptLooks
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills.effects import EFFECTS, plan_effects
+from seethrough.tasks.kit.skills.profile import Profile
 
 STUDY, POOL, PEOPLE, SEED = "published", 40, 16, 1
 PROFILE = "calibrated"
@@ -87,11 +88,12 @@ def _per_person(rows: Sequence[Row], task: str, what: str) -> np.ndarray:
 
 def used(effect: str) -> list[str]:
     """The tasks whose trials call for the effect."""
-    return [t for t in STRATEGIES if plan_effects(t, 0, frozenset())[effect].used]
+    plans = {t: plan_effects(TASKS[t].simulate.effects, 0, frozenset()) for t in MEASURES}
+    return [task for task, plan in plans.items() if plan[effect].used]
 
 
 def runs(
-    pool: Pool, people: int, profile: Profile, of: Sequence[str] = tuple(STRATEGIES)
+    pool: Pool, people: int, profile: Profile, of: Sequence[str] = tuple(MEASURES)
 ) -> Iterator[tuple[str, Mapping[str, Any]]]:
     """(effect, task → (change of what is off, its half-width, change of time, its half-width)).
 
@@ -120,7 +122,7 @@ def figures() -> Iterator[Row]:
 
 
 def markdown(
-    pool: Pool, people: int, profile: Profile, of: Sequence[str] = tuple(STRATEGIES)
+    pool: Pool, people: int, profile: Profile, of: Sequence[str] = tuple(MEASURES)
 ) -> Iterator[str]:
     """The guide's table, line by line."""
     names = [f"{MEASURES[t][0]}, {MEASURES[t][1]}" for t in of]
@@ -148,7 +150,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--participants", type=int, default=PEOPLE)
     parser.add_argument("--pool", type=int, default=POOL, help="scenes a task")
     parser.add_argument("--profile", default=PROFILE, help=f"default: {PROFILE}")
-    parser.add_argument("--tasks", default=",".join(STRATEGIES), metavar="T,…")
+    parser.add_argument("--tasks", default=",".join(MEASURES), metavar="T,…")
     chosen = parser.parse_args(arguments)
     profile, tasks = find(chosen.profile), chosen.tasks.split(",")
     with tempfile.TemporaryDirectory() as folder:

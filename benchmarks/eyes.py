@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from seethrough.experiment.display.driver import open_context
 from seethrough.experiment.pages.pages import Page, Paragraph
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.people.persons.profile import AVERAGE
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.record.trial_record import TrialRecord
@@ -33,6 +32,7 @@ from seethrough.renderer.models.simple import simplified
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, Tick
+from seethrough.tasks.kit.skills.profile import AVERAGE
 
 ASPECT = 4 / 3
 TRIALS = 384  # of the published study: what a way to look costs there is drawn

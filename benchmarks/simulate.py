@@ -24,12 +24,12 @@ from seethrough.benchmarks.memory import Watch
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.people.fitted.calibration import FITTED, HELD_OUT, measured, published
 from seethrough.experiment.people.fitted.fitting import Crowd
-from seethrough.experiment.people.persons.profile import Profile
 from seethrough.experiment.people.persons.profile_file import find
 from seethrough.experiment.people.runs import batch, data_run
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import drawing
-from seethrough.experiment.people.sight.looks import KeptLooks
 from seethrough.experiment.study.config import load
+from seethrough.tasks.kit.skills.profile import Profile
 
 STUDY = "published"
 PROFILE = "calibrated"

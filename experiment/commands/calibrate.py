@@ -48,8 +48,8 @@ def run(arguments: argparse.Namespace) -> int:
     from dataclasses import replace
 
     from seethrough.experiment.people.fitted import calibration, fitting
+    from seethrough.experiment.people.runs.looks import KeptLooks
     from seethrough.experiment.people.runs.pool import drawing
-    from seethrough.experiment.people.sight.looks import KeptLooks
 
     pool = drawing(study, arguments.pool, KeptLooks(arguments.tables))
     crowd = fitting.Crowd(arguments.seed, arguments.participants, pool)

@@ -8,13 +8,13 @@ from pathlib import Path
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.people.persons.profile import AVERAGE, Profile
 from seethrough.experiment.people.persons.profile_file import find, names
-from seethrough.experiment.people.persons.study_effects import EFFECTS, checked
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills.effects import EFFECTS, checked
+from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 
 MOST_WORKERS = 256
 POOL = 200  # scenes a task in data mode

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import hashlib
 from functools import cache
+from importlib import resources
 from pathlib import Path
 
 
 @cache
 def code_sha256() -> str:
-    """The first 12 hexadecimal digits of a SHA-256 of the files in this folder."""
+    """The first 12 hexadecimal digits of a SHA-256 of the files in this folder, of the skills
+    and of what our tasks do with them."""
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.rglob("*.py")):
+    people, tasks = Path(__file__).parent, Path(str(resources.files("seethrough.tasks")))
+    own = (*people.rglob("*.py"), *tasks.glob("kit/skills/*.py"), *tasks.glob("*/simulate.py"))
+    for path in sorted(own):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:12]

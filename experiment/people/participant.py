@@ -6,7 +6,7 @@ visible strongly enough. It is a tool for planning studies, never evidence about
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict
 from typing import Any
 
@@ -16,25 +16,17 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.pages.pages import Page
 from seethrough.experiment.people.code_hash import code_sha256
-from seethrough.experiment.people.count_red import count_red
-from seethrough.experiment.people.count_things import count_things
-from seethrough.experiment.people.find_unique import find_unique
 from seethrough.experiment.people.forms import Opinions
-from seethrough.experiment.people.name_letter import name_letter
-from seethrough.experiment.people.persons.person import Mood, Person, mood_for
-from seethrough.experiment.people.persons.profile import AVERAGE, Profile
-from seethrough.experiment.people.persons.study_effects import EffectUse, checked
-from seethrough.experiment.people.sight.glance import Glance
+from seethrough.experiment.people.persons.person import Person, mood_for
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease
-
-STRATEGIES: dict[str, Callable[[Mood, Glance], Generator[list[Event], Glance, None]]] = {
-    "count": count_red,
-    "pattern": name_letter,
-    "unique": find_unique,
-    "count_in_building": count_things,
-}
+from seethrough.tasks.kit.skills.effects import EffectUse, checked
+from seethrough.tasks.kit.skills.glance import Glance
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
+from seethrough.tasks.kit.skills.strategy import Play
 
 
 class SimulatedParticipant:
@@ -50,7 +42,7 @@ class SimulatedParticipant:
         self.person = Person(rng, profile, checked(without), traits)
         self.opinions = Opinions(self.person)
         self.effects: dict[str, EffectUse] = {}
-        self._strategy: Generator[list[Event], Glance, None] | None = None
+        self._strategy: Play | None = None
         self._task, self._began = "", 0.0
         self._mood: Mood | None = None
 
@@ -64,9 +56,9 @@ class SimulatedParticipant:
         }
 
     def begin_trial(self, task: str, now: float) -> None:
-        """Meet a new trial. Raises ValueError for a task nobody has taught it."""
-        if task not in STRATEGIES:
-            raise ValueError(f"task = {task}, expected one of {', '.join(STRATEGIES)}")
+        """Meet a new trial. Raises ValueError for a task that there is not."""
+        if task not in TASKS:
+            raise ValueError(f"task = {task}, expected one of {', '.join(TASKS)}")
         self._mood = mood_for(self.person, task, now)
         self.effects = self._mood.effects
         self._strategy = None
@@ -79,7 +71,7 @@ class SimulatedParticipant:
         """What it does next, at times from `now` on. It may think first: the times say so."""
         glance = Glance(view, look, now)
         if self._strategy is None:
-            self._strategy = STRATEGIES[task](self._begun(task, now), glance)
+            self._strategy = TASKS[task].simulate.play(self._begun(task, now), glance)
             return next(self._strategy)
         try:
             events = self._strategy.send(glance)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.random import Generator
 
+from seethrough.tasks.count.simulate import STRATEGY
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.controls import Orbit, of_view, orbit
 from seethrough.tasks.kit.entry import NumberEntry
@@ -38,6 +39,7 @@ class Count:
     measures: tuple[Measure, ...] = (COUNT_ERROR, CORRECT)
     title, instruction = "count.title", "count.instruction"
     texts: Texts = OwnTexts("seethrough.tasks.count")
+    simulate = STRATEGY
 
     def make_scene(self, rng: Generator, setting: Setting) -> Cloud:
         """A world of its own for each trial."""

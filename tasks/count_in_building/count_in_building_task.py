@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from numpy.random import Generator
 
 from seethrough.tasks.count.count_task import number_outcome
+from seethrough.tasks.count_in_building.simulate import STRATEGY
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.entry import NumberEntry
 from seethrough.tasks.kit.events import Event, KeyPress
@@ -43,6 +44,7 @@ class CountInBuilding:
     measures: tuple[Measure, ...] = (COUNT_ERROR, CORRECT)
     title, instruction = "count_in_building.title", "count_in_building.instruction"
     texts: Texts = OwnTexts("seethrough.tasks.count_in_building")
+    simulate = STRATEGY
 
     def make_scene(self, rng: Generator, setting: Setting) -> Building:
         """One of the study's buildings: the same for everybody, so from the study's seed."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from numpy.random import Generator
 
@@ -14,6 +14,9 @@ from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.world import Texts, World
+
+if TYPE_CHECKING:
+    from seethrough.tasks.kit.skills.strategy import Strategy
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +76,8 @@ class Task(Protocol):
     """One task, without state of its own: states are frozen values that replace each other.
 
     `code` is how a paper calls it (T1), `worlds` are those it can be set in, `measures` what it
-    measures beside the time, `title` and `instruction` the names of its texts.
+    measures beside the time, `title` and `instruction` the names of its texts, and `simulate` how a
+    simulated person does it.
     """
 
     name: str
@@ -86,6 +90,7 @@ class Task(Protocol):
     title: str
     instruction: str
     texts: Texts
+    simulate: Strategy
 
     def make_scene(self, rng: Generator, setting: Setting) -> Any:
         """A scene of a trial, with all that `begin` and the score need to know of it."""

@@ -16,6 +16,7 @@ from seethrough.tasks.kit.letters import LETTERS
 from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.pattern.simulate import STRATEGY
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
 SIZE, GAP, EDGE = 0.07, 0.012, 0.02
@@ -46,6 +47,7 @@ class Pattern:
     measures: tuple[Measure, ...] = (CORRECT,)
     title, instruction = "pattern.title", "pattern.instruction"
     texts: Texts = OwnTexts("seethrough.tasks.pattern")
+    simulate = STRATEGY
 
     def make_scene(self, rng: Generator, setting: Setting) -> Cloud:
         """A world of its own for each trial, each letter equally likely."""

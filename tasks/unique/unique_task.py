@@ -14,6 +14,7 @@ from seethrough.tasks.kit.hud import FloorPlan, Label
 from seethrough.tasks.kit.measure import CORRECT, DISTANCE, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.unique.simulate import STRATEGY
 from seethrough.tasks.worlds.building.building import Building, unique_building
 from seethrough.tasks.worlds.building.floor import room_at
 from seethrough.tasks.worlds.building.plan_mark import PlanMark
@@ -46,6 +47,7 @@ class Unique:
     measures: tuple[Measure, ...] = (DISTANCE, CORRECT)
     title, instruction = "unique.title", "unique.instruction"
     texts: Texts = OwnTexts("seethrough.tasks.unique")
+    simulate = STRATEGY
 
     def make_scene(self, rng: Generator, setting: Setting) -> Building:
         """One of the study's buildings: the same for everybody, so from the study's seed."""

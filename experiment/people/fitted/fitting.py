@@ -27,10 +27,10 @@ from seethrough.experiment.people.fitted.calibration import (
 )
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.persons.person import TRAITS
-from seethrough.experiment.people.persons.profile import Profile
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
+from seethrough.tasks.kit.skills.profile import Profile
 
 Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
 

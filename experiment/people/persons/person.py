@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import exp
+from zlib import crc32
 
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.persons.profile import Profile
-from seethrough.experiment.people.persons.study_effects import WALKING, EffectUse, plan_effects
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills.effects import plan_effects
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.profile import Profile
 
-TASKS = ("count", "pattern", "unique", "count_in_building")
-TRAITS = 2 + len(TASKS)
+# A person's paces at these are drawn together, in this order: what was simulated before there were
+# other tasks stays as it was. At any other task the pace has a stream of its own.
+TOGETHER = ("count", "pattern", "unique", "count_in_building")
+TRAITS = 2 + len(TOGETHER)
+PACE = 0  # last word of the stream of a pace at another task: no trial's has three words
 
 
 @dataclass
@@ -30,6 +36,7 @@ class Person:
     without: frozenset[str] = frozenset()
     traits: NDArray[np.float64] | None = None
     pace: dict[str, float] = field(init=False)
+    _own: float = field(init=False)
     care: float = field(init=False)
     experience: dict[str, int] = field(default_factory=dict)
     began: float | None = None
@@ -42,26 +49,22 @@ class Person:
             draws[:] = 0
         self.care = p.care * exp(p.sd_care * draws[0])
         # Who is careful is slower as well: half of what makes a person careful costs pace.
-        own = p.sd_person * draws[1]
+        self._own = p.sd_person * draws[1]
         self.pace = {
-            task: p.pace * exp(own + (p.sd_task_walking if task in WALKING else p.sd_task) * draw)
-            for task, draw in zip(TASKS, draws[2:], strict=True)
+            task: self._pace(task, draw) for task, draw in zip(TOGETHER, draws[2:], strict=True)
         }
 
+    def pace_at(self, task: str) -> float:
+        """The pace at a task."""
+        if task not in self.pace:
+            alike = "people" in self.without
+            rng = _stream(self.rng, _number(task), 0, PACE)
+            self.pace[task] = self._pace(task, 0.0 if alike else rng.standard_normal())
+        return self.pace[task]
 
-@dataclass(frozen=True)
-class Mood:
-    """What a person is like in one trial."""
-
-    rng: Generator
-    profile: Profile
-    effects: dict[str, EffectUse]
-    pace: float
-    care: float
-
-    def uses(self, effect: str) -> bool:
-        """Whether this trial calls for the effect."""
-        return self.effects[effect].used
+    def _pace(self, task: str, draw: float) -> float:
+        p, walks = self.profile, TASKS[task].simulate.walks
+        return p.pace * exp(self._own + (p.sd_task_walking if walks else p.sd_task) * draw)
 
 
 def mood_for(person: Person, task: str, now: float) -> Mood:
@@ -71,21 +74,28 @@ def mood_for(person: Person, task: str, now: float) -> Mood:
     or a person with and without an effect, meet each trial with the same luck.
     """
     done = person.experience.get(task, 0)
-    rng = _stream(person.rng, TASKS.index(task) if task in TASKS else len(TASKS), done)
+    rng = _stream(person.rng, _number(task), done)
     person.experience[task] = done + 1
     if person.began is None:
         person.began = now
     p = person.profile
-    effects = plan_effects(task, done, person.without)
-    pace = person.pace.get(task, p.pace)
+    strategy = TASKS[task].simulate
+    effects = plan_effects(strategy.effects, done, person.without)
+    pace = person.pace_at(task)
     if effects["learning"].used:
         pace *= 1 + p.learning * exp(-p.learning_rate * done)
-    spread = p.sd_trial_walking if task in WALKING else p.sd_trial
+    spread = p.sd_trial_walking if strategy.walks else p.sd_trial
     spread *= effects["trial_noise"].used
     if effects["fatigue"].used:
         spread *= 1 + p.fatigue * (now - person.began) / 3600
     pace *= exp(spread * rng.standard_normal())
     return Mood(rng, p, effects, pace, person.care)
+
+
+def _number(task: str) -> int:
+    """A task's number in the names of streams, the same whatever tasks there are besides."""
+    together = task in TOGETHER
+    return TOGETHER.index(task) if together else len(TOGETHER) + crc32(task.encode())
 
 
 def _stream(rng: Generator, *key: int) -> Generator:

@@ -10,8 +10,8 @@ from typing import Any
 
 from seethrough.analysis.written import write_over
 from seethrough.experiment.errors import InputError, gathered, short, shown, unknown
-from seethrough.experiment.people.persons.profile import AVERAGE, PROFILES, Profile
 from seethrough.experiment.study.toml_file import read_toml
+from seethrough.tasks.kit.skills.profile import AVERAGE, PROFILES, Profile
 
 SHIPPED = Path(__file__).with_name("profiles")  # files that come with the program
 

@@ -9,17 +9,17 @@ from pathlib import Path
 from typing import Any
 
 from seethrough.experiment.people.code_hash import code_sha256
-from seethrough.experiment.people.persons.profile import AVERAGE, Profile
 from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Slots, render
 from seethrough.experiment.people.runs.data_mode import Played, play_session
 from seethrough.experiment.people.runs.look_tables import views_of
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
-from seethrough.experiment.people.sight.looks import KeptLooks
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.workers import ordered_map
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 
 
 @dataclass(frozen=True)
@@ -117,9 +117,10 @@ def fill(batch: Batch, progress: Any = None) -> None:
     aspect = study.display.width / study.display.height
     for trial in pooled_trials(study):
         for which in range(batch.pool):
-            view = TASKS[trial.task].view(pool.world(trial, which, aspect))
+            task = TASKS[trial.task]
+            view = task.view(pool.world(trial, which, aspect))
             eyes = pool.eyes(view.scene, study.part(trial.levels).technique)
-            for camera in views_of(trial.task, view.camera):
+            for camera in views_of(task.simulate.heights, view.camera):
                 eyes.look(view.scene, camera)
             pool.looks.flush()
             if progress is not None:

@@ -22,7 +22,7 @@ from seethrough.experiment.export.parquet import INSTALL, ParquetWriter
 from seethrough.experiment.files.folders import stem_of
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.people.runs.data_mode import Played
-from seethrough.experiment.people.sight.looks import Rows
+from seethrough.experiment.people.runs.looks import Rows
 from seethrough.experiment.record.chain import link, seal_of, start_of
 from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset

@@ -21,7 +21,7 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.runs import batch as b
 from seethrough.experiment.people.runs.batch_files import Chunk, Slots, chunk_name
-from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study, load
 
 PATIENCE = 5.0  # seconds until a scheduler or workers that do not answer are not there

@@ -12,7 +12,6 @@ from typing import Any
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.people.persons.profile import AVERAGE, Profile
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.record.recorder import trial_row
@@ -26,6 +25,7 @@ from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
+from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 
 Row = dict[str, Any]
 

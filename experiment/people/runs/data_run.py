@@ -10,7 +10,7 @@ from pathlib import Path
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.runs import batch as b
 from seethrough.experiment.people.runs.batch_files import Chunk, Results, Slots
-from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, find, load
 from seethrough.experiment.study.own_model_files import models_of

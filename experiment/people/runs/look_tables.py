@@ -8,22 +8,20 @@ on who came first.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import asin, atan2, floor, inf, pi
 
 import numpy as np
 
-from seethrough.experiment.people.count_red import TILT
-from seethrough.experiment.people.name_letter import FROM_ABOVE
-from seethrough.experiment.people.sight.looks import KeptLooks, Key
-from seethrough.experiment.people.sight.places import AHEAD, CELL, DIRECTIONS, STRIDES
+from seethrough.experiment.people.runs.looks import KeptLooks, Key
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.controls import turned
+from seethrough.tasks.kit.skills.places import AHEAD, CELL, DIRECTIONS, STRIDES
 
 YAWS = 12  # of the orbit's lattice: every 30°
-PITCHES = (-1.25, -0.8, -TILT, 0.0, TILT, 0.8, FROM_ABOVE)
+PITCHES = (-1.25, -0.8, -0.35, 0.0, 0.35, 0.8, 1.25)
 
 # Of each heading, the viewpoints from one cell to the next: the third word of their keys, and how
 # far in x and z they lie from the first cell's middle, in cells.
@@ -40,8 +38,11 @@ def orbit_key(camera: Camera) -> Key:
     r = camera.rotation
     yaw = atan2(-r[2, 0], r[0, 0])
     pitch = asin(min(1.0, max(-1.0, r[1, 2])))
-    nearest = min(range(len(PITCHES)), key=lambda k: abs(PITCHES[k] - pitch))
-    return (round(yaw / (2 * pi / YAWS)) % YAWS, nearest)
+    return (round(yaw / (2 * pi / YAWS)) % YAWS, _nearest_pitch(pitch))
+
+
+def _nearest_pitch(pitch: float) -> int:
+    return min(range(len(PITCHES)), key=lambda k: abs(PITCHES[k] - pitch))
 
 
 def orbit_camera(camera: Camera, key: Key) -> Camera:
@@ -51,10 +52,9 @@ def orbit_camera(camera: Camera, key: Key) -> Camera:
     return Camera(rotation[:, 2] * distance, rotation, camera.fov_y, camera.near, camera.far)
 
 
-def views_of(task: str, camera: Camera) -> list[Camera]:
-    """The lattice viewpoints that the abstract tasks are looked at from."""
-    heights = (-TILT, TILT) if task == "count" else (FROM_ABOVE,)
-    keys = [(yaw, PITCHES.index(h)) for h in heights for yaw in range(YAWS)]
+def views_of(heights: Sequence[float], camera: Camera) -> list[Camera]:
+    """The lattice viewpoints of an orbit that lie so high, in radians, and where it begins."""
+    keys = [(yaw, _nearest_pitch(h)) for h in heights for yaw in range(YAWS)]
     return [camera, *(orbit_camera(camera, key) for key in keys)]
 
 

@@ -163,3 +163,21 @@ def test_the_palettes_differ_in_colour_alone():
 def test_an_unknown_palette_is_named():
     with pytest.raises(ValueError, match=r"palette = 'pink', expected one of .published., "):
         AbstractParameters(palette="pink")
+
+
+def test_clutter_is_set_without_changing_targets():
+    """`targets` and `distractors` are counts of their own; without them `objects` is shared out."""
+    for targets, distractors, most in ((None, 80, 40), ((15, 25), 380, 25), ((15, 25), None, 25)):
+        p = AbstractParameters(side=200.0, targets=targets, distractors=distractors)
+        found = [abstract_scene(np.random.default_rng(s), p).targets for s in range(12)]
+        counts = {int(t.sum()) for t in found}
+        assert min(counts) >= (15 if targets else 20) and max(counts) <= most and len(counts) > 1
+        others = {len(t) - int(t.sum()) for t in found}
+        expected = {200 - n for n in counts} if distractors is None else {distractors}
+        assert others == expected
+
+
+def test_more_targets_than_objects_are_refused():
+    with pytest.raises(ValueError, match=r"targets = \[100, 250\], expected at most `objects`"):
+        AbstractParameters(targets=(100, 250))
+    assert AbstractParameters(targets=(100, 250), distractors=0).target_range == (100, 250)

@@ -29,11 +29,11 @@ from seethrough.experiment.people.fitted.fitting import (
     with_free,
 )
 from seethrough.experiment.people.persons.person import TRAITS, Person, mood_for
-from seethrough.experiment.people.persons.profile import AVERAGE
 from seethrough.experiment.people.persons.profile_file import SHIPPED, find, read, write
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import generator
+from seethrough.tasks.kit.skills.profile import AVERAGE
 
 
 def rows_of(means, sds, r, task, n=16, seed=1):

@@ -8,14 +8,14 @@ import pytest
 from made_looks import random_look, same_look
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.people.sight import looks as module
-from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.people.runs import looks as module
+from seethrough.experiment.people.runs.looks import KeptLooks
 
 ADDS = """
 import sys
 from pathlib import Path
 from made_looks import random_look
-from seethrough.experiment.people.sight.looks import KeptLooks
+from seethrough.experiment.people.runs.looks import KeptLooks
 looks = KeptLooks(Path(sys.argv[1]))
 for k in range(40):
     looks.put("mine" + sys.argv[2], (k, 0), random_look(k))

@@ -9,15 +9,15 @@ from numpy.testing import assert_allclose
 from plain_trials import QUIET, begun, play, sight
 from played_tasks import PUBLISHED, begin
 
-from seethrough.experiment.people.count_red import _red
-from seethrough.experiment.people.hands import Hands
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.people.persons.profile import PROFILES, Profile, profile
-from seethrough.experiment.people.persons.study_effects import EFFECTS, plan_effects
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
+from seethrough.tasks.kit.skills.effects import EFFECTS, plan_effects
+from seethrough.tasks.kit.skills.hands import Hands
+from seethrough.tasks.kit.skills.profile import PROFILES, Profile, profile
+from seethrough.tasks.kit.skills.red import _red
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud
 
@@ -281,7 +281,7 @@ def test_effects_are_planned_with_reasons():
 def test_leaving_out_an_effect_changes_the_trials_that_call_for_it_and_no_others(name):
     """With everything visible: the same luck, event for event, where it is not called for."""
     whole = play(name, 2)[2]
-    uses = plan_effects(name, 0, frozenset())
+    uses = plan_effects(TASKS[name].simulate.effects, 0, frozenset())
     for effect in EFFECTS:
         # Nobody is tired at the start; slips are rare, and crowds too, with few things.
         if effect in ("fatigue", "slips", "crowding", "view_changes") and uses[effect].used:

@@ -1,6 +1,7 @@
 """The parts of a simulated participant against closed forms and brute force."""
 
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,33 +10,37 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, TextField
-from seethrough.experiment.people.count_things import Tally
-from seethrough.experiment.people.counting import seconds_to_count, slips
 from seethrough.experiment.people.forms import Opinions
-from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.name_letter import (
+from seethrough.experiment.people.persons import person
+from seethrough.experiment.people.persons.person import Person
+from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.count_in_building.simulate import Tally
+from seethrough.tasks.kit.events import PointerMove
+from seethrough.tasks.kit.letters import LETTERS, letter_points
+from seethrough.tasks.kit.skills.counting import seconds_to_count, slips
+from seethrough.tasks.kit.skills.effects import plan_effects
+from seethrough.tasks.kit.skills.glance import likely, noticed, uncrowded
+from seethrough.tasks.kit.skills.hands import Hands
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.places import Known, apart, bearing, crossed, layout
+from seethrough.tasks.kit.skills.profile import AVERAGE
+from seethrough.tasks.kit.skills.strategy import Strategy
+from seethrough.tasks.kit.skills.walking import REACH, _nearby
+from seethrough.tasks.pattern.simulate import (
     FAR,
     FIT,
     _fit,
     _templates,
     letter_chances,
 )
-from seethrough.experiment.people.persons.person import Mood, Person
-from seethrough.experiment.people.persons.profile import AVERAGE
-from seethrough.experiment.people.persons.study_effects import plan_effects
-from seethrough.experiment.people.sight.glance import likely, noticed, uncrowded
-from seethrough.experiment.people.sight.places import Known, apart, bearing, crossed, layout
-from seethrough.experiment.people.walking import REACH, _nearby
-from seethrough.renderer.scene import geometry
-from seethrough.renderer.scene.visibility import Visibility
-from seethrough.tasks.kit.events import PointerMove
-from seethrough.tasks.kit.letters import LETTERS, letter_points
 from seethrough.tasks.worlds.building.building import unique_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 
 def mood(task="count", seed=1, without=(), care=1.0):
-    effects = plan_effects(task, 0, frozenset(without))
+    effects = plan_effects(TASKS[task].simulate.effects, 0, frozenset(without))
     return Mood(np.random.default_rng(seed), AVERAGE, effects, 1.0, care)
 
 
@@ -318,3 +323,14 @@ def test_looks_from_one_place_do_not_add_up_and_from_two_they_do():
     assert known.unseen[3] == 1.0
     known.doubt()
     assert_allclose(np.delete(known.unseen, 3), 0.5)
+
+
+def test_paces_at_other_tasks_have_streams_of_their_own(monkeypatch):
+    """A task that is added changes nobody's pace at any other, whatever is asked first."""
+    other = SimpleNamespace(simulate=Strategy(lambda mood, glance: None))
+    monkeypatch.setattr(person, "TASKS", {**TASKS, "nearer": other, "locate": other})
+    first, second = (Person(np.random.default_rng(5), AVERAGE) for _ in range(2))
+    assert first.pace == second.pace
+    tasks = ("nearer", "locate")
+    assert [first.pace_at(t) for t in tasks] == [second.pace_at(t) for t in reversed(tasks)][::-1]
+    assert len({first.pace_at(t) for t in (*tasks, "count")}) == 3

@@ -5,15 +5,15 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from seethrough.experiment.people.persons.profile import AVERAGE
-from seethrough.experiment.people.sight.glance import CLEAR, WINDOW_PIXELS, likely
-from seethrough.experiment.people.sight.looks import KeptLooks
-from seethrough.experiment.people.sight.sight import sight
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.controls import changed, walk
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, Tick
+from seethrough.tasks.kit.skills.glance import CLEAR, WINDOW_PIXELS, likely
+from seethrough.tasks.kit.skills.profile import AVERAGE
+from seethrough.tasks.kit.skills.sight import sight
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 THINGS = (True, False, True, True, False, True)  # what may be asked for; the others are walls

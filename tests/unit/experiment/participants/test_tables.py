@@ -18,14 +18,14 @@ from seethrough.experiment.people.runs.look_tables import (
     walk_camera,
     walk_key,
 )
+from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, fingerprint
-from seethrough.experiment.people.sight.looks import KeptLooks
-from seethrough.experiment.people.sight.places import AHEAD, STRIDES
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import generator
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.controls import orbit, walk
+from seethrough.tasks.kit.skills.places import AHEAD, STRIDES
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 

@@ -8,15 +8,15 @@ from numpy.testing import assert_allclose
 from plain_trials import MODELS
 from played_tasks import begin
 
-from seethrough.experiment.people.persons.person import Mood
-from seethrough.experiment.people.persons.profile import AVERAGE
-from seethrough.experiment.people.persons.study_effects import plan_effects
-from seethrough.experiment.people.sight.glance import CLEAR, Glance
-from seethrough.experiment.people.sight.places import crossed
-from seethrough.experiment.people.sight.sight import Sight, Thing
-from seethrough.experiment.people.walking import Walker
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills.effects import plan_effects
+from seethrough.tasks.kit.skills.glance import CLEAR, Glance
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.places import crossed
+from seethrough.tasks.kit.skills.profile import AVERAGE
+from seethrough.tasks.kit.skills.sight import Sight, Thing
+from seethrough.tasks.kit.skills.walking import Walker
 from seethrough.tasks.worlds.building.building import count_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
@@ -27,7 +27,7 @@ BUILDING = count_building(np.random.default_rng(1), BuildingParameters(), MODELS
 def walker(look=None, seed=1):
     """Somebody at the building's start."""
     state = begin("count_in_building", BUILDING.parameters, BUILDING)
-    effects = plan_effects("count_in_building", 0, frozenset())
+    effects = plan_effects(TASK.simulate.effects, 0, frozenset())
     mood = Mood(np.random.default_rng(seed), AVERAGE, effects, 1.0, 1.0)
     return Walker(mood, Glance(TASK.view(state), look, 0.0))
 
@@ -89,7 +89,7 @@ def test_what_shines_through_something_is_placed_less_surely(whole, extra):
 def test_without_depth_noise_things_stand_where_they_are():
     person = walker()
     person.mood = replace(
-        person.mood, effects=plan_effects("count_in_building", 0, frozenset({"depth_noise"}))
+        person.mood, effects=plan_effects(TASK.simulate.effects, 0, frozenset({"depth_noise"}))
     )
     index = int(np.nonzero(BUILDING.scene.targets)[0][0])
     found = np.array(person.place(index, Sight([], frozenset(), frozenset())))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.persons.person import Mood
+from seethrough.tasks.kit.skills.mood import Mood
 
 CLUSTER = 0.06  # things nearer than this on the view, in its heights, are one glance (2°) [ours]
 

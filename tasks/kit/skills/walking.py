@@ -10,14 +10,18 @@ from math import atan2, dist, hypot, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.counting import saccade
-from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.persons.person import Mood
-from seethrough.experiment.people.sight.glance import CLEAR, WHOLE, WINDOW_PIXELS, Glance, likely
-from seethrough.experiment.people.sight.places import (
+from seethrough.renderer.scene.scene import Scene
+from seethrough.tasks.kit.events import Event
+from seethrough.tasks.kit.hud import Inset
+from seethrough.tasks.kit.skills.counting import saccade
+from seethrough.tasks.kit.skills.glance import CLEAR, WHOLE, WINDOW_PIXELS, Glance, likely
+from seethrough.tasks.kit.skills.hands import Hands
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.places import (
     CELL,
     DIRECTIONS,
     STRIDES,
+    THERE,
     Known,
     Place,
     apart,
@@ -25,10 +29,7 @@ from seethrough.experiment.people.sight.places import (
     layout,
     turn_to,
 )
-from seethrough.experiment.people.sight.sight import Sight, Thing, sight
-from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.events import Event
-from seethrough.tasks.kit.hud import Inset
+from seethrough.tasks.kit.skills.sight import Sight, Thing, sight
 
 STEP = 2 * pi / DIRECTIONS
 THING = 1.5  # radius of a usual thing, for how well it would be seen from afar [ours]
@@ -277,6 +278,18 @@ class Walker:
             noise = float(np.exp(spread * mood.rng.standard_normal()))
             across, along = across * bias * noise, along * bias * noise
         return x + self.error[0] + across, z + self.error[1] + along
+
+
+def go_on(walker: Walker, goal: Place | None) -> Generator[list[Event], Glance, Place | None]:
+    """One step of the search: on to a goal, or whatever is worth most now; the goal, if any."""
+    if goal is None or dist(goal, walker.eye) < THERE:
+        walker.settle()
+        turn, goal = walker.choose()
+        if goal is None:
+            yield from walker.turn(turn)
+            return None
+    yield from walker.hop(goal)
+    return goal
 
 
 def _asked(glance: Glance) -> str:

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 EFFECTS = {
@@ -22,8 +22,16 @@ EFFECTS = {
     "trial_noise": "times vary from trial to trial",
 }
 
-_COUNTING = ("count", "count_in_building")
-WALKING = ("unique", "count_in_building")
+# Of those that a task may not call for, what to say then (tasks/kit/skills/strategy.py says why one
+# does).
+UNCALLED = {
+    "crowding": "few things on the view at once",
+    "subitising": "no groups are counted at a glance",
+    "slips": "nothing is counted",
+    "view_changes": "no count goes from view to view",
+    "depth_noise": "no walking",
+    "drift": "no walking",
+}
 
 
 @dataclass(frozen=True)
@@ -44,32 +52,23 @@ def checked(without: Iterable[str]) -> frozenset[str]:
     return names
 
 
-def plan_effects(task: str, trials_done: int, without: frozenset[str]) -> dict[str, EffectUse]:
-    """Each effect with whether a trial of `task` needs it. `trials_done`: of this task before."""
+def plan_effects(
+    called: Mapping[str, str], trials_done: int, without: frozenset[str]
+) -> dict[str, EffectUse]:
+    """Each effect with whether a trial needs it: of UNCALLED those that its task has `called` for,
+    each with a reason. `trials_done`: of this task before."""
     uses = {}
     for effect in EFFECTS:
         if effect in without:
             uses[effect] = EffectUse(effect, False, "left out by --without")
         else:
-            uses[effect] = EffectUse(effect, *_needed(effect, task, trials_done))
+            uses[effect] = EffectUse(effect, *_needed(effect, called, trials_done))
     return uses
 
 
-def _needed(effect: str, task: str, trials_done: int) -> tuple[bool, str]:
-    if effect == "subitising":
-        many = task == "count"
-        return many, "many things at a glance" if many else "no groups are counted at a glance"
-    if effect == "slips":
-        return task in _COUNTING, "counting" if task in _COUNTING else "nothing is counted"
-    if effect == "view_changes":
-        return (task == "count"), (
-            "counting over several views" if task == "count" else "no count goes from view to view"
-        )
-    if effect in ("depth_noise", "drift"):
-        return task in WALKING, "places in the building" if task in WALKING else "no walking"
-    if effect == "crowding":
-        flat = task in ("count", "pattern")
-        return flat, "many small things on the view" if flat else "few things on the view at once"
+def _needed(effect: str, called: Mapping[str, str], trials_done: int) -> tuple[bool, str]:
+    if effect in UNCALLED:
+        return effect in called, called.get(effect, UNCALLED[effect])
     if effect == "learning":
         return True, f"trial {trials_done + 1} of this task"
     reasons = {

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.count_red import learn_gain, red_things
-from seethrough.experiment.people.counting import saccade
-from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.persons.person import Mood
-from seethrough.experiment.people.sight.glance import Glance, heading, recognised
-from seethrough.tasks.kit.events import Event
+from seethrough.tasks.kit.skills.counting import saccade
+from seethrough.tasks.kit.skills.glance import Glance, heading, recognised
+from seethrough.tasks.kit.skills.hands import Hands, learn_gain
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.red import red_things
+from seethrough.tasks.kit.skills.strategy import Play, Strategy
 
 FROM_ABOVE = 1.25  # height, in radians, from which a flat letter reads well [ours]
 RELATIVE_DEPTH = 0.04  # s.d. of depth in the cloud, as a part of the distance [ours]
@@ -32,7 +31,7 @@ STROKES = {
 }  # fmt: skip
 
 
-def name_letter(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None]:
+def name_letter(mood: Mood, glance: Glance) -> Play:
     """Turn the world until it is seen from above, then from other sides while in doubt."""
     p = mood.profile
     hands = Hands(mood, glance.now)
@@ -122,3 +121,8 @@ def _fit(template: NDArray[np.float64], places: NDArray[np.float64]) -> float:
 
 FAR = 0.6  # a cone farther from all strokes, in half letter heights, is no part of the letter
 FIT = 0.25  # s.d. of a cone about its stroke, half letter heights [ours]
+
+
+STRATEGY = Strategy(
+    name_letter, {"crowding": "many small things on the view"}, heights=(FROM_ABOVE,)
+)

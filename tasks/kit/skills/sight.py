@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.persons.profile import Profile
-from seethrough.experiment.people.sight.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.kit.skills.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
+from seethrough.tasks.kit.skills.profile import Profile
 
 
 def shown(seen: Visibility) -> NDArray[np.float64]:

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.people.sight.sight import Kept, shown
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.tasks.kit.skills.sight import Kept, shown
 
 OURS = 0x53656521  # "See!" as SQLite's application id: what tells our files from others
 CONTENT = 2  # SQLite's user version: raised when a look of the same view holds something else

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from math import hypot, log2
+from math import hypot, log2, pi
 
-from seethrough.experiment.people.persons.person import Mood
 from seethrough.tasks.kit.events import (
     Event,
     KeyPress,
@@ -17,6 +16,7 @@ from seethrough.tasks.kit.events import (
     Tick,
 )
 from seethrough.tasks.kit.hud import Rect
+from seethrough.tasks.kit.skills.mood import Mood
 
 MOVES = 6  # pointer events of one turn; a mouse sends ten times as many [ours]
 GRIP = (0.5, 0.5)  # where the pointer takes hold of the view: no button lies there
@@ -118,6 +118,13 @@ class Hands:
         self.time = began + seconds
         self._events.append(KeyRelease(self.time, "up"))
         yield True
+
+
+def learn_gain(hands: Hands, before: float, after: float, aimed: float) -> None:
+    """Correct how much a drag turns, once its effect is seen to be far off."""
+    turned = (after - before + pi) % (2 * pi) - pi
+    if turned * aimed > 0 and not 0.7 < turned / aimed < 1.4:
+        hands.gain *= turned / aimed
 
 
 @cache

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from math import dist
 
 import numpy as np
 
-from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.persons.person import Mood
-from seethrough.experiment.people.sight.glance import Glance
-from seethrough.experiment.people.sight.places import THERE, Place
-from seethrough.experiment.people.walking import Walker
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Button, FloorPlan
+from seethrough.tasks.kit.skills.glance import Glance
+from seethrough.tasks.kit.skills.hands import Hands
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.places import Place
+from seethrough.tasks.kit.skills.strategy import Play, Strategy
+from seethrough.tasks.kit.skills.walking import Walker, go_on
 
 AGAIN = 0.01  # with so little left unseen and nothing found, one begins again
 MOST_SECONDS = 900.0  # then one gives up and marks a guess
 
 
-def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None]:
+def find_unique(mood: Mood, glance: Glance) -> Play:
     """Search, approach, end the search, mark the plan."""
     walker = Walker(mood, glance)
     walker.hands.wait(mood.profile.prepare)
@@ -38,7 +37,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
             continue
         if walker.known.left < AGAIN:
             walker.known.doubt()
-        goal = yield from _go_on(walker, goal)
+        goal = yield from go_on(walker, goal)
     walker.settle()
     walker.hands.wait(mood.profile.prepare)
     walker.hands.key("space")
@@ -46,21 +45,7 @@ def find_unique(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, No
     yield from _mark(mood, walker.hands, glance, believed)
 
 
-def _go_on(walker: Walker, goal):  # type: ignore[no-untyped-def]
-    """One step of the search: on to a goal, or whatever is worth most now; the goal, if any."""
-    if goal is None or dist(goal, walker.eye) < THERE:
-        walker.settle()
-        turn, goal = walker.choose()
-        if goal is None:
-            yield from walker.turn(turn)
-            return None
-    yield from walker.hop(goal)
-    return goal
-
-
-def _mark(
-    mood: Mood, hands: Hands, glance: Glance, believed: Place
-) -> Generator[list[Event], Glance, None]:
+def _mark(mood: Mood, hands: Hands, glance: Glance, believed: Place) -> Play:
     """Work out where on the plan that was, click there, click to confirm."""
     p = mood.profile
     plan = next(e for e in glance.view.hud if isinstance(e, FloorPlan))
@@ -77,3 +62,9 @@ def _mark(
     )
     hands.click(button.rect)
     yield hands.take()
+
+
+STRATEGY = Strategy(
+    find_unique,
+    {"depth_noise": "places in the building", "drift": "places in the building"},
+)

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from math import dist
 
-from seethrough.experiment.people.counting import slips
-from seethrough.experiment.people.find_unique import _go_on
-from seethrough.experiment.people.persons.person import Mood
-from seethrough.experiment.people.sight.glance import Glance
-from seethrough.experiment.people.sight.places import Place
-from seethrough.experiment.people.walking import Found, Walker
-from seethrough.tasks.kit.events import Event
+from seethrough.tasks.kit.skills.counting import slips
+from seethrough.tasks.kit.skills.glance import Glance
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.places import Place
+from seethrough.tasks.kit.skills.strategy import Play, Strategy
+from seethrough.tasks.kit.skills.walking import Found, Walker, go_on
 
 MOST_SECONDS = 900.0
 
@@ -59,7 +57,7 @@ class Tally:
         return free[ways.index(nearest)] if nearest < within else None
 
 
-def count_things(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None]:
+def count_things(mood: Mood, glance: Glance) -> Play:
     """Walk until little is left unseen, then type the number."""
     p = mood.profile
     walker = Walker(mood, glance)
@@ -75,7 +73,17 @@ def count_things(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, N
         count += new + slips(new, mood)
         if walker.known.left < p.diligence / mood.care:
             break
-        goal = yield from _go_on(walker, goal)
+        goal = yield from go_on(walker, goal)
     walker.settle()
     walker.hands.type(str(max(count, 0)))
     yield walker.hands.take()
+
+
+STRATEGY = Strategy(
+    count_things,
+    {
+        "slips": "counting",
+        "depth_noise": "places in the building",
+        "drift": "places in the building",
+    },
+)

@@ -9,10 +9,10 @@ from math import asin, atan2
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.persons.person import Mood
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
+from seethrough.tasks.kit.skills.mood import Mood
 
 # Thresholds count the pixels of a window of 800 × 600, whatever the size of the id picture.
 WINDOW_PIXELS = 480_000

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
-from functools import lru_cache
-from math import pi
-
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.people.counting import seconds_to_count, slips
-from seethrough.experiment.people.hands import Hands
-from seethrough.experiment.people.persons.person import Mood
-from seethrough.experiment.people.sight.glance import WHOLE, Glance, heading, noticed, uncrowded
-from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.events import Event
+from seethrough.tasks.kit.skills.counting import seconds_to_count, slips
+from seethrough.tasks.kit.skills.glance import WHOLE, Glance, heading
+from seethrough.tasks.kit.skills.hands import Hands, learn_gain
+from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.red import red_things
+from seethrough.tasks.kit.skills.strategy import Play, Strategy
 
-RED_ENOUGH = 0.5  # a thing is red if this much of its colour is [ours]
 MOST_VIEWS = 18  # three times round
 TILT = 0.35  # views alternate between this much above and below [ours]
 
 
-def count_red(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None]:
+def count_red(mood: Mood, glance: Glance) -> Play:
     """Count in the first view, then turn and look for what is new until views bring no news."""
     p = mood.profile
     hands = Hands(mood, glance.now)
@@ -56,20 +51,6 @@ def count_red(mood: Mood, glance: Glance) -> Generator[list[Event], Glance, None
     yield hands.take()
 
 
-def red_things(mood: Mood, glance: Glance) -> NDArray[np.int64]:
-    """Indices of red things noticed now and not lost in a crowd."""
-    seen = glance.look()
-    index = noticed(seen, mood)
-    return uncrowded(seen, index[_red(glance.view.scene)[index]], mood)[0]
-
-
-@lru_cache(maxsize=64)
-def _red(scene: Scene) -> NDArray[np.bool_]:
-    """(n,) which objects of a scene are red (scenes are compared by identity)."""
-    colors = (thing.color for thing in scene.objects)
-    return np.array([r > RED_ENOUGH and g + b < RED_ENOUGH for r, g, b in colors], dtype=bool)
-
-
 def new_ones(
     mood: Mood, red: NDArray[np.int64], counted: set[int], first: bool
 ) -> NDArray[np.int64]:
@@ -86,8 +67,13 @@ def new_ones(
     return red[np.array(taken, dtype=bool)]
 
 
-def learn_gain(hands: Hands, before: float, after: float, aimed: float) -> None:
-    """Correct how much a drag turns, once its effect is seen to be far off."""
-    turned = (after - before + pi) % (2 * pi) - pi
-    if turned * aimed > 0 and not 0.7 < turned / aimed < 1.4:
-        hands.gain *= turned / aimed
+STRATEGY = Strategy(
+    count_red,
+    {
+        "crowding": "many small things on the view",
+        "subitising": "many things at a glance",
+        "slips": "counting",
+        "view_changes": "counting over several views",
+    },
+    heights=(-TILT, TILT),
+)

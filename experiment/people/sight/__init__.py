@@ -1,1 +1,0 @@
-"""What simulated eyes see."""

@@ -1,0 +1,1 @@
+"""What simulated people can do: look, count, point, walk, remember. Tasks are done with these."""
