@@ -28,6 +28,7 @@ COMMANDS = {
     "export": "give the data another form: wide, parquet, bids, psychds",
     "report": "make the statistics report from a data folder",
     "seal": "print one hash over everything that was recorded",
+    "keys": "list what a study file may say: keys, types, defaults, limits, meaning",
     "check": "check a study before anybody is invited",
     "render": "draw a scene into a picture",
     "view": "look at a scene of translucent polygons, ordered by a method",

@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -136,6 +137,25 @@ def test_import_arrows_point_one_way(root: Path, linked: Path) -> None:
         check=False,
     )
     assert run.returncode == 0, run.stdout + run.stderr
+
+
+def test_the_drawing_of_arrows_is_true(sources: list[Path], root: Path) -> None:
+    """ARCHITECTURE.md draws each room that imports another, and no other."""
+    text = (root / "ARCHITECTURE.md").read_text("utf-8")
+    drawing = text.split("**Import arrows**")[1].split("```")[1]
+    drawn = set()
+    for line in drawing.strip().splitlines():
+        steps = [step.split(", ") for step in line.split(" ─► ")]
+        drawn |= {(a, b) for tails, heads in pairwise(steps) for a in tails for b in heads}
+    found = set()
+    for source in sources:
+        room = source.relative_to(root).parts[0]
+        for name in _imported(source):
+            _, _, inner = name.partition("seethrough.")
+            other = inner.partition(".")[0]
+            if room in ROOMS and other in ROOMS and other != room:
+                found.add((room, other))
+    assert found == drawn
 
 
 def test_rooms_are_imported_by_their_whole_name(tree: list[Path], root: Path) -> None:

@@ -6,6 +6,7 @@ import tomllib
 
 import pytest
 
+from seethrough.experiment.cli import main
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, parse
 from seethrough.experiment.study.keys import REFERENCE, REQUIRED, keys_of, reference, tables
@@ -108,3 +109,14 @@ def test_limits_that_follow_from_others_name_them():
 
 def test_language_lists_the_languages():
     assert keys_of("study")["language"].allowed == "one of de, en"
+
+
+def test_the_command_prints_the_page_or_a_table(capsys):
+    assert main(["keys"]) == 0
+    assert capsys.readouterr().out == reference()
+    assert main(["keys", "[display]"]) == 0
+    part = capsys.readouterr().out
+    assert part.startswith("## `[display]`") and part.count("\n## ") == 0
+    assert part in reference() and "`refresh`" in part
+    assert main(["keys", "displai"]) == 2
+    assert "unknown table, did you mean display?" in capsys.readouterr().err
