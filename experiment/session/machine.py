@@ -59,13 +59,10 @@ def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> Fra
 def crossings(study: Study, trial: Trial) -> list[str]:
     """What the trial's first view cuts along one another, where objects intersect and the study
     orders polygons: how many there are, and of how many pieces."""
-    technique = study.part(trial.levels).technique
-    if getattr(technique, "order", "") != "polygons":
-        return []
     size = (study.display.width, study.display.height)
     task = TASKS[trial.task]
     view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
-    frame = plan(view.scene, view.camera, technique, size)
+    frame = plan(view.scene, view.camera, study.part(trial.levels).technique, size)
     return [of_cluster(view.scene, members) for members in frame.clusters]
 
 

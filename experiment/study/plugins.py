@@ -7,11 +7,8 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from seethrough import registry
 from seethrough.experiment.study.parameter_tables import Fault
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
-TECHNIQUES = {"dynamic": DynamicTransparency, "standard": Standard}
 QUESTIONS = (
     "consent", "demographics", "color_check", "ratings", "comparison", "tlx", "sus", "depth_test",
     "remarks",
@@ -20,13 +17,12 @@ QUESTIONS = (
 
 def names(kind: str) -> tuple[str, ...]:
     """The names of all techniques, worlds, tasks or question kinds."""
-    known: dict[str, Any] = {"technique": TECHNIQUES, "question": QUESTIONS}
-    return tuple(known[kind]) if kind in known else registry.names(kind)
+    return QUESTIONS if kind == "question" else registry.names(kind)
 
 
 def parameters(kind: str, name: str) -> Any:
     """The class of the parameters of one of them."""
-    return TECHNIQUES[name] if kind == "technique" else registry.get(kind, name).Parameters
+    return registry.get(kind, name).Parameters
 
 
 def worlds_of(task: str) -> tuple[str, ...]:

@@ -86,7 +86,7 @@ class Pool(StudyScenes):
     def _open(self, scene: Scene, technique: Any) -> TableEyes:
         name, moving = self._names[id(scene)]
         own = fingerprint(scene, technique, window_of(self.study))
-        table = f"{name}-{own}/{type(technique).__name__}"
+        table = f"{name}-{own}/{technique.technique.name}"
         if technique not in self._draws:
             self._draws[technique] = None if self._draw is None else self._draw(technique)
         return TableEyes(self.looks, table, len(scene.objects), moving, self._draws[technique])

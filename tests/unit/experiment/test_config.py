@@ -178,9 +178,7 @@ def test_an_unknown_key_of_every_table_lists_its_known_ones():
         near = known[0][:-1] + "_"
         with pytest.raises(InputError, match=f"did you mean {known[0]}[?]"):
             parse(changed(table, near, 1), "s.toml")
-    with pytest.raises(
-        InputError, match=r"desing = .*, did you mean design\? known: factors"
-    ):
+    with pytest.raises(InputError, match=r"desing = .*, did you mean design\? known: factors"):
         parse(changed("desing", "trials", 3), "s.toml")
 
 
