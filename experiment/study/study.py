@@ -104,8 +104,11 @@ class Study:
             {"name": name, **_without_defaults(table)} for name, table in self.questions.items()
         ]
         plain = ("study", "design", "practice", "display", "session", "analysis")
+        said = {name: json.loads(getattr(self, name).model_dump_json()) for name in plain}
+        if not self.design.tasks:
+            del said["design"]["tasks"]  # every cell's levels say them
         return {
-            **{name: json.loads(getattr(self, name).model_dump_json()) for name in plain},
+            **said,
             "factors": [_factor_table(factor) for factor in self.factors],
             **{name: _chosen_table(self.tables[name]) for name in ("technique", "world")},
             "task": _limits_table(self.tables["task"]),
