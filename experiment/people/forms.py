@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from math import exp, hypot, log, log2
+from math import exp, hypot, log2
 from statistics import fmean
 
 import numpy as np
+from numpy.random import Generator
 
-from seethrough.experiment.pages.depth_test import on_picture
 from seethrough.experiment.pages.pages import (
     PICTURE_ASPECT,
+    Answers,
     Choice,
     Page,
     Paragraph,
     Picture,
     PlatePicture,
+    Ranking,
     Scale,
+    Several,
     TextField,
+    on_picture,
 )
 from seethrough.experiment.people.persons.person import Person
 
@@ -45,29 +49,53 @@ class Opinions:
 
     def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Answers by name ("button": which one), and the seconds that took."""
-        answers, seconds = {"button": "0"}, 1.0
+        seconds = 1.0
         if page.name == "instruction":
-            self._levels = page.levels
+            self._levels = page.about
         for block in page.blocks:
             if isinstance(block, Paragraph):
                 seconds += READ
-            elif isinstance(block, Scale):
-                answers[block.name] = str(self._rating(page, block))
-                seconds += DECIDE
-            elif isinstance(block, Choice) and not block.optional:
-                answers[block.name] = str(self._choice(page, block))
-                seconds += DECIDE
-            elif isinstance(block, TextField):
-                answers[block.name] = ""
+            elif isinstance(block, Scale | Choice | Several | Ranking):
+                needed = isinstance(block, Scale) or not block.optional
+                seconds += DECIDE if needed else 0.0
+        answers = self.by_blocks(page) if page.simulate is None else page.simulate(self)
         return answers, seconds * self.person.profile.pace
 
+    @property
+    def rng(self) -> Generator:
+        """What makes the choices of this person."""
+        return self.person.rng
+
+    def by_blocks(self, page: Page) -> Answers:
+        """Answers by what a page is made of: what was quick is liked, what may be left open is."""
+        answers = {"button": "0"}
+        for block in page.blocks:
+            if isinstance(block, Scale):
+                answers[block.name] = str(self._rating(page, block))
+            elif isinstance(block, Choice) and not block.optional:
+                answers[block.name] = str(self._choice(page, block))
+            elif isinstance(block, Several):
+                one = "" if block.optional else str(self.rng.integers(len(block.options)))
+                answers[block.name] = one
+            elif isinstance(block, Ranking) and not block.optional:
+                answers[block.name] = ",".join(map(str, self._ranks(block)))
+            elif isinstance(block, TextField):
+                answers[block.name] = ""
+        return answers
+
+    def _ranks(self, block: Ranking) -> list[int]:
+        """What was quick comes first, where options are levels; by chance otherwise."""
+        levels = block.prefer or ("",) * len(block.options)
+        known = [self._met(level) for level in levels]
+        dislike = np.array([log2(max(self._relative(at), 1e-6)) for at in known])
+        dislike += WOBBLE / STEEPNESS * self.rng.standard_normal(len(levels))
+        return [int(rank) for rank in 1 + np.argsort(np.argsort(dislike))]
+
     def _rating(self, page: Page, block: Scale) -> int:
-        """Liking what was quick; load is the other way round, as are the SUS's even items."""
-        kind = page.name.partition(" ")[0]
-        liking = MIDDLE - STEEPNESS * log2(max(self._relative(page.levels), 1e-6))
+        """Liking what was quick; what speaks `against` it is the other way round."""
+        liking = MIDDLE - STEEPNESS * log2(max(self._relative(page.about), 1e-6))
         liking += WOBBLE * self.person.rng.standard_normal()
-        against = kind == "tlx" or (kind == "sus" and int(block.name.rpartition("_")[2]) % 2 == 0)
-        share = min(1.0, max(0.0, 1 - liking if against else liking))
+        share = min(1.0, max(0.0, 1 - liking if block.against else liking))
         return round(share * (block.steps - 1))
 
     def _relative(self, levels: Levels) -> float:
@@ -77,9 +105,14 @@ class Opinions:
         here = [t for met, t in times if set(levels) <= set(met)]
         return fmean(here) / fmean(t for _, t in times) if here else 1.0
 
+    def _met(self, level: str) -> Levels:
+        """The factor and level of this name that were met."""
+        every = (pair for levels, _ in self._times for pair in levels)
+        return next(((pair,) for pair in every if pair[1] == level), ())
+
     def _choice(self, page: Page, block: Choice) -> int:
-        if block.name == "preference":
-            return self._preference(page.levels)
+        if block.prefer:
+            return self._preference(block.prefer)
         for other in page.blocks:
             if isinstance(other, PlatePicture):
                 # Every simulated participant has full colour vision.
@@ -104,19 +137,14 @@ class Opinions:
             looks.append(true * exp(spread * self.person.rng.standard_normal()))
         return int(np.argmin(looks))
 
-    def _preference(self, offered: Levels) -> int:
-        """One of the levels on offer, by the times taken with each, and by chance."""
-        times = {
-            k: [fmean(t) for (met, _), t in self._times.items() if level in met]
-            for k, level in enumerate(offered)
-        }
-        met = [k for k, own in times.items() if own]
-        if len(met) < 2:
-            return len(offered) // 2
-        weights = [fmean(times[k]) ** (-3 / log(2)) for k in met]  # of two: odds of 3 log2 ratios
-        draw, reached = self.person.rng.random() * sum(weights), 0.0
-        for k, weight in zip(met, weights, strict=True):
-            reached += weight
-            if draw < reached:
-                return k
-        return met[-1]
+    def _preference(self, options: tuple[str, ...]) -> int:
+        """The first level or the last: by the times taken, and by chance."""
+        first, last = (
+            [fmean(t) for (met, _), t in self._times.items() if level in dict(met).values()]
+            for level in (options[0], options[-1])
+        )
+        if not first or not last:
+            return len(options) // 2
+        odds = log2(fmean(last) / fmean(first))
+        chance = 1 / (1 + exp(-3 * odds))
+        return 0 if self.person.rng.random() < chance else len(options) - 1

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cache
 
-from seethrough.experiment.pages.pages import Paragraph
+from seethrough.experiment.pages.pages import Block, Choice, Page, Paragraph, Ranking
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.study.factors import ALONE, Levels
 from seethrough.experiment.study.study import Study
@@ -50,10 +51,19 @@ def instructions(study: Study, levels: Levels) -> Iterable[Paragraph]:
             yield Paragraph("level.here", (("level", label),))
 
 
-def title(study: Study, kind: str, levels: Pairs) -> str:
-    """The title of a page about some levels."""
-    key = ".".join([kind, *(level for _, level in levels)])
-    if known(study, key):
-        return key
-    said = [study.factor(f).level(level).label or level for f, level in levels]
-    return ", ".join(said) or f"{kind}.title"
+def named(study: Study, page: Page, pairs: Iterable[tuple[str, str]]) -> Page:
+    """A page about some levels, with the study's words for each: in its title where there is no
+    text of that name, and wherever it names a level."""
+    said = {f"name.{level}": name(study, factor, level) for factor, level in pairs}
+    title = page.title
+    if page.about and not known(study, title):
+        title = ", ".join(study.factor(f).level(level).label or level for f, level in page.about)
+    return replace(page, title=title, blocks=tuple(_block(block, said) for block in page.blocks))
+
+
+def _block(block: Block, said: Mapping[str, str]) -> Block:
+    if isinstance(block, Paragraph):
+        return replace(block, text=said.get(block.text, block.text))
+    if isinstance(block, Choice | Ranking):
+        return replace(block, options=tuple(said.get(o, o) for o in block.options))
+    return block

@@ -73,7 +73,7 @@ def _run(study: Study, slot: int, world: Surroundings, done: frozenset[int], giv
         block = remaining[0].block
         _run_task_set(study, TaskSet(task_set.training, remaining), task_sets, run)
         if _ends_block(task_set, task_sets):
-            _ask(questionnaire.of_condition(study, task_set.trials[0].levels), world, given)
+            _ask(questionnaire.of_condition(study, slot, task_set.trials[0].levels), world, given)
         if _over(world.clock.now() - start, study.session.limit):
             world.input.ask(_page("time"))
             raise TimeIsUp
@@ -144,7 +144,7 @@ def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
             Paragraph("progress", values),
         ),
         ("begin",),
-        levels.of_blocks(study, trial.levels),
+        about=levels.of_blocks(study, trial.levels),
     )
 
 

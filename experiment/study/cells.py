@@ -13,12 +13,11 @@ from seethrough.experiment.study.factor_tables import where_set
 from seethrough.experiment.study.factors import Cell, Factor
 from seethrough.experiment.study.merge import leaves, merged
 from seethrough.experiment.study.parameter_tables import MISSING, Fault
-from seethrough.experiment.study.reading import Limits, Read, read
+from seethrough.experiment.study.reading import Limits, Question, Read, read
 from seethrough.experiment.study.study_tables import (
     DesignTable,
     DisplayTable,
     PracticeTable,
-    QuestionTable,
     StudyTable,
 )
 from seethrough.tasks.kit.world import OWN
@@ -39,7 +38,7 @@ class Part:
     limits: Limits
     design: DesignTable
     practice: PracticeTable
-    questions: Mapping[str, QuestionTable] = field(hash=False)
+    questions: Mapping[str, Question] = field(hash=False)
     display: DisplayTable
     study: StudyTable
 

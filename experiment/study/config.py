@@ -11,6 +11,7 @@ from typing import Any
 
 from seethrough.experiment.errors import MOST, InputError, gathered, short, shown
 from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.study.design import number_of, scene_names
 from seethrough.experiment.study.migrate import is_old, migrated
 from seethrough.experiment.study.own_model_files import beside
 from seethrough.experiment.study.parser import Parser
@@ -112,11 +113,27 @@ def parse(table: Mapping[str, Any], file: str, before: bool = False) -> Study:
             )
         table = migrated(table)
     study, faults = Parser(table).study()
-    lines = _unknown_texts(table)
+    lines = _unknown_texts(table) + (_unknown_scenes(study) if study is not None else [])
     if faults or lines or study is None:
         error = study_error(faults, file)
         raise gathered([*error.faults, *(f"{file}: {line}" for line in lines)], error.more)
     return study
+
+
+def _unknown_scenes(study: Study) -> list[str]:
+    """A scene to be drawn again is one that a participant meets."""
+    met: dict[int, list[str]] = {}
+    wrong: list[str] = []
+    for which, name in enumerate(study.design.redraw):
+        number = number_of(name)
+        if number not in met:
+            met[number] = scene_names(number, study.plan)
+        if name not in met[number]:
+            like = f"such as {met[number][0]}, as `check --redraw` prints them"
+            wrong.append(f"design.redraw[{which}] = {shown(name)}: expected a scene of it, {like}")
+        if len(wrong) > MOST:
+            break
+    return wrong
 
 
 def _unknown_texts(table: Mapping[str, Any]) -> list[str]:

@@ -290,6 +290,24 @@ class _Session:
         return code
 
 
+def scene_names(number: int, design: Design) -> list[str]:
+    """The scenes that the people with this number in their group meet, and shared ones: every
+    session has each of those."""
+    return [
+        trial.scene
+        for group in range(len(design.groups))
+        for task_set in session_for(design.slot_of(group, number), design)
+        for trial in (*task_set.trials, *task_set.training)
+    ]
+
+
+def number_of(scene: str) -> int:
+    """The number in a group of the person whose own scene it is; else the first."""
+    words = scene.split("-")
+    own = words[0] == "stream" and len(words) > 2 and words[2].isascii() and words[2].isdigit()
+    return max(int(words[2]), 1) if own and len(words[2]) < 10 else 1
+
+
 def generator(seed: int, stream: Sequence[int]) -> Generator:
     """The Generator of a stream: any trial's scene can be made again alone."""
     return np.random.Generator(np.random.PCG64(SeedSequence(seed, spawn_key=tuple(stream))))

@@ -127,10 +127,8 @@ class _Reader:
             self.wrong("levels", "…", "values alone: a measured factor sets no key")
             return ()
         table = self.table["levels"]
-        if isinstance(table, list):  # of a sidecar: names in order, each with what it sets
-            return tuple(
-                Level(str(t["name"]), t["part"], str(t["label"]), t["number"]) for t in table
-            )
+        if isinstance(table, list) and all(isinstance(level, Level) for level in table):
+            return tuple(table)  # of a sidecar
         if not isinstance(table, Mapping):
             self.wrong("levels", table, "levels.NAME = { … }, two or more")
             return ()

@@ -9,7 +9,14 @@ from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.study.cells import every_combination, parts_of
 from seethrough.experiment.study.design import Design
 from seethrough.experiment.study.factor_tables import level_name, read_factors
-from seethrough.experiment.study.factors import Cell, Factor, Levels, every_cell
+from seethrough.experiment.study.factors import (
+    MEASURED,
+    Cell,
+    Factor,
+    Level,
+    Levels,
+    every_cell,
+)
 from seethrough.experiment.study.parameter_tables import MISSING, Fault
 from seethrough.experiment.study.reading import read
 from seethrough.experiment.study.scopes import sections
@@ -23,13 +30,13 @@ class Parser:
 
     def __init__(self, table: Mapping[str, Any]) -> None:
         self.base = {k: v for k, v in table.items() if k != "factors"}
-        if isinstance(self.base.get("questions"), list):  # of a sidecar: in order
+        if _are_named(self.base.get("questions")):  # of a sidecar: in order
             listed = self.base["questions"]
             self.base["questions"] = {
                 t["name"]: {k: v for k, v in t.items() if k != "name"} for t in listed
             }
         factors = table.get("factors", {})
-        if isinstance(factors, list):
+        if _are_factors(factors):
             factors = {t["name"]: _from_sidecar(t) for t in factors}
         self.table = factors
         self.faults: list[Fault] = []
@@ -117,11 +124,11 @@ class Parser:
             faults.append(Fault("study.participants", plan.people, expected))
         names = [f.name for f in factors]
         for name, question in found["questions"].items():
-            for key, said in (("each", question.each or ()), ("only", question.only),
-                              ("of", (question.of,) if question.of else ())):  # fmt: skip
+            for key, said in (("each", question.table.each or ()), ("only", question.table.only),
+                              ("of", (question.table.of,) * bool(question.table.of))):  # fmt: skip
                 faults += [Fault(f"questions.{name}.{key}", own, known=tuple(names))
                            for own in said if own not in names]  # fmt: skip
-            for own, levels in question.only.items():
+            for own, levels in question.table.only.items():
                 factor = next((f for f in factors if f.name == own), None)
                 wanted = (levels,) if isinstance(levels, str) else levels
                 faults += [
@@ -151,9 +158,29 @@ def _left_without(factors: tuple[Factor, ...], excluded: list[Levels]) -> list[F
     return faults
 
 
+def _are_named(tables: Any) -> bool:
+    """Whether it is an array of tables that have names, as a sidecar has them."""
+    return isinstance(tables, list) and all(
+        isinstance(t, Mapping) and isinstance(t.get("name"), str) for t in tables
+    )
+
+
+def _are_factors(tables: Any) -> bool:
+    """Whether it is an array of factors, each with an array of levels."""
+    return _are_named(tables) and all(
+        _are_named(t.get("levels"))
+        and all(isinstance(level.get("part"), Mapping) for level in t["levels"])
+        for t in tables
+    )
+
+
 def _from_sidecar(table: Mapping[str, Any]) -> dict[str, Any]:
     """A factor as a sidecar has it, as a study file would say it."""
     said = {k: v for k, v in table.items() if k != "name" and v not in (None, "")}
-    if said.get("vary") == "measured":
-        said["values"] = [level["name"] for level in said.pop("levels")]
+    said["levels"] = [
+        Level(t["name"], t["part"], str(t.get("label", "")), t.get("number"))
+        for t in table["levels"]
+    ]
+    if said.get("vary") == MEASURED:
+        said["values"] = [level.name for level in said.pop("levels")]
     return said

@@ -9,19 +9,22 @@ from seethrough import registry
 from seethrough.experiment.study.parameter_tables import Fault
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
-QUESTIONS = (
-    "consent", "demographics", "color_check", "ratings", "comparison", "tlx", "sus", "depth_test",
-    "remarks",
-)  # fmt: skip
-
 
 def names(kind: str) -> tuple[str, ...]:
     """The names of all techniques, worlds, tasks or question kinds."""
-    return QUESTIONS if kind == "question" else registry.names(kind)
+    if kind == "question":
+        from seethrough.experiment.questions.ready import READY  # asks for pages: not for --help
+
+        return (*READY, *registry.names(kind))
+    return registry.names(kind)
 
 
 def parameters(kind: str, name: str) -> Any:
     """The class of the parameters of one of them."""
+    if kind == "question":
+        from seethrough.experiment.questions.ready import question
+
+        return question(name).Parameters
     return registry.get(kind, name).Parameters
 
 

@@ -45,7 +45,29 @@ class Limits:
         return self.limits.get(task, self.limit)
 
 
+@dataclass(frozen=True)
+class Question:
+    """A table of [questions]: when and for what it is asked, and what its kind may be told."""
+
+    use: str
+    table: QuestionTable
+    parameters: Any
+
+    @property
+    def when_asked(self) -> str:
+        """start, condition or end."""
+        return self.table.when or ("start" if self.use in STARTS else "end")
+
+    def meant_for(self, at: Mapping[str, str]) -> bool:
+        """Whether a cell is among those that it is asked for: levels by factor."""
+        return not self.table.off and all(
+            at[factor] in ((wanted,) if isinstance(wanted, str) else wanted)
+            for factor, wanted in self.table.only.items()
+        )
+
+
 Read = tuple[Any, list[Fault]]
+STARTS = ("consent", "demographics", "color_check")  # asked at the start unless a study says not
 
 
 def read(section: str, table: Any, whole: bool) -> Read:
@@ -129,19 +151,31 @@ def _limits(table: Mapping[str, Any]) -> Read:
 
 
 def _questions(table: Mapping[str, Any]) -> Read:
-    found: dict[str, QuestionTable] = {}
+    found: dict[str, Question] = {}
     faults: list[Fault] = []
     for name, own in table.items():
         where = f"questions.{name}"
         if not isinstance(own, Mapping):
             faults.append(Fault(where, own, f"a table, [{where}]"))
             continue
-        value, wrong = model(where, QuestionTable, own)
+        common = {k: v for k, v in own.items() if k in QuestionTable.model_fields}
+        value, wrong = model(where, QuestionTable, common)
         faults += wrong
         use = (value.use if value else "") or name
-        if value is not None and use not in plugins.names("question"):
-            key = f"{where}.use" if value.use else where
+        if use not in plugins.names("question"):
+            key = f"{where}.use" if value is not None and value.use else where
             faults.append(Fault(key, use, known=plugins.names("question")))
-        elif value is not None:
-            found[name] = value.model_copy(update={"use": use})
+            continue
+        kinds, wrong = parameters(
+            "question", use, {k: v for k, v in own.items() if k not in common}
+        )
+        faults += [fault._replace(key=_below(fault.key, f"question.{use}", where),
+                   known=fault.known and (*QuestionTable.model_fields, *fault.known))
+                   for fault in wrong]  # fmt: skip
+        if value is not None and not wrong:
+            found[name] = Question(use, value, kinds)
     return (None if faults else found), faults
+
+
+def _below(key: str, old: str, new: str) -> str:
+    return f"{new}{key.removeprefix(old)}"

@@ -13,13 +13,12 @@ from typing import Any
 from seethrough.experiment.study.cells import Part
 from seethrough.experiment.study.design import Design, Trial
 from seethrough.experiment.study.factors import Cell, Factor, Levels
-from seethrough.experiment.study.reading import Chosen, Limits
+from seethrough.experiment.study.reading import Chosen, Limits, Question
 from seethrough.experiment.study.study_tables import (
     AnalysisTable,
     DesignTable,
     DisplayTable,
     PracticeTable,
-    QuestionTable,
     SessionTable,
     StudyTable,
 )
@@ -41,7 +40,7 @@ class Study:
     practice: PracticeTable
     display: DisplayTable
     session: SessionTable
-    questions: Mapping[str, QuestionTable] = field(hash=False)
+    questions: Mapping[str, Question] = field(hash=False)
     analysis: AnalysisTable
     texts: Mapping[str, str] = field(hash=False)
     tables: Mapping[str, Chosen | Limits] = field(hash=False)
@@ -81,6 +80,11 @@ class Study:
         """The factor of this name. Raises KeyError."""
         return next((f for f in self.factors if f.name == name), None) or _raise(name)
 
+    def parameters(self, kind: str, name: str) -> Any:
+        """What the base says of a world or technique: its parameters; None if nothing."""
+        chosen = self.tables[kind]
+        return chosen.tables.get(name) if isinstance(chosen, Chosen) else None
+
     def places(self) -> tuple[Any, ...]:
         """The parameters of every world that some cell uses, each once."""
         return tuple(dict.fromkeys(part.place for part in self.parts.values()))
@@ -101,7 +105,7 @@ class Study:
     def resolved(self) -> dict[str, Any]:
         """Every value, defaults included, as plain JSON types; `parse` reads it again."""
         questions = [
-            {"name": name, **_without_defaults(table)} for name, table in self.questions.items()
+            {"name": name, **_question_table(asked)} for name, asked in self.questions.items()
         ]
         plain = ("study", "design", "practice", "display", "session", "analysis")
         said = {name: json.loads(getattr(self, name).model_dump_json()) for name in plain}
@@ -126,9 +130,9 @@ def _raise(name: str) -> Any:
     raise KeyError(name)
 
 
-def _without_defaults(table: QuestionTable) -> dict[str, Any]:
-    said: dict[str, Any] = json.loads(table.model_dump_json(exclude_defaults=True))
-    return said
+def _question_table(asked: Question) -> dict[str, Any]:
+    said: dict[str, Any] = json.loads(asked.table.model_dump_json(exclude_defaults=True))
+    return {**said, "use": asked.use, **_plain(asked.parameters)}
 
 
 def _factor_table(factor: Factor) -> dict[str, Any]:

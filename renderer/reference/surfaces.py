@@ -43,6 +43,7 @@ def surfaces(shot: Shot) -> tuple[Surfaces, NDArray[np.bool_]]:
         slack=rows[:, 4],
         starts=np.searchsorted(pixel, np.arange(width * height + 1)),
         outlines=tuple(outlines),
+        edge=near_edge[0].ravel(),
     ), near_edge
 
 

@@ -78,7 +78,8 @@ class Surfaces:
     eye to it, in the world; normal (m, 3) is the mesh's own, turned outwards, not of unit length;
     color (m, 3) is unlit; slack (m,) is by how much its depth may differ where float32 and float64
     put edges 1/256 pixel apart. starts (h·w + 1,) says where each pixel's rows begin; outlines has
-    for each object its front-facing triangles (k, 3, 2) in pixels, cut at the near plane.
+    for each object its front-facing triangles (k, 3, 2) in pixels, cut at the near plane; edge
+    (h·w,) are the pixels within 1/256 pixel of the edge of a triangle that faces the eye.
     """
 
     shot: Shot
@@ -93,6 +94,7 @@ class Surfaces:
     slack: Floats
     starts: Indices
     outlines: tuple[Floats, ...]
+    edge: Bools
 
     @property
     def targets(self) -> Bools:

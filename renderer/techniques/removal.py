@@ -21,6 +21,13 @@ from seethrough.renderer.techniques.base import Bools, Floats, Look, Surfaces
 CAPS = ("none", "inside", "flat")
 WALL = (0.36, 0.34, 0.33)
 
+# Where a hole is one depth at each pixel, from the eye on: the picture `clip` has it, 0 for none.
+CLIPPED = """
+uniform sampler2D clip;
+bool removed(Surface s) { return s.depth < texelFetch(clip, s.texel, 0).x; }
+bool pierced(Surface s) { return texelFetch(clip, s.texel, 0).x > 0.0; }
+"""
+
 _GLSL = f"""
 uniform int cap;
 

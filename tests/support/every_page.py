@@ -4,7 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 from seethrough.experiment.display.display import LEAVE
-from seethrough.experiment.pages import blocks
+from seethrough.experiment.questions.ready import one_page
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.questionnaire import after, asked, before
 from seethrough.experiment.session.session import _feedback, _instruction, _page
@@ -39,7 +39,10 @@ def pages(aspect):
         person.pages.append(_instruction(study, task_set.trials[0], 8, run))
     names = ("welcome", "ready", "pause", "time", "thanks")
     person.pages += [*map(_page, names), LEAVE, MENU]
-    person.pages += [blocks.tlx("tlx.dynamic", ()), blocks.sus("sus.standard", ())]
+    person.pages += [
+        one_page("tlx", transparency="dynamic"),
+        one_page("sus", transparency="standard"),
+    ]
     trial = session_for(1, study.plan)[0].training[0]
     for outcome in (None, Outcome("12", "14", False, count_error=-2), Outcome("K", "K", True)):
         person.pages.append(_feedback(ended(trial, outcome)))
@@ -47,7 +50,7 @@ def pages(aspect):
         state = marked(begun("unique", aspect), *keys)
         outcome, plan = TASKS["unique"].outcome(state), TASKS["unique"].solution(state)
         person.pages.append(_feedback(ended(trial, outcome, plan)))
-    list(asked(after(study, 1), person))
+    list(asked(after(study), person))
     return person.pages
 
 

@@ -70,7 +70,7 @@ class RulePrograms:
         return self._pictures[name]
 
     def _target_depth(self, table: SceneTable, shot: Shot, matrix: bytes) -> NDArray[np.float32]:
-        """(h, w) view depth of the nearest surface of a target, others away; 0 where there is
+        """(h, w) view depth of the farthest front-facing surface of a target; 0 where there is
         none."""
         if shot.size not in self._framebuffers:
             for old in self._framebuffers.values():
@@ -79,12 +79,12 @@ class RulePrograms:
             depth = self._context.depth_renderbuffer(shot.size)
             self._framebuffers = {shot.size: self._context.framebuffer([texture], depth)}
         framebuffer = self._framebuffers[shot.size]
-        framebuffer.clear()
+        framebuffer.clear(depth=0.0)
         framebuffer.use()
         targets = np.nonzero(shot.scene.targets)[0]
         sequence, runs = table.sequence([targets], shot.camera)
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._context.depth_func = "<="
+        self._context.depth_func = ">"
         draw(self._context, self._depth, table, sequence, runs[0], shot.camera, matrix)
         data = framebuffer.read(components=1, dtype="f4", alignment=1)
         return np.frombuffer(data, "f4").reshape(shot.size[1], shot.size[0])[::-1]

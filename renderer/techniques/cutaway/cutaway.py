@@ -53,11 +53,7 @@ class Cutaway(removal.Removal):
     instruction = "What stands before a target is cut off along planes, like a slice of a cake."
     source = "diepstraten2003"
     Parameters = CutawayParameters
-    removes = """
-uniform sampler2D clip;
-bool removed(Surface s) { return s.depth < texelFetch(clip, s.texel, 0).x; }
-bool pierced(Surface s) { return texelFetch(clip, s.texel, 0).x > 0.0; }
-"""
+    removes = removal.CLIPPED
 
     def touches(self, p: CutawayParameters, state: Any, shot: Shot) -> Bools:
         """What is nearer than the end of a wedge."""
