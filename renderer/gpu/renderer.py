@@ -28,6 +28,8 @@ class Renderer:
     """Draws a scene as a technique shows it. Meshes are uploaded once, a scene when it changes.
 
     `without` names shortcuts not to take (renderer.plan.SHORTCUTS), for tests and measurements.
+    `window`: the height in pixels of the window that a picture is shown in, where it is smaller
+    than that: what is counted in the window's pixels keeps its part of the picture.
     """
 
     def __init__(
@@ -36,11 +38,13 @@ class Renderer:
         size: tuple[int, int] = (800, 600),
         samples: int = 0,
         without: Set[str] = frozenset(),
+        window: int | None = None,
     ) -> None:
         unknown = set(without) - set(SHORTCUTS)
         if unknown:
             raise ValueError(f"without = {sorted(unknown)}, expected some of {sorted(SHORTCUTS)}")
         self.context = context
+        self.window = window
         self.without = frozenset(without)
         self.plan: FramePlan | None = None
         self._store = MeshStore(context)
@@ -86,10 +90,11 @@ class Renderer:
         else:
             # Where pixels are antialiased, only the depth buffer's picture is.
             without = self.without | {"held"} if self._samples else self.without
+            scale = self.size[1] / self.window if self.window else 1.0
             shown = _shown(scene, camera, technique, state, self.size)
-            self.plan = plan(shown, camera, technique, self.size, without, state=state)
+            self.plan = plan(shown, camera, technique, self.size, without, scale, state=state)
             args = (self._table(shown), self.plan, camera, technique, self._target)
-            stats = self._layer.draw(*args, state=state)
+            stats = self._layer.draw(*args, scale, state=state)
             self._target.resolve()
             self._shown = (scene, camera, technique, state)
         if target_framebuffer is not None:
