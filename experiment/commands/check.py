@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 SECONDS = 10.0  # of the hardest scene
 LEAST_DISK = 1.0  # GiB
 MOST_REDRAWS = 50
+MOST_PLAYED = 5_000  # sessions
 MOST_ORDERS = 64  # more than a square of the conditions that there can be has rows
 SMOOTH, HOPELESS = 0.01, 0.5  # shares of frames missed: above the first a warning, the last fails
 NO_CARD = "no graphics card draws: expected frames to be late in hard scenes"
@@ -39,6 +40,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--certificate", type=Path, metavar="FILE.csv", help="every trial's row")
     parser.add_argument(
         "--redraw", action="store_true", help="find the scenes to draw again, and print them"
+    )
+    parser.add_argument(
+        "--balance", action="store_true", help="count balance from the tables of --slots sessions"
+    )
+    parser.add_argument(
+        "--slots", type=int, metavar="N", help="default: a complete cycle of every group"
     )
     parser.add_argument(
         "--models", type=Path, metavar="FILE.png", help="where a picture of its own models goes"
@@ -56,6 +63,9 @@ def run(arguments: argparse.Namespace) -> int:
     said.say("config", f"{study.study.name}, {study.digest()[:12]}")
     _models(study, said)
     _design(study, said)
+    if arguments.balance:
+        _balance(study, arguments.slots, said)
+        return said.sum_up()
     if arguments.config_only:
         return said.sum_up()
     from seethrough.experiment.display.driver import describe, on_the_processor, open_context
@@ -118,6 +128,31 @@ def _design(study: Study, said: Verdicts) -> None:
         else:
             why = f"expected a multiple of {wanted} participants"
             said.say("design", f"{where}the orders are not equally often", WARNING, why)
+
+
+def _balance(study: Study, count: int | None, said: Verdicts) -> None:
+    """Counted from finished tables: after so many people, and where a fifth of them dropped out."""
+    from seethrough.experiment.session.balance_check import refilled, table_of, verdicts
+    from seethrough.experiment.study.balance import cycle
+
+    plan = study.plan
+    if count is not None and count < 1:
+        raise InputError(f"--slots = {count}: expected at least 1")
+    longest = max(cycle(plan, which) for which in range(len(plan.groups)))
+    cycles = [plan.slot_of(g, n) for g in range(len(plan.groups))
+              for n in range(1, cycle(plan, g) + 1)]  # fmt: skip
+    slots = sorted(cycles) if count is None else plan.slots(count)
+    if len(slots) > MOST_PLAYED:
+        raise InputError(
+            f"--slots: missing, expected at most {MOST_PLAYED}: a complete cycle is {longest} "
+            "people of each group"
+        )
+    again = refilled(plan, len(slots), study.study.seed)
+    for what, played in (("as they come", slots), ("after drop-outs", again)):
+        for found in verdicts(study, table_of(study, played), played):
+            text = f"{found.group}, {what}: {found.people} people, {', '.join(found.kept)}"
+            why = "; ".join(found.broken[:3])
+            said.say("balance", text, *([FAILS, why] if found.broken else []))
 
 
 def _conditions(study: Study, session: Sequence[TaskSet]) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--slots", type=int, metavar="N", help="people in the tables; default: all who are wanted"
     )
-    parser.add_argument("--csv", type=Path, metavar="FILE", help="every trial of every slot; - here")
+    parser.add_argument("--csv", type=Path, metavar="FILE", help="every trial; -: print it")
     parser.add_argument("--html", type=Path, metavar="FILE", help="a page: slots × positions")
 
 

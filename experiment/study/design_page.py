@@ -80,5 +80,5 @@ def _square(look: tuple[str, str], tag: str, title: str = "") -> str:
 
 
 def color(k: int, of: int) -> str:
-    """Light colours that hold dark letters, apart in hue and, from one to the next, in lightness."""
+    """Light colours that hold dark letters, apart in hue, neighbours in lightness, too."""
     return f"hsl({360 * k / max(of, 1):.0f} 70% {(82, 68)[k % 2]}%)"
