@@ -123,7 +123,9 @@ def _design(study: Study, said: Verdicts) -> None:
             said.say("design", f"{where}… and {len(rows) - MOST_ORDERS} orders more")
         wanted = plan.rows(which)
         uneven = group.people % wanted
-        if not uneven:
+        if "random" in (study.design.order, *(f.order for f in study.factors)):
+            said.say("design", f"{where}orders are drawn: nothing is promised of them")
+        elif not uneven:
             said.say("design", f"{where}each order equally often")
         else:
             why = f"expected a multiple of {wanted} participants"

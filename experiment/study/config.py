@@ -24,9 +24,10 @@ __all__ = ["Study", "find", "load", "parse", "shipped"]
 
 
 def shipped() -> dict[str, Path]:
-    """Name → file of the studies that ship in configs/."""
+    """Name → file of the studies that ship in configs/ and configs/examples/."""
     folder = Path(str(resources.files("seethrough.configs")))
-    return {p.stem: p for p in sorted(folder.glob("*.toml"))}
+    return {p.stem: p for where in (folder, folder / "examples")
+            for p in sorted(where.glob("*.toml"))}  # fmt: skip
 
 
 def find(name: str) -> Path:
