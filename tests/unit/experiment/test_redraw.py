@@ -14,7 +14,7 @@ PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 def study(*redraw, **design):
     """The published study, or with one level or task, its scenes drawn again."""
     table = {**PUBLISHED, "design": {**PUBLISHED["design"], "redraw": list(redraw)}}
-    del table["questions"]
+    del table["questions"], table["analysis"]
     factors = dict(PUBLISHED["factors"])
     if "transparency" in design:
         del factors["transparency"]
