@@ -24,7 +24,6 @@ from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
@@ -50,7 +49,7 @@ class Recorded:
     @property
     def technique(self) -> Any:
         """What the trial was drawn with."""
-        return self.study.dynamic if self.trial.transparency == "dynamic" else Standard()
+        return self.study.part(self.trial.levels).technique
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,11 +115,11 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
         display = provenance["display"]
         width, height = (int(v) for v in display["size"].split("x"))
         samples = int(display.get("samples", 0))
-        study = parse(provenance["study"], str(sidecar))
+        study = parse(provenance["study"], str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
-    study = study.with_walkthrough(kept(study.walkthrough, data))
-    task_sets = session_for(int(row["slot"]), study.design.factors())
+    study = study.with_places(lambda place: kept(place, data))
+    task_sets = session_for(int(row["slot"]), study.plan)
     number = int(row["trial"])
     trial = next((t for s in task_sets for t in s.trials if t.number == number), None)
     if trial is None:

@@ -7,21 +7,29 @@ on at the first page without an answer.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+from zlib import crc32
 
-from seethrough.experiment.display.display import Input, Leave
-from seethrough.experiment.pages import blocks
-from seethrough.experiment.pages.color_plates import DIGITS, Plate, plates
-from seethrough.experiment.pages.depth_test import PAIRS, depth_test
-from seethrough.experiment.pages.pages import Choice, Page, Paragraph, PlatePicture, TextField
-from seethrough.experiment.study.config import Study
+from seethrough.experiment.display.display import Input
+from seethrough.experiment.questions.choice.choice_question import ChoiceParameters
+from seethrough.experiment.questions.kit import Asking, Row
+from seethrough.experiment.questions.ranking.ranking_question import RankingParameters
+from seethrough.experiment.questions.ready import question
+from seethrough.experiment.record.columns import RESERVED
+from seethrough.experiment.session import levels as words
+from seethrough.experiment.session.levels import Pairs
 from seethrough.experiment.study.design import PARTICIPANT, generator
+from seethrough.experiment.study.factors import ALONE, Levels
+from seethrough.experiment.study.reading import Question
+from seethrough.experiment.study.study import Study
+from seethrough.tasks.catalog import WORLDS
 
-Row = Mapping[str, str]
-Item = tuple[str, str, str]  # item, transparency, scenario; the last two empty where none applies
+Item = tuple[str, Pairs]  # item, and factor and level of what it is about
 Given = Mapping[Item, str]  # values of the items that were answered
-OLDEST = 120  # years; what is above is a slip of the finger
-COLOR_STREAM = 999_999  # last word of the plates' stream: no trial has it
+QUESTION_STREAM = 999_999  # in the names of questions' streams: no trial has it
+COLOR_CHECK = "color_check"  # its stream has no further word
 
 
 @dataclass(frozen=True)
@@ -30,6 +38,21 @@ class Step:
 
     last: tuple[Item, ...]
     ask: Callable[[Input, Given], list[Row]]
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A question that a study asks: `name` is its table's, `use` its kind or ready-made question,
+    `about` the levels that it is asked for, by factor, `of` those that it compares, of a `factor`;
+    `cells` are those that it is meant for."""
+
+    name: str
+    use: str
+    about: Mapping[str, str] = field(default_factory=dict)
+    of: tuple[str, ...] = ()
+    parameters: Any = None
+    factor: str = ""
+    cells: tuple[Levels, ...] = ()
 
 
 def asked(steps: Iterator[Step], person: Input, given: Given | None = None) -> Iterator[list[Row]]:
@@ -46,141 +69,132 @@ def asked(steps: Iterator[Step], person: Input, given: Given | None = None) -> I
 
 def item_of(row: Row) -> Item:
     """What tells a participant's answers apart."""
-    return row["item"], row.get("transparency", ""), row.get("scenario", "")
+    about = ((k, v) for k, v in row.items() if v and k not in RESERVED)
+    return row["item"], tuple(sorted(about))
 
 
 def before(study: Study, slot: int) -> Iterator[Step]:
-    """Consent, age and gender, colour check."""
-    if "consent.text" in study.texts:
-        yield Step((("consent", "", ""),), _consent)
-    if study.session.demographics:
-        yield Step((("age", "", ""), ("gender", "", "")), _demographics)
-    if study.session.color_check:
-        rng = generator(study.study.seed, (PARTICIPANT, slot, COLOR_STREAM))
-        for number, plate in enumerate(plates(rng), start=1):
-            yield _plate(f"color_plate_{number}", plate)
+    """Every page that the study asks for at the start, in its order."""
+    yield from _at("start", study, slot)
 
 
-def after(study: Study) -> Iterator[Step]:
-    """Every block the study asks for, in the order of its config."""
-    levels = study.design.transparency
-    for block in study.session.questionnaire:
-        if block == "ratings":
-            for transparency, scenario in study.design.factors().conditions:
-                page = blocks.ratings(transparency, scenario)
-                yield _scales(page, blocks.RATINGS, transparency, scenario)
-        elif block == "comparison" and len(levels) > 1:
-            yield Step((("depth_self_report", "", ""),), _comparison)
-        elif block == "tlx":
-            for level in levels:
-                yield _scales(blocks.tlx(level), blocks.TLX, level, prefix="tlx_")
-        elif block == "sus":
-            for level in levels:
-                yield _sus(level)
-        elif block == "depth_test":
-            for number in range(PAIRS):
-                yield _pair(study, number)
-        elif block == "remarks":
-            yield Step((("remarks", "", ""),), _remarks)
+def after(study: Study, slot: int = 1) -> Iterator[Step]:
+    """Every page that the study asks for at the end, in its order."""
+    yield from _at("end", study, slot)
 
 
-def _consent(person: Input, given: Given) -> list[Row]:
-    buttons = ("consent.yes", "consent.no")
-    page = Page("consent", "consent.title", (Paragraph("consent.text"),), buttons)
-    if person.ask(page)["button"] == "1":
-        raise Leave
-    return [_row("consent", "1")]
+def of_condition(study: Study, slot: int, at: Levels) -> Iterator[Step]:
+    """Every page that is asked after a condition: the levels of a trial of it."""
+    for name, asked_ in study.part(at).questions.items():
+        if asked_.when_asked == "condition" and asked_.meant_for(at):
+            about = dict(words.of_blocks(study, at))
+            yield from steps(_planned(study, name, asked_, about, (at,)), study, slot)
 
 
-def _demographics(person: Input, given: Given) -> list[Row]:
-    genders = ("gender.female", "gender.male", "gender.other")
-    fields = (
-        TextField("age", "demographics.age", lines=1, most=OLDEST, wrong="demographics.wrong"),
-        Choice("gender", "demographics.gender", genders, optional=True),
+def _at(when: str, study: Study, slot: int) -> Iterator[Step]:
+    plan = study.plan
+    cells = [plan.levels(c) for c in plan.groups[plan.group_of(slot)[0]].cells]
+    for name, question_ in study.questions.items():
+        if question_.when_asked != when:
+            continue
+        meant = tuple(at for at in cells if study.part(at).questions[name].meant_for(at))
+        each = _each(study, question_)
+        for about in dict.fromkeys(tuple((f, at[f]) for f in each) for at in meant):
+            there = tuple(at for at in meant if set(about) <= set(at.items()))
+            yield from steps(_planned(study, name, question_, dict(about), there), study, slot)
+
+
+def _each(study: Study, asked_: Question) -> tuple[str, ...]:
+    """The factors for each of whose levels a question is asked once."""
+    if asked_.table.each is not None:
+        return asked_.table.each
+    if asked_.use == "ratings":
+        return tuple(f.name for f in study.factors if f.block)
+    if asked_.use in ("tlx", "sus"):
+        return tuple(f.name for f in study.factors if f.block and f.scenes == ALONE)
+    return ()
+
+
+def _planned(
+    study: Study, name: str, asked_: Question, about: Mapping[str, str], cells: tuple[Levels, ...]
+) -> Planned:
+    """The question as it is asked about these levels."""
+    use, parameters, factor, of = asked_.use, asked_.parameters, "", ()
+    compared = [f for f in study.factors if f.name == asked_.table.of]
+    if use == "comparison" and not compared:
+        compared = [f for f in study.factors if f.block][:1]
+    if compared:
+        factor, first = compared[0].name, compared[0].baseline
+        of = (first, *(level for level in compared[0].names if level != first))
+    if use == "comparison" and len(of) > 2:
+        use, parameters = "ranking", RankingParameters(text="comparison.ranking")
+    elif use == "comparison" and not (of and words.known(study, f"{factor}.{of[1]}")):
+        use, parameters, name = "choice", _preference(of), "preference"
+    return Planned(name, use, about, of, parameters, factor, cells)
+
+
+def _preference(of: tuple[str, ...]) -> ChoiceParameters:
+    """Which of two levels one would rather work with, 1 for the second."""
+    first, second = of
+    return ChoiceParameters(
+        text="comparison.preference",
+        options=(f"name.{second}", "name.neutral", f"name.{first}"),
+        names=(second, "neutral", first),
+        right=second,
+        title="comparison.any",
     )
-    answers = person.ask(Page("demographics", "demographics.title", fields))
-    age = answers.get("age", "").strip()
-    rows = [_row("age", age)] if age else []
-    if "gender" in answers:
-        rows.append(
-            _row("gender", "", text=genders[int(answers["gender"])].removeprefix("gender."))
-        )
-    return rows
 
 
-def _plate(item: str, plate: Plate) -> Step:
-    """A plate of the participant's own stream; value 1 where the digit was read."""
-    options = (*map(str, sorted(DIGITS)), "color.nothing")
+def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
+    """The pages of a question."""
+    kind = question(planned.use)
+    parameters = kind.Parameters() if planned.parameters is None else planned.parameters
+    further = () if planned.use == COLOR_CHECK else (crc32(planned.name.encode()),)
+    stream = (PARTICIPANT, slot, QUESTION_STREAM, *further)
+    asking = Asking(
+        planned.name,
+        planned.about,
+        planned.of,
+        stream=partial(generator, study.study.seed, stream),
+        study=StudyPlaces(study, planned.cells),
+    )
+    cell = tuple(sorted(planned.about.items()))
+    pairs = [*planned.about.items(), *((planned.factor, level) for level in planned.of)]
 
-    def ask(person: Input, given: Given) -> list[Row]:
-        choice = Choice("digit", "color.question", options)
-        answers = person.ask(Page("color check", "color.title", (PlatePicture(plate), choice)))
-        answer = options[int(answers["digit"])]
-        text = f"{answer.removeprefix('color.')}, shown {plate.digit}"
-        return [_row(item, str(int(answer == str(plate.digit))), text=text)]
+    def step(number: int) -> Step:
+        def ask(person: Input, given: Given) -> list[Row]:
+            known = {item: value for (item, at), value in given.items() if at == cell}
+            now = replace(asking, given=known)
+            page = words.named(study, kind.pages(parameters, now)[number], pairs)
+            page = replace(page, simulate=partial(kind.simulate, parameters, page))
+            rows = kind.rows(parameters, now, number, person.ask(page))
+            return [{**row, **planned.about} for row in rows]
 
-    return Step(((item, "", ""),), ask)
+        last = kind.last(parameters, asking, number)
+        return Step(tuple((item, cell) for item in last), ask)
 
-
-def _comparison(person: Input, given: Given) -> list[Row]:
-    page = blocks.comparison()
-    answers = person.ask(page)
-    options = next(b.options for b in page.blocks if isinstance(b, Choice))
-    chosen = options[int(answers["preference"])].removeprefix("name.")
-    return [
-        # the paper's 1 and 0; who prefers neither is told from who prefers the standard by the text
-        _row("preference", str(int(chosen == "dynamic")), text=chosen),
-        _row("depth_self_report", answers["depth_self_report"]),
-    ]
-
-
-def _scales(
-    page: Page, items: tuple[str, ...], transparency: str, scenario: str = "", prefix: str = ""
-) -> Step:
-    def ask(person: Input, given: Given) -> list[Row]:
-        answers = person.ask(page)
-        return [
-            _row(prefix + item, answers[item], transparency=transparency, scenario=scenario)
-            for item in items
-        ]
-
-    return Step(((prefix + items[-1], transparency, scenario),), ask)
+    for number in range(kind.count(parameters)):
+        yield step(number)
 
 
-def _sus(level: str) -> Step:
-    """Ten statements and their score."""
-    items = [f"sus_{n}" for n in range(1, blocks.SUS_ITEMS + 1)]
+@dataclass(frozen=True)
+class StudyPlaces:
+    """What questions may know of a study, asked for some of its cells."""
 
-    def ask(person: Input, given: Given) -> list[Row]:
-        answers = person.ask(blocks.sus(level))
-        values = {item: given.get((item, level, ""), answers[item]) for item in items}
-        rows = [_row(item, value, transparency=level) for item, value in values.items()]
-        return [*rows, _row("sus", f"{blocks.sus_score(values):g}", transparency=level)]
+    study: Study
+    cells: tuple[Levels, ...]
 
-    return Step((("sus", level, ""),), ask)
+    @property
+    def seed(self) -> int:
+        """The study's seed."""
+        return self.study.study.seed
 
+    def place(self, world: str) -> Any:
+        """The study's parameters of a world, or its defaults."""
+        kind = WORLDS[world].Parameters
+        own = (place for place in self.study.places() if isinstance(place, kind))
+        return next(own, None) or self.study.parameters("world", world) or kind()
 
-def _pair(study: Study, number: int) -> Step:
-    """A pair of the depth test; value 1 where it was right. The last brings the score."""
-    item = f"depth_pair_{number + 1}"
-
-    def ask(person: Input, given: Given) -> list[Row]:
-        test = depth_test(study)
-        answers = person.ask(test.pages(study.dynamic)[number])
-        rows = [_row(item, str(int(test.right(number, answers))))]
-        if number == PAIRS - 1:
-            before_it = (given[f"depth_pair_{n}", "", ""] for n in range(1, PAIRS))
-            score = sum(value == "1" for value in (*before_it, rows[0]["value"]))
-            rows.append(_row("depth_test", str(score)))
-        return rows
-
-    return Step((("depth_test" if number == PAIRS - 1 else item, "", ""),), ask)
-
-
-def _remarks(person: Input, given: Given) -> list[Row]:
-    text = person.ask(blocks.remarks()).get("remarks", "")
-    return [_row("remarks", "", text=text)] if text else []
-
-
-def _row(item: str, value: str, **more: str) -> Row:
-    return {"item": item, "value": value, **more}
+    def technique(self, about: Mapping[str, str]) -> Any:
+        """What frames are drawn with at these levels."""
+        return self.study.part(self.cells[-1]).technique

@@ -229,24 +229,32 @@ def test_things_are_told_by_their_places():
     assert tally.add(walker, _Found(4)) == 0
 
 
+LEVELS = ("dynamic", "", "standard")  # what the options of a comparison speak for
+
+
+def cell(level):
+    """What a page is about: a level of transparency in the building."""
+    return (("transparency", level), ("scenario", "walkthrough"))
+
+
 def test_pages_are_read_and_filled_in():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
     for level, seconds in (("standard", 100.0), ("dynamic", 30.0)):
-        text = Page("instruction", "t", (Paragraph(f"transparency.{level}"),))
+        text = Page("instruction", "t", (Paragraph("ready.text"),), about=cell(level))
         assert opinions.answer(text)[0] == {"button": "0"}
         for _ in range(3):
             opinions.begin("unique")
             opinions.spent("unique", seconds)
     ratings = {"standard": [], "dynamic": []}
     for level in ratings:
-        name = f"rating {level} walkthrough"
-        page = Page(name, "r", (Scale("ease", "rating.ease", "l", "h"),))
+        page = Page("r", "r", (Scale("ease", "rating.ease", "l", "h"),), about=cell(level))
         for _ in range(40):
             answers, spent = opinions.answer(page)
             assert spent > 0 and 0 <= int(answers["ease"]) <= 4
             ratings[level].append(int(answers["ease"]))
     assert np.mean(ratings["dynamic"]) > np.mean(ratings["standard"]) + 1
-    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c")), TextField("remarks", "t")))
+    choice = Choice("preference", "p", ("a", "b", "c"), prefer=LEVELS)
+    page = Page("c", "c", (choice, TextField("remarks", "t")))
     chosen = [opinions.answer(page)[0] for _ in range(50)]
     assert sum(a["preference"] == "0" for a in chosen) > 40
     assert all(a["remarks"] == "" for a in chosen)
@@ -254,22 +262,22 @@ def test_pages_are_read_and_filled_in():
 
 def test_opinions_without_experience_are_neutral():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
-    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c")),))
+    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c"), prefer=LEVELS),))
     assert opinions.answer(page)[0]["preference"] == "1"
 
 
 def test_load_and_negative_statements_are_rated_the_other_way():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
     for level, seconds in (("standard", 100.0), ("dynamic", 25.0)):
-        opinions.answer(Page("i", "t", (Paragraph(f"transparency.{level}"),)))
+        opinions.answer(Page("instruction", "t", about=cell(level)))
         opinions.begin("count")
         opinions.spent("count", seconds)
     means = {}
     for level in ("standard", "dynamic"):
-        tlx = Page(f"tlx {level}", "t", (Scale("effort", "x", "l", "h", steps=21),))
-        sus = Page(
-            f"sus {level}", "s", (Scale("sus_1", "x", "l", "h"), Scale("sus_2", "x", "l", "h"))
-        )
+        load = Scale("effort", "x", "l", "h", steps=21, against=True)
+        tlx = Page("tlx", "t", (load,), about=(("transparency", level),))
+        both = (Scale("sus_1", "x", "l", "h"), Scale("sus_2", "x", "l", "h", against=True))
+        sus = Page("sus", "s", both, about=(("transparency", level),))
         answers = [opinions.answer(tlx)[0] | opinions.answer(sus)[0] for _ in range(40)]
         means[level] = {
             k: np.mean([int(a[k]) for a in answers]) for k in ("effort", "sus_1", "sus_2")
