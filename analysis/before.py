@@ -63,18 +63,18 @@ def design_before(config: Mapping[str, Any]) -> Design:
 def _tasks(margin: Mapping[str, float]) -> tuple[Task, ...]:
     time = Measured(
         "time", "time", "s", log=True, margin=margin.get("time"), label="completion time",
-        pool=True, digits=2, family="tasks",
+        pool=True, digits=2,
     )  # fmt: skip
     correct = Measured(
         "correct", "correct", direction="more", scale="binary", adds="share",
-        margin=margin.get("correct"), label="right answers", family="tasks",
+        margin=margin.get("correct"), label="right answers",
     )  # fmt: skip
     off = margin.get("count_error")
     counting = (
         Measured("count_error", "count_error", adds=RELATIVE, scale="count", margin=off,
-                 label="relative error", pool=True, family="counting"),
+                 label="relative error", pool=True),
         Measured("absolute_error", "count_error", adds=ABSOLUTE, scale="count", margin=off,
-                 label="absolute relative error", pool=True, price=True, family="counting"),
+                 label="absolute relative error", pool=True, price=True),
     )  # fmt: skip
     place = Measured("distance", "distance", "units", margin=margin.get("distance"),
                      label="distance", price=True, digits=2)  # fmt: skip

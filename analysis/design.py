@@ -61,8 +61,11 @@ class Factor:
         return self.kind == WITHIN
 
     def label(self, level: str) -> str:
-        """A level in words."""
-        return (self.labels or {}).get(level, level)
+        """A level in words: as the study has them, else with the factor's name."""
+        said = (self.labels or {}).get(level, level)
+        if said != level:
+            return said
+        return f"{self.name} {level}" if self.numbers is not None else f"{level} {self.name}"
 
     @property
     def nests_tasks(self) -> bool:
@@ -102,7 +105,6 @@ class Measured:
     pool: bool = False
     price: bool = False
     digits: int = 3
-    family: str = ""
     ratio: bool = False
 
     @property
@@ -166,6 +168,10 @@ class Prediction:
     combine: str = "all"
     ratio: bool = False
     reason: str = ""
+
+    def about(self, measure: Measured) -> bool:
+        """Whether it is of a measure: of its name, or of the column that it is made of."""
+        return measure.name in self.measures or measure.column in self.measures
 
 
 @dataclass(frozen=True, slots=True)

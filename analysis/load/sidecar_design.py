@@ -180,7 +180,6 @@ class _Reader:
             self.value(table, path, "pool", log, _is_bool, "true or false"),
             self.value(table, path, "price", False, _is_bool, "true or false"),
             self.value(table, path, "digits", 2 if log else 3, _is_digits, "0 to 9"),
-            "tasks",
         )
 
     def margin(self, table: Mapping[str, Any], path: str, above: float) -> float | None:

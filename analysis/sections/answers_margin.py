@@ -31,7 +31,7 @@ def accurate(
     alpha, design = context.plan.alpha, context.design
     parts: dict[str, list[str | Cited]] = {words: [] for words in ACCURACY}
     decides: list[Number] = []
-    for measure in (m for m in design.measures() if m.name in prediction.measures):
+    for measure in (m for m in design.measures() if prediction.about(m)):
         for table in _tables(tables.get(measure.name, {})):
             for row in table.rows:
                 if not _is_asked(design, prediction, row):
@@ -81,7 +81,7 @@ def _verdict_of_accuracy(told: Collection[str]) -> str:
 def _declared(design: Design, prediction: Prediction) -> str:
     """The margins that accuracy is judged by."""
     own = [f"{m.said} {m.margin:g}" for m in design.measures()
-           if m.name in prediction.measures and m.margin is not None]  # fmt: skip
+           if prediction.about(m) and m.margin is not None]  # fmt: skip
     if not own:
         return "The study declared no margin of accuracy."
     return (

@@ -54,7 +54,7 @@ def compared(
     """Less, more, different or equivalent: every measure's tests of every contrast asked."""
     alpha = context.plan.alpha
     tests: list[tuple[str, Table, Mapping[str, Any], Number, bool]] = []
-    for measure in (m for m in context.design.measures() if m.name in prediction.measures):
+    for measure in (m for m in context.design.measures() if prediction.about(m)):
         for contrast in contrasts:
             found = rows_of(tables.get(measure.name, {}), contrast)
             pooled = [x for x in found if _is_overall(x[1])]

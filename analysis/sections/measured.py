@@ -64,7 +64,8 @@ def pairs_of(
             ))  # fmt: skip
         for task in tasks:
             label = _label(design.task_said(task), contrast, several)
-            family = measure.family or (measure.name if manifold else "")
+            alone = len(design.tasks_with(measure.name)) == 1
+            family = measure.name if manifold or not alone else ""
             found.append(_pair(
                 context, measure, task, label, cells, logs, contrast, several,
                 f"{family} {contrast.factor}" if family else "", task=task,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from seethrough.analysis.cells import Cells
 from seethrough.analysis.comparison import Pair
 from seethrough.analysis.measures import cells_of
@@ -54,7 +56,7 @@ def robust_blocks(context: Context) -> list[Block]:
 def _row(context: Context, pair: Pair, log: bool, purpose: int) -> dict[str, object]:
     first, second = pair.logs if log and pair.logs is not None else (pair.first, pair.second)
     scores = first - second
-    far = outliers(scores)
+    far = outliers(scores, float(np.max(np.abs([first, second]))))
     flipped, method = sign_flip(scores, context.rng(purpose))
     kept = scores[~far]
     without: Number = one_sample(kept).p if len(kept) else Undefined("everybody is an outlier")

@@ -63,7 +63,7 @@ def _answer(context: Context, prediction: Prediction, found: Found, note: str) -
         return at_least(context, prediction, found.single, start)
     if prediction.expect == "not worse":
         return accurate(context, prediction, found.tables, start)
-    measures = [m for m in context.design.measures() if m.name in prediction.measures]
+    measures = [m for m in context.design.measures() if prediction.about(m)]
     logs = found.tables.get(measures[0].name, {}).get("logs") if len(measures) == 1 else None
     contrasts = asked(context.design, prediction)
     if logs is not None and len(contrasts) == 1 and prediction.expect in ("less", "more"):

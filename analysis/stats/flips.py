@@ -6,6 +6,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+from seethrough.analysis.stats.ties import STEPS
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
     EPS,
@@ -50,10 +51,15 @@ def sign_flip(scores: Array, rng: Generator) -> tuple[Number, str]:
     return (hits + 1) / (DRAWS + 1), f"{DRAWS} draws"
 
 
-def outliers(scores: Array) -> NDArray[np.bool_]:
-    """Scores more than `FAR` robust standard deviations (1.4826 · MAD) from the median."""
+def outliers(scores: Array, scale: float | None = None) -> NDArray[np.bool_]:
+    """Scores more than `FAR` robust standard deviations (1.4826 · MAD) from the median.
+
+    `scale`: the largest absolute value that the scores were made from, which bounds their rounding:
+    where half of them are equal up to it, nothing is far.
+    """
     gap = np.abs(scores - np.median(scores))
     spread = 1.4826 * float(np.median(gap))
-    if spread == 0:
+    top = float(np.max(np.abs(scores), initial=0.0)) if scale is None else scale
+    if spread <= STEPS * EPS * top:
         return np.zeros(len(scores), dtype=bool)
     return np.asarray(gap > FAR * spread)

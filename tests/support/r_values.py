@@ -142,7 +142,13 @@ def closed_form(case: str, table: str) -> float:
     """How close, relatively, a closed form of this folder's table has to be."""
     if case != "offset":
         return CLOSED
-    logs = table.endswith("_log") or table in ("tests_log_time", "order", "learning", "tradeoff")
+    logs = table.endswith("_log") or table in (
+        "tests_log_time",
+        "order",
+        "learning",
+        "tradeoff",
+        "robust",
+    )
     return NEAR_1E9["log" if logs else ""]
 
 

@@ -45,7 +45,7 @@ def study_of(case: Case) -> Study:
     """The published study with the case's own name and changes."""
     path = find("published")
     table = tomllib.loads(path.read_text(encoding="utf-8"))
-    table["session"].pop("consent")
+    table["questions"].pop("consent")
     changes = {"study": {"name": "oracle", "participants": case.people}, **case.study}
     for name, change in changes.items():
         table[name] = {**table.get(name, {}), **change}
