@@ -28,6 +28,7 @@ from seethrough.experiment.study.study_tables import (
     Table,
 )
 from seethrough.experiment.study.toml_file import read_toml
+from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.catalog import TASKS, WORLDS
 from seethrough.tasks.kit.base import Setting
@@ -78,6 +79,10 @@ class Study(Table):
         for model in table["walkthrough"]["models"]:
             del model["folder"]  # where a file lies differs between stations that run one study
         return table
+
+    def technique(self, level: str) -> Any:
+        """What a trial of this transparency level is drawn with."""
+        return named(level, {"dynamic": self.dynamic})
 
     def setting(self, trial: Trial) -> Setting:
         """Where and how a trial's task is set."""
