@@ -1,7 +1,7 @@
 """What simulated people do at the tasks: `python tests/support/performance_figures.py` writes it
 anew (tests/data/people/performances.json).
 
-With eyes that see what a test lets them see, so that no graphics card has a say. Who plays, and how,
+With eyes that see what a test lets them see: no graphics card has a say. Who plays, and how,
 is changed on purpose, in a commit of its own, which writes these figures with it: whoever simulates
 a study again is to get its rows again.
 """
