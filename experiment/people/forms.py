@@ -103,7 +103,8 @@ class Opinions:
         own = {task for met, task in self._times if set(levels) <= set(met)}
         times = [(met, fmean(t)) for (met, task), t in self._times.items() if task in own]
         here = [t for met, t in times if set(levels) <= set(met)]
-        return fmean(here) / fmean(t for _, t in times) if here else 1.0
+        usual = fmean(t for _, t in times) if here else 0.0
+        return fmean(here) / usual if usual else 1.0  # nothing has taken any time yet
 
     def _met(self, level: str) -> Levels:
         """The factor and level of this name that were met."""
