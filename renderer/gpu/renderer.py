@@ -137,6 +137,8 @@ class Renderer:
             shares = self.shares(scene, camera, technique, size)
             return visibility_of_shares(shares, small.read(), n)
         layers = self._layers(scene, camera, technique, size, frame, state)
+        if len(scene.objects) > n:  # what a technique adds is nobody's
+            layers = [(w[ids <= n], ids[ids <= n], alpha[ids <= n]) for w, ids, alpha in layers]
         return visibility(layers, self._looking(size)[0].read(), n)
 
     def _looked(self, scene, camera, technique, size, state=None) -> FramePlan:  # type: ignore[no-untyped-def]

@@ -61,11 +61,11 @@ class Shot:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What stands there in this frame: the scene, perhaps with moved transforms; objects, meshes
-    and flags stay as they are. `traces` (k, 2, 3) are lines in the world, drawn where they show."""
+    """What stands there in this frame: the scene, perhaps with moved transforms. Its objects keep
+    their indices, meshes and flags; what a technique adds, as traces, comes after them. Where
+    nothing moves it is the scene itself."""
 
     scene: Scene
-    traces: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,8 @@ class Surfaces:
     color (m, 3) is unlit; slack (m,) is by how much its depth may differ where float32 and float64
     put edges 1/256 pixel apart. starts (h·w + 1,) says where each pixel's rows begin; outlines has
     for each object its front-facing triangles (k, 3, 2) in pixels, cut at the near plane; edge
-    (h·w,) are the pixels within 1/256 pixel of the edge of a triangle that faces the eye.
+    (h·w,) are the pixels within 1/256 pixel of the edge of a triangle that faces the eye,
+    `edges` of any triangle.
     """
 
     shot: Shot
@@ -95,6 +96,7 @@ class Surfaces:
     starts: Indices
     outlines: tuple[Floats, ...]
     edge: Bools
+    edges: Bools
 
     @property
     def targets(self) -> Bools:
@@ -209,6 +211,9 @@ class Technique(Protocol):
     def layers(self, p: Any) -> int | None:
         """How many layers are peeled at most; None: all."""
 
+    def edges(self, p: Any) -> Mapping[str, Any]:
+        """What shaders/edges.frag draws lines with along the edges of each layer; empty: none."""
+
     def looked_at(self, p: Any) -> Any:
         """The parameters with which `look` finds what is seen."""
 
@@ -275,6 +280,10 @@ class Plain:
     def layers(self, p: Any) -> int | None:
         """All."""
         return None
+
+    def edges(self, p: Any) -> Mapping[str, Any]:
+        """No lines."""
+        return {}
 
     def looked_at(self, p: Any) -> Any:
         """As it is drawn."""
