@@ -22,8 +22,8 @@ RED, GREY, BLUE, GREEN = (0.9, 0.2, 0.1), (0.7, 0.7, 0.65), (0.2, 0.5, 0.9), (0.
 CAMERA = look_at(np.array([0.0, 0.6, 9.0]), np.zeros(3), fov_y=0.5, near=1, far=60)
 SIZE = (120, 90)
 
-# (the exact picture, the same scene without anything but targets) → what is bad about it
-Measure = Callable[[ExactPicture, ExactPicture], float]
+# (the exact picture, that of the targets alone, the standard one) → what is bad about it
+Measure = Callable[[ExactPicture, ExactPicture, ExactPicture], float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,15 +40,19 @@ class Failure:
 
     def measured(self) -> float:
         """The measure, on the exact pictures."""
-        picture = exact(self.scene, self.camera, self.parameters, SIZE)
         targets = Scene(tuple(o for o in self.scene.objects if o.target), self.scene.background)
-        return self.measure(picture, exact(targets, self.camera, named("standard"), SIZE))
+        standard = named("standard")
+        return self.measure(
+            exact(self.scene, self.camera, self.parameters, SIZE),
+            exact(targets, self.camera, standard, SIZE),
+            exact(self.scene, self.camera, standard, SIZE),
+        )
 
 
 def hidden(k: int) -> Measure:
     """The part of the k-th target (the last objects are targets) that nobody can see."""
 
-    def measure(picture: ExactPicture, alone: ExactPicture) -> float:
+    def measure(picture: ExactPicture, alone: ExactPicture, plain: ExactPicture) -> float:
         count = len(alone.weights)
         shown = picture.weights[len(picture.weights) - count + k].sum()
         return float(1 - shown / max(alone.weights[k].sum(), 1e-9))
@@ -57,11 +61,22 @@ def hidden(k: int) -> Measure:
 
 
 def gone(k: int) -> Measure:
-    """The part of the k-th object's weight that is gone where it stands in front."""
+    """The part of what the standard picture shows of the k-th object that no longer shows."""
 
-    def measure(picture: ExactPicture, alone: ExactPicture) -> float:
-        there = np.isfinite(picture.depth[k])
-        return float(1 - picture.weights[k].sum() / max(there.sum(), 1))
+    def measure(picture: ExactPicture, alone: ExactPicture, plain: ExactPicture) -> float:
+        there = plain.weights[k] > 0
+        return float(1 - picture.weights[k][there].sum() / max(there.sum(), 1))
+
+    return measure
+
+
+def void(k: int) -> Measure:
+    """The part of what the standard picture shows of the k-th object where nothing is left at all:
+    neither it, nor a wall where it is cut, nor what is behind it."""
+
+    def measure(picture: ExactPicture, alone: ExactPicture, plain: ExactPicture) -> float:
+        there = plain.weights[k] > 0
+        return float((picture.weights.sum(axis=0)[there] == 0).mean())
 
     return measure
 
@@ -79,6 +94,15 @@ def _panes(count: int) -> list[Object]:
     return [
         Object(geometry.box(5, 4, 0.05), transforms.translation(0, 0, 3 - 0.3 * k), BLUE)
         for k in range(count)
+    ]
+
+
+def _bars(rows: int) -> list[Object]:
+    bar = geometry.box(0.12, 5, 0.12)
+    return [
+        Object(bar, transforms.translation(0.2 * k - 1.5 + 0.05 * row, 0, 3 - 0.3 * row), GREY)
+        for row in range(rows)
+        for k in range(16)
     ]
 
 
@@ -125,7 +149,7 @@ def failures() -> dict[str, Failure]:
             "An open mesh has no inside: the cut shows a hole, not a wall",
             named("cutaway"),
             Scene((_open(), _ball(0, 0, 0.5))),
-            gone(0),
+            void(0),
             0.3,
         ),
         "adaptive_cutaway": Failure(
@@ -177,23 +201,30 @@ def failures() -> dict[str, Failure]:
             gone(0),
             0.85,
         ),
+        "blueprint": Failure(
+            "Lines of many layers clutter what is behind them",
+            named("blueprint"),
+            Scene((*_bars(4), _ball(0, -2))),
+            hidden(0),
+            0.7,
+        ),
         "balloon": Failure(
             "What stood side by side is torn apart",
             replace(named("balloon"), radius=2.5, depth=9.0),
             Scene((*row,)),
             moved,
-            0.5,
+            0.2,
         ),
     }
 
 
-def gone_of_wall(picture: ExactPicture, alone: ExactPicture) -> float:
+def gone_of_wall(picture: ExactPicture, alone: ExactPicture, plain: ExactPicture) -> float:
     """The part of the picture's middle row in which the first object no longer shows."""
     middle = picture.weights[0][SIZE[1] // 2]
     return float((middle < 0.5).mean())
 
 
-def moved(picture: ExactPicture, alone: ExactPicture) -> float:
+def moved(picture: ExactPicture, alone: ExactPicture, plain: ExactPicture) -> float:
     """How far the second object's centre has moved on the screen, in heights of the view, from
     where it stands in the row."""
     rows, columns = np.nonzero(picture.weights[1] > 0.5)
