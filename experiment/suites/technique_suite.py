@@ -205,7 +205,8 @@ class _Tried:
         (state, used), (again, _) = self.played(case, self.p), self.played(case, self.p)
         takes = [_kind(e) in self.technique.takes for e in some_events()]
         stolen = [_kind(e) for e, u, t in zip(some_events(), used, takes, strict=True) if u > t]
-        changes = state != self.technique.begin(self.p)
+        tried = pairwise(self.p, np.random.default_rng(12))
+        changes = any(self.played(case, p)[0] != self.technique.begin(p) for p in tried)
         holds = state == again and not stolen and (changes or not self.technique.takes)
         said = f"{sum(used)} of {len(used)} events used up, the same state again"
         if stolen:
@@ -257,6 +258,9 @@ def some_events() -> list[Any]:
     return [
         *moves,
         events.PointerPress(0.5, 0.65, 0.45),
+        events.Wheel(0.55, 0.65, 0.45, 2.0),
+        events.SecondPress(0.56, 0.65, 0.45),
+        events.SecondRelease(0.57, 0.65, 0.45),
         events.PointerMove(0.6, 0.7, 0.5, 0.05, 0.05, dragging=True),
         events.PointerRelease(0.7, 0.7, 0.5),
         *(events.KeyPress(0.8, k) for k in ("q", "e", "up")),
@@ -269,6 +273,8 @@ def _kind(event: Any) -> str:
     name = type(event).__name__
     if name.startswith("Key"):
         return f"key:{event.key}"
+    if name.startswith("Second"):
+        return "second button"
     return "pointer" if name.startswith("Pointer") else name.lower()
 
 

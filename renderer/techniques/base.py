@@ -205,6 +205,9 @@ class Technique(Protocol):
     def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
         """(n,) a number of each object's, the Surface's `number` in `glsl`."""
 
+    def drawn(self, p: Any, state: Any) -> Any:
+        """The parameters as the state has them, for a painter that knows parameters alone."""
+
     def sides(self, p: Any) -> bool:
         """Whether back faces can show."""
 
@@ -272,6 +275,10 @@ class Plain:
     def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
         """1 what may be penetrated, 0 targets and what may not."""
         return (~(scene.targets | scene.impenetrable)).astype(np.int64)
+
+    def drawn(self, p: Any, state: Any) -> Any:
+        """As they are."""
+        return p
 
     def sides(self, p: Any) -> bool:
         """They can."""
