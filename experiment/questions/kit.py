@@ -59,12 +59,14 @@ class Respondent(Protocol):
 
 
 class Question(Protocol):
-    """A kind of question, without state: parameters go in, pages and rows come out."""
+    """A kind of question, without state: parameters go in, pages and rows come out. `example` are
+    parameters that show it."""
 
     name: str
     version: str
     source: str
     Parameters: Any
+    example: Any
     texts: Texts
 
     def count(self, p: Any) -> int:
