@@ -22,6 +22,7 @@ BENCHES = (
     "simulate",
     "speed",
     "statistics",
+    "techniques",
 )
 
 

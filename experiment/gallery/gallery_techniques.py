@@ -21,7 +21,6 @@ from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParamet
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 
 POINTER = (0.62, 0.5)  # at the horse of the stage
-EVERYTHING = {"kinds": ("", "sphere", "cone", "box", "torus")}  # things that have no walls
 
 
 def sections(stage: tuple[Scene, Camera], aspect: float, seed: int) -> Iterator[Section]:
@@ -52,19 +51,26 @@ def sections(stage: tuple[Scene, Camera], aspect: float, seed: int) -> Iterator[
     )  # fmt: skip
 
 
-def _plate(name: str, where: str, shot: Shot, reach: float) -> Plate:
-    """A technique whose pointer is somewhere, and whose volumes are as large as the scene asks."""
+def placed(name: str, shot: Shot, reach: float) -> tuple[Any, Any]:
+    """A technique's parameters and state, with its pointer somewhere, its volumes as large as the
+    scene asks and up to a depth, and things transparent that have no tag."""
     p = named(name)
     known = {field.name for field in fields(p)}
     scale = reach / 11.5
     values: dict[str, Any] = {"depth": reach} if "depth" in known else {}
     values |= {"radius": 1.1 * scale} if name == "dig" else {}
     values |= {"radius": 2.6 * scale} if name == "balloon" else {}
-    values |= EVERYTHING if "kinds" in known else {}
+    if "kinds" in known and "wall" not in {thing.kind for thing in shot.scene.objects}:
+        values["kinds"] = tuple({o.kind for o in shot.scene.objects if not o.target})
     p = replace(p, **values)
     state = p.technique.begin(p)
     for event in (events.PointerMove(0.0, *POINTER, 0.0, 0.0), events.KeyPress(0.1, "q")):
         if isinstance(event, events.PointerMove) or name == "dig":
             state, _ = p.technique.on_event(p, state, event, shot)
-    return Plate(f"technique-{where}-{name}", f"{p.technique.title}, {where}", shot.scene,
-                 shot.camera, p, state=state)  # fmt: skip
+    return p, state
+
+
+def _plate(name: str, where: str, shot: Shot, reach: float) -> Plate:
+    p, state = placed(name, shot, reach)
+    title = f"{p.technique.title}, {where}"
+    return Plate(f"technique-{where}-{name}", title, shot.scene, shot.camera, p, state=state)
