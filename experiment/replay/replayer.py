@@ -52,7 +52,7 @@ class Recorded:
     @property
     def technique(self) -> Any:
         """What the trial was drawn with."""
-        return self.study.technique(self.trial.transparency)
+        return self.study.part(self.trial.levels).technique
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,11 +118,11 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
         display = provenance["display"]
         width, height = (int(v) for v in display["size"].split("x"))
         samples = int(display.get("samples", 0))
-        study = parse(provenance["study"], str(sidecar))
+        study = parse(provenance["study"], str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
-    study = study.with_walkthrough(kept(study.walkthrough, data))
-    task_sets = session_for(int(row["slot"]), study.design.factors())
+    study = study.with_places(lambda place: kept(place, data))
+    task_sets = session_for(int(row["slot"]), study.plan)
     number = int(row["trial"])
     trial = next((t for s in task_sets for t in s.trials if t.number == number), None)
     if trial is None:

@@ -99,8 +99,8 @@ class TrialRun:
         self.scenes = world.scenes or StudyScenes(study)
 
     def technique(self, trial: Trial) -> Any:
-        """What the trial's transparency level draws with."""
-        return self.study.technique(trial.transparency)
+        """What the trial is drawn with."""
+        return self.study.part(trial.levels).technique
 
     def begin(self, trial: Trial) -> Any:
         """The task's first state, from the trial's own stream."""
@@ -155,7 +155,8 @@ class Running:
         self._technique = run.technique(trial)
         self._hand = Hand(self._technique, run.world.display.aspect)
         self._trial, self._state, self._limit = trial, state, limit
-        self._watch = _Watch(run.world.period or 1.0 / run.study.display.refresh)
+        refresh = run.study.part(trial.levels).display.refresh
+        self._watch = _Watch(run.world.period or 1.0 / refresh)
         self.first = self._confirmed = self._since = 0.0
         self._first_within = self._within = 0.0
         self._down: set[str] = set()  # pressed in this trial and not released

@@ -302,7 +302,7 @@ def _path(copy: Path) -> str:
 
 def _copies(number: int, folder: Path) -> Queue[Path]:
     copies: Queue[Path] = Queue()
-    leave = shutil.ignore_patterns(".git", ".venv", "out", ".hypothesis", "*.egg-info")
+    leave = shutil.ignore_patterns(".git", ".venv", "out", ".hypothesis", "*.egg-info", "linked")
     for k in range(number):
         shutil.copytree(ROOT, folder / str(k), ignore=leave)
         assert _is_imported(folder / str(k))

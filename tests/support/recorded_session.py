@@ -11,6 +11,7 @@ from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import provenance
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
+from seethrough.experiment.study.described import design_entry
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.events import (
@@ -24,13 +25,28 @@ from seethrough.tasks.kit.events import (
     Wheel,
 )
 
+FACTORS = {
+    "transparency": {"levels": {
+        "standard": {"technique": {"use": "standard"}},
+        "dynamic": {"technique": {"use": "dynamic"}},
+    }},
+    "scenario": {"levels": {
+        "abstract": {"world": {"use": "abstract"}, "design": {"tasks": ["count", "pattern"]}},
+        "walkthrough": {
+            "world": {"use": "building"}, "design": {"tasks": ["unique", "count_in_building"]},
+        },
+    }},
+}  # fmt: skip
 STUDY = {
     "study": {"name": "t", "title": "t", "description": "t", "participants": 4, "seed": 1},
-    "design": {"trials": 1, "training": 0},
-    "abstract": {"side": 50.0, "objects": 60, "target_share": [0.3, 0.4]},
-    "walkthrough": {"grid": 6, "objects": 8, "count": [1, 3], "types": ["chair", "table", "cat"]},
+    "factors": FACTORS,
+    "design": {"trials": 1},
+    "practice": {"trials": 0},
+    "world": {
+        "abstract": {"side": 50.0, "objects": 60, "target_share": [0.3, 0.4]},
+        "building": {"grid": 6, "objects": 8, "count": [1, 3], "types": ["chair", "table", "cat"]},
+    },
     "display": {"width": 320, "height": 240},
-    "session": {"questionnaire": []},
 }
 FRAME = 0.25  # s of session time between two frames
 
@@ -123,6 +139,8 @@ def play_recorded(folder, table=STUDY, script=Script):
     study = parse(table, "test")
     clock = SimulatedClock(1000.0)
     display = DrawnDisplay(clock)
-    who = Who("t", "P01", "human", 1, provenance(study, display.describe()))
+    who = Who(
+        "t", "P01", "human", 1, provenance(study, display.describe()), design=design_entry(study)
+    )
     world = Surroundings(display, script(clock), clock, FileRecorder(folder, who), TASKS)
     assert run_session(study, 1, world) == "complete"
