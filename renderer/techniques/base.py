@@ -142,7 +142,7 @@ class Look:
     """How each row of Surfaces shows: kept (m,); opacity (m,), of what is kept; tint (m, 4): a
     colour, and how much of it covers the lit one; doubt (m,): rows so near a border of the rule
     that float32 may decide otherwise, whose pixels are not compared. `additive`: opacities of a
-    line of sight add up (004 §III-A) instead of multiplying."""
+    line of sight add up (Elmqvist2009 §III-A) instead of multiplying."""
 
     kept: Bools
     opacity: Floats

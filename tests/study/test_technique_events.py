@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from recorded_session import STUDY, Handling, play_recorded
+from recorded_session import FACTORS, STUDY, Handling, play_recorded
 
 from seethrough.experiment import cli
 from seethrough.experiment.commands.replay import _verify as verify
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.session.hand import Hand
-from seethrough.experiment.study.config import Study
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
@@ -19,6 +18,12 @@ from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick, Wheel
 
 LENS = replace(named("lens"), depth=60.0, radius=0.3)
+LEVELS = {"lens": {"technique": {"use": "lens"}}, "plain": {"technique": {"use": "standard"}}}
+OF_LENSES = {
+    **STUDY,
+    "factors": {**FACTORS, "transparency": {"levels": LEVELS}},
+    "technique": {"lens": {"depth": 60.0, "radius": 0.3}},
+}
 
 
 def kinds(recorded):
@@ -27,35 +32,42 @@ def kinds(recorded):
 
 @pytest.fixture(scope="module")
 def lens_data(tmp_path_factory):
-    """A session whose every trial is drawn with a lens."""
+    """A session half of whose trials are drawn with a lens."""
     folder = tmp_path_factory.mktemp("lens") / "data"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Study, "technique", lambda self, level: LENS)
-        play_recorded(folder, script=Handling)
+    play_recorded(folder, OF_LENSES, Handling)
     return folder
 
 
+def of_lens(recorded):
+    return recorded.trial.levels["transparency"] == "lens"
+
+
+def in_the_open(recorded):
+    return recorded.trial.levels["scenario"] == "abstract"
+
+
 @pytest.mark.parametrize("number", range(1, 9))
-def test_a_lens_is_replayed_to_the_pixel(lens_data, number, monkeypatch, capsys):
+def test_a_lens_is_replayed_to_the_pixel(lens_data, number, capsys):
     """Pointer, wheel and keys, in the abstract world and where the pointer turns the viewer."""
-    monkeypatch.setattr(Study, "technique", lambda self, level: LENS)
     words = ["replay", str(lens_data), "--participant", "P01", "--trial", str(number), "--verify"]
     assert cli.main(words) == 0
     assert capsys.readouterr().out.endswith(" 0 different\n")
     recorded = find_trial(lens_data, "P01", number)
     # The second button is none of what a lens takes, and reaches nobody.
-    assert "Wheel" in kinds(recorded) and "SecondPress" not in kinds(recorded)
+    assert ("Wheel" in kinds(recorded)) == of_lens(recorded)
+    assert "SecondPress" not in kinds(recorded)
+    if not of_lens(recorded):
+        return
     states = [frame.view.drawn for frame in replay(recorded)]
     assert states[-1].depth == pytest.approx(60.0 * 1.1**3)  # three steps; q and e undo each other
     if not any(frame.view.captured for frame in replay(recorded)):
         assert len({state.pointer for state in states}) > 5
 
 
-def test_without_its_wheel_the_lens_is_elsewhere(lens_data, monkeypatch, capsys):
+def test_without_its_wheel_the_lens_is_elsewhere(lens_data, capsys):
     """The pictures notice that an event is missing."""
-    monkeypatch.setattr(Study, "technique", lambda self, level: LENS)
     trials = [find_trial(lens_data, "P01", number) for number in range(1, 9)]
-    recorded = next(r for r in trials if r.trial.scenario == "abstract")
+    recorded = next(r for r in trials if of_lens(r) and in_the_open(r))
     rows = recorded.events.read_text().splitlines(keepends=True)
     fewer = recorded.events.parent / "fewer.csv"
     fewer.write_text("".join(row for row in rows if ",Wheel," not in row))
@@ -64,17 +76,17 @@ def test_without_its_wheel_the_lens_is_elsewhere(lens_data, monkeypatch, capsys)
 
 
 def test_the_searchlight_of_active_mode_follows_the_pointer(tmp_path, capsys):
-    """A study says it in [dynamic]; its trials are replayed to the pixel, and no wheel is taken."""
+    """Said in [technique.dynamic]; its trials are replayed to the pixel, and no wheel is taken."""
     active = {"mode": "active", "radius": 0.3}
     folder = tmp_path / "data"
-    play_recorded(folder, {**STUDY, "dynamic": active}, Handling)
+    play_recorded(folder, {**STUDY, "technique": {"dynamic": active}}, Handling)
     drawn = 0
     for number in range(1, 9):
         recorded = find_trial(folder, "P01", number)
         words = ["replay", str(folder), "--participant", "P01", "--trial", str(number), "--verify"]
         assert cli.main(words) == 0
         assert "Wheel" not in kinds(recorded)
-        if (recorded.trial.transparency, recorded.trial.scenario) == ("dynamic", "abstract"):
+        if recorded.trial.levels["transparency"] == "dynamic" and in_the_open(recorded):
             drawn += len({frame.view.drawn for frame in replay(recorded)}) > 5
     assert drawn == 2
     capsys.readouterr()

@@ -45,7 +45,7 @@ class Balloon(base.Plain):
     name = "balloon"
     title = "Balloon probe"
     instruction = "Things near the pointer move aside: Q and E move it nearer and farther."
-    source = "elmqvist2005"
+    source = "Elmqvist2005"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e"})
     Parameters = BalloonParameters
 

@@ -43,7 +43,7 @@ class Blueprint(Layering):
     name = "blueprint"
     title = "Blueprint"
     instruction = "Things are drawn as lines, with a faint fill, so that lines behind lines show."
-    source = "nienhaus2004"
+    source = "Nienhaus2004"
     Parameters = BlueprintParameters
     strength = "uniform float fill;\nfloat opacity_of(Surface s) { return fill; }\n"
 

@@ -51,7 +51,7 @@ class Cutaway(removal.Removal):
     name = "cutaway"
     title = "Cut-away"
     instruction = "What stands before a target is cut off along planes, like a slice of a cake."
-    source = "diepstraten2003"
+    source = "Diepstraten2003"
     Parameters = CutawayParameters
     removes = removal.CLIPPED
 

@@ -47,7 +47,7 @@ class Dig(removal.Removal):
         "Q digs a hole under the pointer, through whatever is in the way, E deepens it, R fills "
         "all holes."
     )
-    source = "coffin2006"
+    source = "Coffin2006"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e", "key:r"})
     Parameters = DigParameters
     removes = f"""

@@ -18,7 +18,7 @@ class DynamicRendering(base.Plain):
     name = "dynamic"
     title = "Dynamic transparency"
     instruction = "Things turn transparent where a target lies behind them."
-    source = "004"
+    source = "Elmqvist2009"
     painter = base.MASKS
     takes = frozenset({"pointer"})
     Parameters = DynamicTransparency
