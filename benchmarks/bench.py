@@ -23,6 +23,7 @@ BENCHES = (
     "simulate",
     "speed",
     "statistics",
+    "techniques",
 )
 
 

@@ -54,7 +54,7 @@ class AdaptiveCutaway(removal.Removal):
     name = "adaptive_cutaway"
     title = "Adaptive cut-away"
     instruction = "Whatever stands before a target is cut away in a funnel that opens towards you."
-    source = "burns2008"
+    source = "Burns2008"
     Parameters = AdaptiveParameters
     removes = removal.CLIPPED
     needs = frozenset({"target_depth"})
