@@ -1,5 +1,5 @@
-"""A plugin of pytest: each file of tests finds no result that a cache of ours kept, so that it passes
-the lines that make what it looks at, whatever was tested before it."""
+"""A plugin of pytest: no file of tests finds a result that a cache of ours kept for another, so it
+passes the lines that make what it looks at."""
 
 import functools
 import gc

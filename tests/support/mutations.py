@@ -1,4 +1,4 @@
-"""Changes the code in one place at a time and asks whether a test notices.
+r"""Changes the code in one place at a time and asks whether a test notices.
 
     python tests/support/mutations.py --sites 120 --seed 1 --coverage FILE [--out FILE]
 
@@ -6,8 +6,8 @@ Sites are drawn evenly from all places in the rooms where an operator applies (a
 or made strict, a sign, a constant, a condition, a call left out). FILE is the database of a run of
 the whole suite in which coverage.py noted which test passes each line:
 
-    python -m pytest -n2 --dist loadscope -p forgetful --cov-context=test --cov-report= --cov=analysis
-      --cov=experiment --cov=renderer --cov=tasks && mv .coverage FILE
+    python -m pytest -n2 --dist loadscope -p forgetful --cov-context=test --cov-report= \
+      --cov=analysis --cov=experiment --cov=renderer --cov=tasks && mv .coverage FILE
 
 A site is tried in a copy of the checkout, on the tests that pass its line, then on the others of
 their files, which may look at what the first of them made. Kernels are compiled, so
