@@ -21,6 +21,7 @@ import numpy as np
 from seethrough.benchmarks import ordering_exactness
 from seethrough.benchmarks.painted_scene import PaintedScene as Bench
 from seethrough.benchmarks.rows import Row, row
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.gpu.levels.approximations import (
     PeelingPainter,
     StochasticPainter,
@@ -28,7 +29,6 @@ from seethrough.renderer.gpu.levels.approximations import (
 )
 from seethrough.renderer.models.translucent.scenes import scene
 from seethrough.renderer.polygons import axis_tree, boxes, bsp, distance, feudal
-from seethrough.renderer.polygons.polygons import Floats
 from seethrough.renderer.polygons.prepared import Prepared
 
 SCENES = ("panels100", "boxes", "leaves", "cow", "house", "soup1000")

@@ -27,12 +27,11 @@ from typing import Any
 import numba
 import numpy as np
 
-from seethrough.renderer.arrays import Whole
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.bsp import PreparedBsp
 from seethrough.renderer.polygons.feudal import PreparedFeudal
 from seethrough.renderer.polygons.feudal_stretches import BLOCK, Stretches
 from seethrough.renderer.polygons.feudal_stretches import emit as emit_stretches
-from seethrough.renderer.polygons.polygons import Floats
 from seethrough.renderer.polygons.tree import EITHER, Tree
 from seethrough.renderer.polygons.tree import emit as emit_tree
 
@@ -51,7 +50,7 @@ def as_polygons(prepared: PreparedBsp) -> Tree:
     return Tree(made.planes, made.children, items, sizes.astype(np.uint32), facing, made.depth)
 
 
-@numba.njit
+@numba.njit()
 def _repeat(kernel, arguments, points, out):
     """A kernel for every view; returns how many faces it listed in all."""
     total = 0
@@ -60,7 +59,7 @@ def _repeat(kernel, arguments, points, out):
     return total
 
 
-@numba.njit
+@numba.njit()
 def _walk(planes, children, items, sizes, facing, depth, points, out):
     """The BSP tree walked from back to front with a stack, faces culled where they are met."""
     u = np.uint64

@@ -22,18 +22,20 @@ class Shader:
 
     def __init__(self, program: moderngl.Program) -> None:
         self.program = program
-        self.members = {name: program[name] for name in program}
+        members = {name: program[name] for name in program}
+        self.members = frozenset(members)
+        self._uniforms = {n: m for n, m in members.items() if isinstance(m, moderngl.Uniform)}
         self._values: dict[str, object] = {}
 
     def set(self, **values: object) -> None:
         """Set uniforms, leaving out those that the compiler found unused."""
         for name, value in values.items():
-            if name in self.members and self._values.get(name) != value:
-                self.members[name].value = value  # type: ignore[union-attr]
+            if name in self._uniforms and self._values.get(name) != value:
+                self._uniforms[name].value = value
                 self._values[name] = value
 
     def __getitem__(self, name: str) -> moderngl.Uniform:
-        return self.members[name]  # type: ignore[return-value]
+        return self._uniforms[name]
 
 
 def program(

@@ -196,7 +196,7 @@ def _ellipses(
     shape: str,
     width: float,
     size: tuple[int, int],
-) -> Floats:
+) -> tuple[Floats, Ints]:
     rows = np.zeros((len(targets), 6, VERTEX))
     for k, t in enumerate(targets.tolist()):
         points = _outline_points(table, t, frame, camera, size)

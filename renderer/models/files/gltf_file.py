@@ -104,7 +104,8 @@ class GltfFile:
             raise Refused(f"expected a GLB file, it cannot be read: version {version}, not 2")
         if length > len(data):
             raise Refused(f"{len(data)} bytes of {length}: the file is cut off")
-        chunks, place = {}, 12
+        chunks: dict[int, bytes] = {}
+        place = 12
         while place + 8 <= length:
             size, kind = struct.unpack_from("<II", data, place)
             if place + 8 + size > length:

@@ -1,0 +1,23 @@
+"""What a context draws with, where moderngl's own types know less than it takes."""
+
+from __future__ import annotations
+
+import moderngl
+
+
+def within(target: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) -> None:
+    """Draw only into a box (left, bottom, width, height) of a framebuffer; None: everywhere."""
+    target.scissor = box  # type: ignore[assignment]  # takes None, as its documentation says
+
+
+def blend(
+    context: moderngl.Context, color: tuple[int, int], alpha: tuple[int, int] | None = None
+) -> None:
+    """Factors of what is drawn and of what is there; those of alpha where they are others."""
+    factors = (*color, *(alpha or color))
+    context.blend_func = factors  # type: ignore[assignment]  # takes four, too
+
+
+def combine(context: moderngl.Context, color: int, alpha: int | None = None) -> None:
+    """How the two are put together; alpha otherwise if it is given."""
+    context.blend_equation = (color, color if alpha is None else alpha)
