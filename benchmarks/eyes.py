@@ -30,7 +30,6 @@ from seethrough.experiment.study.design import SIMULATED, Trial, generator, sess
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
 from seethrough.renderer.scene.visibility import Visibility
-from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, Tick
 from seethrough.tasks.kit.skills.profile import AVERAGE
@@ -94,7 +93,7 @@ class OpenEyes(Pool):
 
     def look(self, view: View, level: str) -> Visibility:
         """What is seen in the view, drawn anew."""
-        technique = self.study.dynamic if level == "dynamic" else Standard()
+        technique = self.study.technique(level)
         scene = simplified(view.scene) if self.way.simple else view.scene
         return self.renderer.look(scene, view.camera, technique, self.picture)
 

@@ -14,10 +14,10 @@ import numpy as np
 from PIL import Image
 
 from seethrough.experiment.display.stage import Stage
-from seethrough.experiment.pages import blocks
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Page
 from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.questions.ready import one_page
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.questionnaire import after, asked, before
 from seethrough.experiment.session.session import _feedback, _instruction, _page
@@ -93,11 +93,14 @@ def main() -> None:
     camera.page(_feedback(record))
     camera.page(_page("pause"), "waiting", waiting="wait.scene")
     camera.page(
-        blocks.ratings("dynamic", "abstract"), "missing", answers={"ease": "3"}, insisted=True
+        one_page("ratings", transparency="dynamic", scenario="abstract"),
+        "missing",
+        answers={"ease": "3"},
+        insisted=True,
     )
     camera.stage.done = 1.0
-    camera.page(blocks.tlx("dynamic"), "tlx")
-    camera.page(blocks.sus("dynamic"), "sus")
+    camera.page(one_page("tlx", transparency="dynamic"), "tlx")
+    camera.page(one_page("sus", transparency="dynamic"), "sus")
     camera.stage.pilot = True
     camera.page(_page("pause"), "pilot")
     camera.stage.pilot = False

@@ -33,6 +33,8 @@ COMMANDS = {
     "render": "draw a scene into a picture",
     "view": "look at a scene of translucent polygons, ordered by a method",
     "bench": "measure accuracy against time",
+    "technique": "list techniques, or try one on all that it must keep to",
+    "new": "write a package with a plug-in of your own, to begin with",
     "gallery": "draw every mode, mask, granularity and hard case into a page",
     "demo": "play the short study and make its report",
 }

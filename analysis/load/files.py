@@ -55,6 +55,15 @@ def is_there(path: Path) -> bool:
     return os.path.lexists(path)
 
 
+def is_empty(path: Path) -> bool:
+    """Whether it is a file, not a link to one, that holds nothing."""
+    try:
+        about = os.lstat(path)
+    except OSError:
+        return False
+    return stat.S_ISREG(about.st_mode) and about.st_size == 0
+
+
 def read_bytes(path: Path, data: Path) -> bytes:
     """A file's bytes; `data` is the data folder, from which it is named. Raises DataError."""
     with _opened(path, data) as file:

@@ -28,6 +28,7 @@ from seethrough.analysis.load.chain import (
 from seethrough.analysis.load.files import (
     AGAIN,
     Source,
+    is_empty,
     is_there,
     named,
     names_in,
@@ -278,6 +279,7 @@ class Folder:
         known = {before.files.get(kind) for kind in (ANSWERS_TABLE, NOTES_TABLE)} - {None}
         added = sorted(str(n) for n in known - set(holds))
         loose = set(self._traces_of(before)) - set(holds) - set(before.traces)
+        loose = {name for name in loose if not is_empty(self.own / name)}  # begun as it was killed
         for name in [*added, *sorted(loose)]:
             self._held.add(name)
             yield f"{self._path(name)}: added after the session"

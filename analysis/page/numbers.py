@@ -33,7 +33,7 @@ def p_value(value: float) -> str:
         return "1"
     if value >= 0.9995:
         return "> .999"
-    if bounded(value, 3) == ".050" != repr(value)[1:]:
+    if bounded(value, 3) == ".050":
         return bounded(value, 4)
     return "< .001" if value < 0.001 else bounded(value, 3)
 

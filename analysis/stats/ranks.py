@@ -194,7 +194,7 @@ def signed_rank(scores: Array, room: Array | None = None) -> SignedRank:
     group = levels(np.abs(scores[left]), room[left])
     count = np.bincount(group)
     rank = (np.cumsum(count) - (count - 1) / 2)[group]
-    v, m = float(rank[sign[left] > 0].sum()), len(rank)
+    v, m = float(rank[sign[left] == 1].sum()), len(rank)
     mean = m * (m + 1) / 4
     if m > 200:
         variance = np.sum(rank**2) / 4

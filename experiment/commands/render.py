@@ -11,13 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
+from seethrough import registry
 from seethrough.experiment.errors import InputError
 from seethrough.renderer.plan.explain import explain
-from seethrough.renderer.plan.planner import SHORTCUTS, Technique
+from seethrough.renderer.plan.planner import SHORTCUTS
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.renderer.techniques.standard.opaque import Standard
+from seethrough.renderer.techniques import named
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
@@ -25,11 +26,6 @@ from seethrough.tasks.worlds.building.building import unique_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 HELP = "draw a scene into a picture"
-
-TECHNIQUES: dict[str, Callable[[], Technique]] = {
-    "standard": Standard,
-    "dynamic": DynamicTransparency,
-}
 
 
 def abstract(seed: int, aspect: float) -> tuple[Scene, Camera]:
@@ -71,7 +67,7 @@ SCENES: dict[str, Callable[[int, float], tuple[Scene, Camera]]] = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("scene", choices=sorted(SCENES), help="what to draw")
-    parser.add_argument("--technique", choices=sorted(TECHNIQUES), default="dynamic")
+    parser.add_argument("--technique", choices=registry.names("technique"), default="dynamic")
     parser.add_argument("--out", required=True, type=Path, help="the picture, a .png file")
     parser.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
     parser.add_argument("--seed", type=int, default=1, help="of the scene, ≥ 0")
@@ -128,10 +124,10 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _technique(name: str, settings: list[str]) -> Technique:
+def _technique(name: str, settings: list[str]) -> Parameters:
     """The technique with `settings` ("key=value", values as in TOML or bare words)."""
     values: dict[str, object] = {}
-    known = {field.name for field in fields(TECHNIQUES[name]())}
+    known = {field.name for field in fields(named(name))}
     for text in settings:
         key, equals, value = text.partition("=")
         if not equals or key not in known:
@@ -144,7 +140,7 @@ def _technique(name: str, settings: list[str]) -> Technique:
         if isinstance(values[key], list):
             values[key] = tuple(values[key])  # type: ignore[arg-type]
     try:
-        return replace(TECHNIQUES[name](), **values)
+        return replace(named(name), **values)
     except (TypeError, ValueError) as error:
         raise InputError(f"--set: {error}") from error
 

@@ -105,23 +105,30 @@ class Stage:
     def _small(self, number: int, size: tuple[int, int]) -> _SmallPicture:
         size = (max(size[0], 1), max(size[1], 1))
         picture = self._pictures.get(number)
-        if picture is None or picture.size != size:
+        if picture is None or (picture.size, picture.window) != (size, self.size[1]):
             if picture is not None:
                 picture.release(self.interface)
-            picture = _SmallPicture(self.context, size, INSET_TEXTURES + 1 + number, self.interface)
+            name = INSET_TEXTURES + 1 + number
+            picture = _SmallPicture(self.context, size, self.size[1], name, self.interface)
             self._pictures[number] = picture
         return picture
 
 
 class _SmallPicture:
-    """A picture of its own size that the interface can show as a texture."""
+    """A picture of its own size that the interface can show as a texture, in a window `window`
+    pixels high."""
 
     def __init__(
-        self, context: moderngl.Context, size: tuple[int, int], name: int, interface: Interface
+        self,
+        context: moderngl.Context,
+        size: tuple[int, int],
+        window: int,
+        name: int,
+        interface: Interface,
     ) -> None:
-        self.size = size
+        self.size, self.window = size, window
         self.name = name
-        self._renderer = Renderer(context, size)
+        self._renderer = Renderer(context, size, window=window)
         self._texture = context.texture(size, 4)
         self._target = context.framebuffer([self._texture])
         interface.overlay.adopt_texture(name, self._texture)

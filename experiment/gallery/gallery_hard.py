@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, Plate, Section
-from seethrough.renderer.plan.planner import Technique
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 
@@ -39,7 +39,7 @@ def _plate(
     caption: str,
     *objects: Object,
     camera: Camera = FRONT,
-    technique: Technique = DYNAMIC,
+    technique: Parameters = DYNAMIC,
     size: tuple[int, int] = (400, 300),
 ) -> Plate:
     return Plate(f"hard-{name}", caption, Scene(objects), camera, technique, size)

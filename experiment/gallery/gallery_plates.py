@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from seethrough.renderer.plan.planner import Technique
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 DYNAMIC = DynamicTransparency()
@@ -21,7 +21,7 @@ class Plate:
     caption: str
     scene: Scene
     camera: Camera
-    technique: Technique
+    technique: Parameters
     size: tuple[int, int] = SIZE
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from itertools import count
 
-from seethrough.experiment.pages.pages import Answers, Page, TextField
+from seethrough.experiment.pages.pages import Answers, Page
 
 Setting = tuple[float, float]  # sizes of a page's text and of the gaps about it, 1 as a rule
 
@@ -29,15 +29,8 @@ class Form:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """Names of the scales and choices without an answer, and of fields with a wrong one."""
-        unanswered = {name for name in self.page.required if name not in self.answers}
-        wrong = {
-            b.name
-            for b in self.page.blocks
-            if isinstance(b, TextField) and not b.takes(self.answers.get(b.name, ""))
-        }
-        names = (getattr(b, "name", "") for b in self.page.blocks)
-        return tuple(name for name in names if name in unanswered | wrong)
+        """Names of what has no answer and needs one, or has one that will not do."""
+        return tuple(b.name for b in self.page.asked if not b.answered(self.answers.get(b.name)))
 
     @property
     def complete(self) -> bool:

@@ -25,7 +25,9 @@ from seethrough.experiment.pages.pages import (
     Picture,
     PlanPicture,
     PlatePicture,
+    Ranking,
     Scale,
+    Several,
     TextField,
 )
 from seethrough.experiment.pages.texts import Texts
@@ -77,12 +79,18 @@ class Blocks:
                 imgui.text_wrapped(self.texts.fill(block.text, block.values))
             case Scale():
                 self._question(self.texts.fill(block.text, block.values), marked)
-                slider = block.steps > MOST_RADIOS
+                slider = block.slider or block.steps > MOST_RADIOS
                 self._slider(block, form) if slider else self._radios(block, form)
             case Choice():
                 if block.text:
                     self._question(self.texts.get(block.text), marked)
                 self._choice(block, form)
+            case Several():
+                self._question(self.texts.get(block.text), marked)
+                self._several(block, form)
+            case Ranking():
+                self._question(self.texts.get(block.text), marked)
+                self._ranking(block, form)
             case TextField():
                 self._question(self.texts.get(block.text), marked)
                 self._text_field(block, form, unit, measured)
@@ -112,12 +120,12 @@ class Blocks:
             imgui.align_text_to_frame_padding()
             imgui.text_disabled(low)
         else:
-            _disabled_wrapped(f"0: {low}   {scale.steps - 1}: {high}")
+            _disabled_wrapped(_ends(scale, low, high))
         for number in range(scale.steps):
             if number or beside:
                 imgui.same_line()
             chosen = form.answers.get(scale.name) == str(number)
-            if imgui.radio_button(f"{number}##{scale.name}", chosen):
+            if imgui.radio_button(f"{scale.first + number}##{scale.name}", chosen):
                 form.answers[scale.name] = str(number)
         if beside:
             imgui.same_line()
@@ -134,20 +142,20 @@ class Blocks:
             imgui.text_disabled(low)
             imgui.same_line()
         else:
-            _disabled_wrapped(f"0: {low}   {scale.steps - 1}: {high}")
+            _disabled_wrapped(_ends(scale, low, high))
         imgui.set_next_item_width(min(0.5 * room, left) if beside else room)
         answered = scale.name in form.answers
-        value = int(form.answers.get(scale.name, (scale.steps - 1) // 2))
+        value = scale.first + int(form.answers.get(scale.name, (scale.steps - 1) // 2))
         changed, value = imgui.slider_int(
             f"##{scale.name}",
             value,
-            0,
-            scale.steps - 1,
+            scale.first,
+            scale.first + scale.steps - 1,
             "%d" if answered else "?",
             imgui.SliderFlags_.always_clamp,  # a number may be typed as well
         )
         if changed or imgui.is_item_activated():
-            form.answers[scale.name] = str(value)
+            form.answers[scale.name] = str(value - scale.first)
         self.on_slider |= imgui.is_item_focused() and self.interface.io.nav_visible
         if beside:
             imgui.same_line()
@@ -165,6 +173,30 @@ class Blocks:
             if _option(self.texts.get(option), f"{choice.name}{number}", chosen):
                 form.answers[choice.name] = str(number)
 
+    def _several(self, asked: Several, form: Form) -> None:
+        """Boxes to tick, one below the other."""
+        ticked = {int(n) for n in form.answers.get(asked.name, "").split(",") if n}
+        for number, option in enumerate(asked.options):
+            name = f"{self.texts.get(option)}##{asked.name}{number}"
+            changed, _ = imgui.checkbox(name, number in ticked)
+            ticked ^= {number} if changed else set()
+        form.answers[asked.name] = ",".join(map(str, sorted(ticked)))
+
+    def _ranking(self, asked: Ranking, form: Form) -> None:
+        """A line of ranks for each option; who takes another's rank gives it the one it had."""
+        count = len(asked.options)
+        ranks = form.answers.get(asked.name, "," * (count - 1)).split(",")
+        gap = imgui.get_style().item_spacing.x
+        for number, option in enumerate(asked.options):
+            for rank in map(str, range(1, count + 1)):
+                if imgui.radio_button(f"{rank}##{asked.name}{number}", ranks[number] == rank):
+                    other = ranks.index(rank) if rank in ranks else number
+                    ranks[other], ranks[number] = ranks[number], rank
+                imgui.same_line(0, gap)
+            imgui.align_text_to_frame_padding()
+            imgui.text_wrapped(self.texts.get(option))
+        form.answers[asked.name] = ",".join(ranks)
+
     def _text_field(self, field_: TextField, form: Form, unit: float, measured: bool) -> None:
         """A field; beside one for a number stands what is wrong with it."""
         name, text = f"##{field_.name}", form.answers.get(field_.name, "")
@@ -178,7 +210,8 @@ class Blocks:
         form.answers[field_.name] = text
         wrong = form.insisted and not field_.takes(text)
         if wrong or (measured and field_.most is not None):
-            values = ((field_.name, text.strip()[:20]), ("most", str(field_.most)))
+            limits = (("most", f"{field_.most:g}"), ("least", f"{field_.least:g}"))
+            values = ((field_.name, text.strip()[:20]), ("answer", text.strip()[:20]), *limits)
             imgui.same_line()
             imgui.push_style_color(imgui.Col_.text, COLORS["wrong"])
             imgui.text_wrapped(self.texts.fill(field_.wrong, values))
@@ -234,6 +267,10 @@ def _option(text: str, name: str, chosen: bool) -> bool:
     imgui.align_text_to_frame_padding()
     imgui.text_wrapped(text)
     return bool(pressed or imgui.is_item_clicked())
+
+
+def _ends(scale: Scale, low: str, high: str) -> str:
+    return f"{scale.first}: {low}   {scale.first + scale.steps - 1}: {high}"
 
 
 def _disabled_wrapped(text: str) -> None:

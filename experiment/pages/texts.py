@@ -39,8 +39,8 @@ class Texts:
 
     def get(self, key: str) -> str:
         """The text, or the key itself for what needs no translation: letters, numbers, the names
-        of a study's own models."""
-        return self._texts.get(key, key.removeprefix("kind."))
+        of a study's own models and levels."""
+        return self._texts.get(key, key.removeprefix("kind.").removeprefix("name."))
 
     def fill(self, key: str, values: Iterable[tuple[str, str | float]] = ()) -> str:
         """The text with its {placeholders} filled; values that are keys are looked up too."""

@@ -6,17 +6,21 @@ from math import exp, hypot, log2
 from statistics import fmean
 
 import numpy as np
+from numpy.random import Generator
 
-from seethrough.experiment.pages.depth_test import on_picture
 from seethrough.experiment.pages.pages import (
     PICTURE_ASPECT,
+    Answers,
     Choice,
     Page,
     Paragraph,
     Picture,
     PlatePicture,
+    Ranking,
     Scale,
+    Several,
     TextField,
+    on_picture,
 )
 from seethrough.experiment.people.persons.person import Person
 from seethrough.tasks.catalog import TASKS, world_of
@@ -49,29 +53,54 @@ class Opinions:
 
     def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Answers by name ("button": which one), and the seconds that took."""
-        answers, seconds = {"button": "0"}, 1.0
+        seconds = 1.0
         for block in page.blocks:
             if isinstance(block, Paragraph):
                 if block.text.startswith("transparency."):
                     self._level = block.text.removeprefix("transparency.")
                 seconds += READ
-            elif isinstance(block, Scale):
-                answers[block.name] = str(self._rating(page, block))
-                seconds += DECIDE
-            elif isinstance(block, Choice) and not block.optional:
-                answers[block.name] = str(self._choice(page, block))
-                seconds += DECIDE
-            elif isinstance(block, TextField):
-                answers[block.name] = ""
+            elif isinstance(block, Scale | Choice | Several | Ranking):
+                needed = isinstance(block, Scale) or not block.optional
+                seconds += DECIDE if needed else 0.0
+        answers = self.by_blocks(page) if page.simulate is None else page.simulate(self)
         return answers, seconds * self.person.profile.pace
 
+    @property
+    def rng(self) -> Generator:
+        """What makes the choices of this person."""
+        return self.person.rng
+
+    def by_blocks(self, page: Page) -> Answers:
+        """Answers by what a page is made of: what was quick is liked, what may be left open is."""
+        answers = {"button": "0"}
+        for block in page.blocks:
+            if isinstance(block, Scale):
+                answers[block.name] = str(self._rating(page, block))
+            elif isinstance(block, Choice) and not block.optional:
+                answers[block.name] = str(self._choice(page, block))
+            elif isinstance(block, Several):
+                one = "" if block.optional else str(self.rng.integers(len(block.options)))
+                answers[block.name] = one
+            elif isinstance(block, Ranking) and not block.optional:
+                answers[block.name] = ",".join(map(str, self._ranks(block)))
+            elif isinstance(block, TextField):
+                answers[block.name] = ""
+        return answers
+
+    def _ranks(self, block: Ranking) -> list[int]:
+        """What was quick comes first, where options are levels; by chance otherwise."""
+        levels = block.prefer or ("",) * len(block.options)
+        dislike = np.array([log2(max(self._relative(level, ""), 1e-6)) for level in levels])
+        dislike += WOBBLE / STEEPNESS * self.rng.standard_normal(len(levels))
+        return [int(rank) for rank in 1 + np.argsort(np.argsort(dislike))]
+
     def _rating(self, page: Page, block: Scale) -> int:
-        """Liking what was quick; load is the other way round, as are the SUS's even items."""
-        kind, level, scenario = [*page.name.split(" "), "", ""][:3]
+        """Liking what was quick; what speaks `against` it is the other way round."""
+        about = dict(page.about)
+        level, scenario = about.get("transparency", ""), about.get("scenario", "")
         liking = MIDDLE - STEEPNESS * log2(max(self._relative(level, scenario), 1e-6))
         liking += WOBBLE * self.person.rng.standard_normal()
-        against = kind == "tlx" or (kind == "sus" and int(block.name.rpartition("_")[2]) % 2 == 0)
-        share = min(1.0, max(0.0, 1 - liking if against else liking))
+        share = min(1.0, max(0.0, 1 - liking if block.against else liking))
         return round(share * (block.steps - 1))
 
     def _relative(self, level: str, scenario: str) -> float:
@@ -82,8 +111,8 @@ class Opinions:
         return fmean(own) / fmean(t for _, t in times) if own else 1.0
 
     def _choice(self, page: Page, block: Choice) -> int:
-        if block.name == "preference":
-            return self._preference(len(block.options))
+        if block.prefer:
+            return self._preference(block.prefer)
         for other in page.blocks:
             if isinstance(other, PlatePicture):
                 # Every simulated participant has full colour vision.
@@ -108,14 +137,14 @@ class Opinions:
             looks.append(true * exp(spread * self.person.rng.standard_normal()))
         return int(np.argmin(looks))
 
-    def _preference(self, options: int) -> int:
-        """0 for see-through, the last for none of it: by the times taken, and by chance."""
-        times = {
-            level: [fmean(t) for (lv, _), t in self._times.items() if lv == level]
-            for level in ("dynamic", "standard")
-        }
-        if not all(times.values()):
-            return options // 2
-        odds = log2(fmean(times["standard"]) / fmean(times["dynamic"]))
+    def _preference(self, options: tuple[str, ...]) -> int:
+        """The first level or the last: by the times taken, and by chance."""
+        first, last = (
+            [fmean(t) for (lv, _), t in self._times.items() if lv == level]
+            for level in (options[0], options[-1])
+        )
+        if not first or not last:
+            return len(options) // 2
+        odds = log2(fmean(last) / fmean(first))
         chance = 1 / (1 + exp(-3 * odds))
-        return 0 if self.person.rng.random() < chance else options - 1
+        return 0 if self.person.rng.random() < chance else len(options) - 1

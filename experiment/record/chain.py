@@ -57,8 +57,12 @@ def end_of(table: Path) -> str:
     return str(read_json(table.with_suffix(".json"), table.parent)["chain"]["start"])
 
 
-def loose_files(table: Path) -> dict[str, str]:
-    """{name: SHA-256} of a session's files that its rows do not hold."""
+def loose_files(table: Path, killed: bool = False) -> dict[str, str]:
+    """{name: SHA-256} of a session's files that its rows do not hold.
+
+    Of one that was `killed` without traces in which nothing is: if it was but stopped, it takes
+    them away when it goes on.
+    """
     stem = table.name.removesuffix(TRIALS_TABLE)
     traces = (table.parent / "traces").glob(f"session-{_session(table)[0]}_*")
     chained = {table.name, stem + SIDECAR, *_traces_of(table)}
@@ -66,7 +70,11 @@ def loose_files(table: Path) -> dict[str, str]:
         path.relative_to(table.parent).as_posix(): path
         for path in sorted([*table.parent.glob(f"{stem}_*"), *traces])
     }
-    return {name: file_hash(path) for name, path in names.items() if name not in chained}
+    left = {name: path for name, path in names.items() if name not in chained}
+    if killed:
+        empty = {n for n, p in left.items() if p.parent.name == "traces" and not p.stat().st_size}
+        left = {name: path for name, path in left.items() if name not in empty}
+    return {name: file_hash(path) for name, path in left.items()}
 
 
 def latest_table(folder: Path) -> Path | None:

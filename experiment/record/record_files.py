@@ -28,6 +28,17 @@ EVENTS = "time,event,x,y,dx,dy,dragging,key,within"
 CHUNK = 1 << 16  # bytes of traces that are kept before they are written
 
 
+def ask_again(guard: Callable[[], None], take_back: Callable[[], None]) -> None:
+    """Ask once more after a write: this may have stood still since it asked before, and been taken
+    over. Then what was written is taken back, for somebody has gone on without it."""
+    try:
+        guard()
+    except BaseException:
+        with suppress(OSError):  # the disk is gone as well: nothing can be taken back
+            take_back()
+        raise
+
+
 class Table:
     """A CSV file that grows by whole, fsynced rows; `chain` starts its last column, if given."""
 
@@ -42,7 +53,9 @@ class Table:
         self.path, self._guard = path, guard
         self.chain = chain
         self._names = [c.name for c in columns]
+        guard()
         write_new(path, header_of(columns) + "\n")
+        ask_again(guard, path.unlink)
         self._file: int | None = os.open(path, os.O_WRONLY | os.O_APPEND)
 
     def append(self, *rows: Mapping[str, Any]) -> None:
@@ -73,6 +86,7 @@ class Table:
             with suppress(OSError):  # the disk is gone altogether: nothing can be taken back
                 os.ftruncate(self._file, size)
             raise refused(error, self.path) from None
+        ask_again(self._guard, lambda: os.ftruncate(self._file, size))
 
     def close(self) -> None:
         """Closing twice does no harm."""
@@ -93,12 +107,7 @@ class Trace:
             self._file: int | None = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, FILE)
         except OSError as error:
             raise refused(error, path) from None
-        try:
-            guard()  # once more: this may have stood still since it was asked, and been taken over
-        except BaseException:
-            os.close(self._file)
-            path.unlink()
-            raise
+        ask_again(guard, self._unmake)
 
     def line(self, text: str) -> None:
         """One line more."""
@@ -125,9 +134,15 @@ class Trace:
         """Of what was written."""
         return self._hash.hexdigest()
 
+    def _unmake(self) -> None:
+        assert self._file is not None
+        os.close(self._file)
+        self.path.unlink()
+
     def _write(self) -> None:
         assert self._file is not None
         self._guard()
+        size = os.fstat(self._file).st_size
         data = "".join(f"{line}\n" for line in self._kept).encode("utf-8", "replace")
         self._kept.clear()
         self._size = 0
@@ -135,6 +150,7 @@ class Trace:
             write(self._file, data)
         except OSError as error:
             raise refused(error, self.path) from None
+        ask_again(self._guard, lambda: os.ftruncate(self._file, size))
         self._hash.update(data)
 
 

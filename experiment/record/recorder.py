@@ -31,7 +31,7 @@ from seethrough.experiment.record.chain import (
 )
 from seethrough.experiment.record.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
 from seethrough.experiment.record.dataset import describe_dataset
-from seethrough.experiment.record.record_files import Table, Traces, header_of, mend
+from seethrough.experiment.record.record_files import Table, Traces, ask_again, header_of, mend
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import View
@@ -107,7 +107,8 @@ class FileRecorder:
             content["mended"] = mend(self.folder)
             content["chain"]["follows"] = end_of(before)
             if not before.with_name(before.name.replace(TRIALS_TABLE, END)).exists():
-                content["chain"]["holds"] = loose_files(before)  # it was killed: nothing else does
+                # It was killed: nothing else holds them.
+                content["chain"]["holds"] = loose_files(before, killed=True)
         start = start_of(content, header_of(TRIALS))
         content["chain"]["start"] = start
         write_new(sidecar, _json(content))
@@ -213,6 +214,7 @@ class FileRecorder:
             write_new(path, _json({**content, "seal": seal_of(content)}))
         except OSError as error:
             raise refused(error, path) from None
+        ask_again(self._guard, path.unlink)
 
     def _file(self, name: str) -> Path:
         return self.folder / f"{self.stem}_{name}"

@@ -24,7 +24,6 @@ from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
@@ -50,7 +49,7 @@ class Recorded:
     @property
     def technique(self) -> Any:
         """What the trial was drawn with."""
-        return self.study.dynamic if self.trial.transparency == "dynamic" else Standard()
+        return self.study.technique(self.trial.transparency)
 
 
 @dataclass(frozen=True, eq=False)

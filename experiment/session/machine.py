@@ -20,7 +20,6 @@ from seethrough.renderer.plan.explain import of_cluster
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.transforms import rotation_y
-from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 
 TURN = 0.5  # rad/s of the view while frames are timed: every frame is another picture
@@ -41,7 +40,7 @@ def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> Fra
     size = (study.display.width, study.display.height)
     task = TASKS[trial.task]
     view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
-    technique = study.dynamic if trial.transparency == "dynamic" else Standard()
+    technique = study.technique(trial.transparency)
     renderer = Renderer(context, size, samples_for(study.display.samples, context))
     renderer.draw(view.scene, view.camera, technique)
     context.finish()
@@ -60,12 +59,10 @@ def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> Fra
 def crossings(study: Study, trial: Trial) -> list[str]:
     """What the trial's first view cuts along one another, where objects intersect and the study
     orders polygons: how many there are, and of how many pieces."""
-    if study.dynamic.order != "polygons" or trial.transparency != "dynamic":
-        return []
     size = (study.display.width, study.display.height)
     task = TASKS[trial.task]
     view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
-    frame = plan(view.scene, view.camera, study.dynamic, size)
+    frame = plan(view.scene, view.camera, study.technique(trial.transparency), size)
     return [of_cluster(view.scene, members) for members in frame.clusters]
 
 

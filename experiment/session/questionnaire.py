@@ -7,21 +7,23 @@ on at the first page without an answer.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+from zlib import crc32
 
-from seethrough.experiment.display.display import Input, Leave
-from seethrough.experiment.pages import blocks
-from seethrough.experiment.pages.color_plates import DIGITS, Plate, plates
-from seethrough.experiment.pages.depth_test import PAIRS, depth_test
-from seethrough.experiment.pages.pages import Choice, Page, Paragraph, PlatePicture, TextField
+from seethrough.experiment.display.display import Input
+from seethrough.experiment.questions.kit import Asking, Row
+from seethrough.experiment.questions.ready import question
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import PARTICIPANT, generator
+from seethrough.tasks.catalog import WORLDS
 
-Row = Mapping[str, str]
 Item = tuple[str, str, str]  # item, transparency, scenario; the last two empty where none applies
 Given = Mapping[Item, str]  # values of the items that were answered
-OLDEST = 120  # years; what is above is a slip of the finger
-COLOR_STREAM = 999_999  # last word of the plates' stream: no trial has it
+QUESTION_STREAM = 999_999  # in the names of questions' streams: no trial has it
+COLOR_CHECK = "color_check"  # its stream has no further word
+FACTORS = ("transparency", "scenario")
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,18 @@ class Step:
 
     last: tuple[Item, ...]
     ask: Callable[[Input, Given], list[Row]]
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A question that a study asks: `name` is its table's, `use` its kind or ready-made question,
+    `about` the levels that it is asked for, by factor, `of` those that it compares."""
+
+    name: str
+    use: str
+    about: Mapping[str, str] = field(default_factory=dict)
+    of: tuple[str, ...] = ()
+    parameters: Any = None
 
 
 def asked(steps: Iterator[Step], person: Input, given: Given | None = None) -> Iterator[list[Row]]:
@@ -52,135 +66,80 @@ def item_of(row: Row) -> Item:
 def before(study: Study, slot: int) -> Iterator[Step]:
     """Consent, age and gender, colour check."""
     if "consent.text" in study.texts:
-        yield Step((("consent", "", ""),), _consent)
+        yield from steps(Planned("consent", "consent"), study, slot)
     if study.session.demographics:
-        yield Step((("age", "", ""), ("gender", "", "")), _demographics)
+        yield from steps(Planned("demographics", "demographics"), study, slot)
     if study.session.color_check:
-        rng = generator(study.study.seed, (PARTICIPANT, slot, COLOR_STREAM))
-        for number, plate in enumerate(plates(rng), start=1):
-            yield _plate(f"color_plate_{number}", plate)
+        yield from steps(Planned(COLOR_CHECK, COLOR_CHECK), study, slot)
 
 
-def after(study: Study) -> Iterator[Step]:
+def after(study: Study, slot: int = 1) -> Iterator[Step]:
     """Every block the study asks for, in the order of its config."""
-    levels = study.design.transparency
     for block in study.session.questionnaire:
-        if block == "ratings":
-            for transparency, scenario in study.design.factors().conditions:
-                page = blocks.ratings(transparency, scenario)
-                yield _scales(page, blocks.RATINGS, transparency, scenario)
-        elif block == "comparison" and len(levels) > 1:
-            yield Step((("depth_self_report", "", ""),), _comparison)
-        elif block == "tlx":
-            for level in levels:
-                yield _scales(blocks.tlx(level), blocks.TLX, level, prefix="tlx_")
-        elif block == "sus":
-            for level in levels:
-                yield _sus(level)
-        elif block == "depth_test":
-            for number in range(PAIRS):
-                yield _pair(study, number)
-        elif block == "remarks":
-            yield Step((("remarks", "", ""),), _remarks)
+        for planned in _after(block, study):
+            yield from steps(planned, study, slot)
 
 
-def _consent(person: Input, given: Given) -> list[Row]:
-    buttons = ("consent.yes", "consent.no")
-    page = Page("consent", "consent.title", (Paragraph("consent.text"),), buttons)
-    if person.ask(page)["button"] == "1":
-        raise Leave
-    return [_row("consent", "1")]
+def _after(block: str, study: Study) -> Iterator[Planned]:
+    levels = study.design.transparency
+    if block == "ratings":
+        for cell in study.design.factors().conditions:
+            yield Planned(block, block, dict(zip(FACTORS, cell, strict=True)))
+    elif block in ("tlx", "sus"):
+        for level in levels:
+            yield Planned(block, block, {FACTORS[0]: level})
+    elif block != "comparison":
+        yield Planned(block, block)
+    elif len(levels) > 1:
+        yield Planned(block, block, of=tuple(sorted(levels, key=lambda lv: lv != "standard")))
 
 
-def _demographics(person: Input, given: Given) -> list[Row]:
-    genders = ("gender.female", "gender.male", "gender.other")
-    fields = (
-        TextField("age", "demographics.age", lines=1, most=OLDEST, wrong="demographics.wrong"),
-        Choice("gender", "demographics.gender", genders, optional=True),
+def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
+    """The pages of a question."""
+    kind = question(planned.use)
+    parameters = kind.Parameters() if planned.parameters is None else planned.parameters
+    words = () if planned.use == COLOR_CHECK else (crc32(planned.name.encode()),)
+    stream = (PARTICIPANT, slot, QUESTION_STREAM, *words)
+    asking = Asking(
+        planned.name,
+        planned.about,
+        planned.of,
+        stream=partial(generator, study.study.seed, stream),
+        study=StudyPlaces(study),
     )
-    answers = person.ask(Page("demographics", "demographics.title", fields))
-    age = answers.get("age", "").strip()
-    rows = [_row("age", age)] if age else []
-    if "gender" in answers:
-        rows.append(
-            _row("gender", "", text=genders[int(answers["gender"])].removeprefix("gender."))
-        )
-    return rows
+    cell = tuple(planned.about.get(factor, "") for factor in FACTORS)
+
+    def step(number: int) -> Step:
+        def ask(person: Input, given: Given) -> list[Row]:
+            known = {item: value for (item, *at), value in given.items() if tuple(at) == cell}
+            now = replace(asking, given=known)
+            page = kind.pages(parameters, now)[number]
+            page = replace(page, simulate=partial(kind.simulate, parameters, page))
+            rows = kind.rows(parameters, now, number, person.ask(page))
+            return [{**row, **planned.about} for row in rows]
+
+        last = kind.last(parameters, asking, number)
+        return Step(tuple((item, *cell) for item in last), ask)
+
+    for number in range(kind.count(parameters)):
+        yield step(number)
 
 
-def _plate(item: str, plate: Plate) -> Step:
-    """A plate of the participant's own stream; value 1 where the digit was read."""
-    options = (*map(str, sorted(DIGITS)), "color.nothing")
+@dataclass(frozen=True)
+class StudyPlaces:
+    """What questions may know of a study."""
 
-    def ask(person: Input, given: Given) -> list[Row]:
-        choice = Choice("digit", "color.question", options)
-        answers = person.ask(Page("color check", "color.title", (PlatePicture(plate), choice)))
-        answer = options[int(answers["digit"])]
-        text = f"{answer.removeprefix('color.')}, shown {plate.digit}"
-        return [_row(item, str(int(answer == str(plate.digit))), text=text)]
+    study: Study
 
-    return Step(((item, "", ""),), ask)
+    @property
+    def seed(self) -> int:
+        """The study's seed."""
+        return self.study.study.seed
 
+    def place(self, world: str) -> Any:
+        """The study's parameters of a world."""
+        return getattr(self.study, WORLDS[world].scenario)
 
-def _comparison(person: Input, given: Given) -> list[Row]:
-    page = blocks.comparison()
-    answers = person.ask(page)
-    options = next(b.options for b in page.blocks if isinstance(b, Choice))
-    chosen = options[int(answers["preference"])].removeprefix("name.")
-    return [
-        # the paper's 1 and 0; who prefers neither is told from who prefers the standard by the text
-        _row("preference", str(int(chosen == "dynamic")), text=chosen),
-        _row("depth_self_report", answers["depth_self_report"]),
-    ]
-
-
-def _scales(
-    page: Page, items: tuple[str, ...], transparency: str, scenario: str = "", prefix: str = ""
-) -> Step:
-    def ask(person: Input, given: Given) -> list[Row]:
-        answers = person.ask(page)
-        return [
-            _row(prefix + item, answers[item], transparency=transparency, scenario=scenario)
-            for item in items
-        ]
-
-    return Step(((prefix + items[-1], transparency, scenario),), ask)
-
-
-def _sus(level: str) -> Step:
-    """Ten statements and their score."""
-    items = [f"sus_{n}" for n in range(1, blocks.SUS_ITEMS + 1)]
-
-    def ask(person: Input, given: Given) -> list[Row]:
-        answers = person.ask(blocks.sus(level))
-        values = {item: given.get((item, level, ""), answers[item]) for item in items}
-        rows = [_row(item, value, transparency=level) for item, value in values.items()]
-        return [*rows, _row("sus", f"{blocks.sus_score(values):g}", transparency=level)]
-
-    return Step((("sus", level, ""),), ask)
-
-
-def _pair(study: Study, number: int) -> Step:
-    """A pair of the depth test; value 1 where it was right. The last brings the score."""
-    item = f"depth_pair_{number + 1}"
-
-    def ask(person: Input, given: Given) -> list[Row]:
-        test = depth_test(study)
-        answers = person.ask(test.pages(study.dynamic)[number])
-        rows = [_row(item, str(int(test.right(number, answers))))]
-        if number == PAIRS - 1:
-            before_it = (given[f"depth_pair_{n}", "", ""] for n in range(1, PAIRS))
-            score = sum(value == "1" for value in (*before_it, rows[0]["value"]))
-            rows.append(_row("depth_test", str(score)))
-        return rows
-
-    return Step((("depth_test" if number == PAIRS - 1 else item, "", ""),), ask)
-
-
-def _remarks(person: Input, given: Given) -> list[Row]:
-    text = person.ask(blocks.remarks()).get("remarks", "")
-    return [_row("remarks", "", text=text)] if text else []
-
-
-def _row(item: str, value: str, **more: str) -> Row:
-    return {"item": item, "value": value, **more}
+    def technique(self, about: Mapping[str, str]) -> Any:
+        """What frames are drawn with at these levels; the last one's, where none is named."""
+        return self.study.dynamic

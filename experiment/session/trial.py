@@ -16,7 +16,6 @@ from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import Outcome, View
 from seethrough.tasks.kit.events import (
     Event,
@@ -95,7 +94,7 @@ class TrialRun:
 
     def technique(self, trial: Trial) -> Any:
         """What the trial's transparency level draws with."""
-        return self.study.dynamic if trial.transparency == "dynamic" else Standard()
+        return self.study.technique(trial.transparency)
 
     def begin(self, trial: Trial) -> Any:
         """The task's first state, from the trial's own stream."""

@@ -14,7 +14,7 @@ from pydantic import AfterValidator, Field, ValidationError
 
 from seethrough.experiment.errors import MOST, InputError, gathered, short, shown
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design import Trial, scene_names, slot_of
 from seethrough.experiment.study.own_model_files import beside
 from seethrough.experiment.study.parameter_tables import Fault, faulty, from_table
 from seethrough.experiment.study.study_errors import study_error
@@ -28,6 +28,7 @@ from seethrough.experiment.study.study_tables import (
     Table,
 )
 from seethrough.experiment.study.toml_file import read_toml
+from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.catalog import TASKS, WORLDS
 from seethrough.tasks.kit.base import Setting
@@ -78,6 +79,10 @@ class Study(Table):
         for model in table["walkthrough"]["models"]:
             del model["folder"]  # where a file lies differs between stations that run one study
         return table
+
+    def technique(self, level: str) -> Any:
+        """What a trial of this transparency level is drawn with."""
+        return named(level, {"dynamic": self.dynamic})
 
     def setting(self, trial: Trial) -> Setting:
         """Where and how a trial's task is set."""
@@ -171,10 +176,29 @@ def parse(table: Mapping[str, Any], file: str) -> Study:
     except ValidationError as error:
         found = study_error(error, table, file)
         faults, more = [*found.faults], found.more
+    else:
+        faults += [f"{file}: {line}" for line in _unknown_scenes(study)]
     faults += [f"{file}: {line}" for line in _unknown_texts(table)]
     if faults:
         raise gathered(faults, more)
     return study
+
+
+def _unknown_scenes(study: Study) -> list[str]:
+    """A scene to be drawn again is one that a participant meets."""
+    factors = study.design.factors()
+    met: dict[int, list[str]] = {}
+    wrong: list[str] = []
+    for number, name in enumerate(study.design.redraw):
+        slot = slot_of(name)
+        if slot not in met:
+            met[slot] = scene_names(slot, factors)
+        if name not in met[slot]:
+            like = f"such as {met[slot][0]}, as `check --redraw` prints them"
+            wrong.append(f"design.redraw[{number}] = {shown(name)}: expected a scene of it, {like}")
+        if len(wrong) > MOST:
+            break
+    return wrong
 
 
 def _unknown_texts(table: Mapping[str, Any]) -> list[str]:

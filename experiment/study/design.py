@@ -161,6 +161,24 @@ def _trial(
     )
 
 
+def scene_names(slot: int, factors: Factors) -> list[str]:
+    """The scenes that a slot's participant meets, and those that slots share."""
+    again = len(factors.transparency)  # slots after which every shared set of scenes has occurred
+    return [
+        trial.scene
+        for slot in (slot, *range(1, again + 1))
+        for own in session_for(slot, factors)
+        for trial in (*own.trials, *own.training)
+    ]
+
+
+def slot_of(scene: str) -> int:
+    """Whose scene it is, if it is one participant's own; else the first slot's."""
+    words = scene.split("-")
+    own = words[0] == "stream" and len(words) > 2 and words[2].isascii() and words[2].isdigit()
+    return max(int(words[2]), 1) if own and len(words[2]) < 10 else 1
+
+
 def generator(seed: int, stream: Sequence[int]) -> Generator:
     """The Generator of a stream: any trial's scene can be made again alone."""
     return np.random.Generator(np.random.PCG64(SeedSequence(seed, spawn_key=tuple(stream))))

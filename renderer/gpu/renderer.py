@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from dataclasses import replace
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -14,10 +14,11 @@ from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.layer import FrameStats, Layer
-from seethrough.renderer.plan.planner import SHORTCUTS, FramePlan, Technique, plan
+from seethrough.renderer.plan.planner import SHORTCUTS, FramePlan, plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Drawn, Visibility, visibility, visibility_of_shares
+from seethrough.renderer.techniques.base import Parameters, Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SCENES_KEPT = 4  # a trial's own, its inset's, and the last ones of both
@@ -27,6 +28,8 @@ class Renderer:
     """Draws a scene as a technique shows it. Meshes are uploaded once, a scene when it changes.
 
     `without` names shortcuts not to take (renderer.plan.SHORTCUTS), for tests and measurements.
+    `window`: the height in pixels of the window that a picture is shown in, where it is smaller
+    than that: what is counted in the window's pixels keeps its part of the picture.
     """
 
     def __init__(
@@ -35,11 +38,13 @@ class Renderer:
         size: tuple[int, int] = (800, 600),
         samples: int = 0,
         without: Set[str] = frozenset(),
+        window: int | None = None,
     ) -> None:
         unknown = set(without) - set(SHORTCUTS)
         if unknown:
             raise ValueError(f"without = {sorted(unknown)}, expected some of {sorted(SHORTCUTS)}")
         self.context = context
+        self.window = window
         self.without = frozenset(without)
         self.plan: FramePlan | None = None
         self._store = MeshStore(context)
@@ -51,7 +56,7 @@ class Renderer:
         self._samples = min(samples, context.max_samples)
         self._target = FrameTarget(context, _checked(size), self._samples)
         self._small: FrameTarget | None = None
-        self._shown: tuple[Scene, Camera, Technique] | None = None
+        self._shown: tuple[Scene, Camera, Parameters, Any] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -69,23 +74,29 @@ class Renderer:
         self,
         scene: Scene,
         camera: Camera,
-        technique: Technique,
+        technique: Parameters,
         target_framebuffer: moderngl.Framebuffer | None = None,
+        state: Any = None,
     ) -> FrameStats:
         """Draw a frame; it is also put into `target_framebuffer` (a window's), if given.
 
-        Nothing is planned or drawn while neither scene, camera nor technique changed.
+        A technique is its parameters, and the `state` that events made of it (None: there were no
+        events). Nothing is planned or drawn while scene, camera, parameters and state are the same.
         """
-        if self._unchanged(scene, camera, technique):
+        if state is None:
+            state = technique.technique.begin(technique)
+        if self._unchanged(scene, camera, technique, state):
             stats = FrameStats(0, 0, 0, 0)
         else:
             # Where pixels are antialiased, only the depth buffer's picture is.
             without = self.without | {"held"} if self._samples else self.without
-            self.plan = plan(scene, camera, technique, self.size, without)
-            table = self._table(scene)
-            stats = self._layer.draw(table, self.plan, camera, technique, self._target)
+            scale = self.size[1] / self.window if self.window else 1.0
+            shown = _shown(scene, camera, technique, state, self.size)
+            self.plan = plan(shown, camera, technique, self.size, without, scale, state=state)
+            args = (self._table(shown), self.plan, camera, technique, self._target)
+            stats = self._layer.draw(*args, scale, state=state)
             self._target.resolve()
-            self._shown = (scene, camera, technique)
+            self._shown = (scene, camera, technique, state)
         if target_framebuffer is not None:
             self._show(target_framebuffer)
         return stats
@@ -105,31 +116,33 @@ class Renderer:
         self,
         scene: Scene,
         camera: Camera,
-        technique: Technique,
+        technique: Parameters,
         size: tuple[int, int] = (200, 150),
+        state: Any = None,
     ) -> Visibility:
         """What can be seen of each object in the frame as `draw` serves it, found at `size`.
 
         Masks are as wide, against the picture, as in the frame. The picture drawn last stays.
         """
+        if state is None:
+            state = technique.technique.begin(technique)
         n = len(scene.objects)
-        frame = self._looked(scene, camera, technique, size)
-        if len(frame.exact) and isinstance(technique, DynamicTransparency):
+        scene = _shown(scene, camera, technique, state, size)
+        frame = self._looked(scene, camera, technique, size, state)
+        if len(frame.exact):
             # What a frame sorts by pixel is in none of its layers.
             small, layer = self._looking(size)
             scale = size[1] / self.size[1]
             layer.draw(self._table(scene), frame, camera, technique, small, scale)
             shares = self.shares(scene, camera, technique, size)
             return visibility_of_shares(shares, small.read(), n)
-        layers = self._layers(scene, camera, technique, size, frame)
+        layers = self._layers(scene, camera, technique, size, frame, state)
         return visibility(layers, self._looking(size)[0].read(), n)
 
-    def _looked(
-        self, scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]
-    ) -> FramePlan:
+    def _looked(self, scene, camera, technique, size, state=None) -> FramePlan:  # type: ignore[no-untyped-def]
         """The plan of the frame, found at `size`."""
-        technique = _by_object(technique)
-        return plan(scene, camera, technique, size, self.without, size[1] / self.size[1])
+        technique = technique.technique.looked_at(technique)
+        return plan(scene, camera, technique, size, self.without, size[1] / self.size[1], state)
 
     def shares(
         self, scene: Scene, camera: Camera, technique: DynamicTransparency, size: tuple[int, int]
@@ -141,11 +154,11 @@ class Renderer:
         return layer.exact_layers(self._table(scene), frame, camera, technique, size, scale)
 
     def layers(
-        self, scene: Scene, camera: Camera, technique: Technique, size: tuple[int, int]
+        self, scene: Scene, camera: Camera, technique: Parameters, size: tuple[int, int]
     ) -> list[tuple[NDArray[np.int64], NDArray[np.floating]]]:
         """What `look` sees where nothing is sorted by pixel: from back to front, object + 1 (h, w)
         where the layer drew anything, else 0, and the opacity (h, w) with which it did."""
-        technique, scale = _by_object(technique), size[1] / self.size[1]
+        technique, scale = technique.technique.looked_at(technique), size[1] / self.size[1]
         frame = plan(scene, camera, technique, size, self.without | {"held"}, scale)
         found = []
         for where, numbers, opacity in self._layers(scene, camera, technique, size, frame):
@@ -154,7 +167,7 @@ class Renderer:
             found.append((ids, alpha))
         return found
 
-    def _layers(self, scene, camera, technique, size, frame) -> list[Drawn]:  # type: ignore[no-untyped-def]
+    def _layers(self, scene, camera, technique, size, frame, state=None) -> list[Drawn]:  # type: ignore[no-untyped-def]
         small, layer = self._looking(size)
         found: list[Drawn] = []
         last = np.zeros(size[::-1], dtype=np.float32)
@@ -172,7 +185,7 @@ class Renderer:
             before[...] = ids
 
         scale = size[1] / self.size[1]
-        layer.draw(self._table(scene), frame, camera, technique, small, scale, keep)
+        layer.draw(self._table(scene), frame, camera, technique, small, scale, keep, state)
         return found
 
     def _looking(self, size: tuple[int, int]) -> tuple[FrameTarget, Layer]:
@@ -185,13 +198,14 @@ class Renderer:
             self._id_layer = Layer(self.context, self._store, ids=True)
         return self._small, self._id_layer
 
-    def _unchanged(self, scene: Scene, camera: Camera, technique: Technique) -> bool:
+    def _unchanged(self, scene: Scene, camera: Camera, technique: Parameters, state: Any) -> bool:
         if self._shown is None or "still" in self.without:
             return False
-        old_scene, old, old_technique = self._shown
+        old_scene, old, old_technique, old_state = self._shown
         return (
             scene is old_scene
             and technique == old_technique
+            and state == old_state
             and (camera.fov_y, camera.near, camera.far) == (old.fov_y, old.near, old.far)
             and np.array_equal(camera.eye, old.eye)
             and np.array_equal(camera.rotation, old.rotation)
@@ -227,11 +241,9 @@ def _about(
     return (*low, *high)
 
 
-def _by_object(technique: Technique) -> Technique:
-    """Polygons have no numbers of their objects: what they show is looked for by pixel."""
-    if isinstance(technique, DynamicTransparency) and technique.order == "polygons":
-        return replace(technique, order="planes")
-    return technique
+def _shown(scene, camera, technique, state, size) -> Scene:  # type: ignore[no-untyped-def]
+    """What stands there in this frame: objects may have moved."""
+    return technique.technique.shown(technique, state, Shot(scene, camera, size)).scene
 
 
 def _checked(size: tuple[int, int]) -> tuple[int, int]:

@@ -6,7 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.plan import clusters
-from seethrough.renderer.plan.planner import BLENDED, HARD, OPAQUE, OUTSIDE, SHORTCUTS, FramePlan
+from seethrough.renderer.plan.planner import (
+    BLENDED,
+    HARD,
+    OPAQUE,
+    OUTSIDE,
+    RULED,
+    SHORTCUTS,
+    FramePlan,
+)
 from seethrough.renderer.scene.scene import Scene
 
 REASONS = {
@@ -14,6 +22,7 @@ REASONS = {
     OPAQUE: "opaque, in one pass with all such: in front of no mask",
     HARD: "opaque, in one pass with all such: impenetrable",
     BLENDED: "blended",
+    RULED: "drawn as the technique's rule has it: it may hide something that is asked for",
 }
 
 
@@ -35,6 +44,8 @@ def name(scene: Scene, i: int) -> str:
 def _whole(frame: FramePlan) -> list[str]:
     counts = {reason: int((frame.reasons == reason).sum()) for reason in REASONS}
     lines = [f"{count} objects {REASONS[reason]}" for reason, count in counts.items() if count]
+    if len(frame.ruled):
+        return lines
     if not frame.levels and not len(frame.exact):
         lines.append("no target in view has anything penetrable in front: the standard frame")
     if frame.levels:
@@ -82,6 +93,8 @@ def _of_object(scene: Scene, frame: FramePlan, i: int) -> str:
 
 def _of_target(scene: Scene, frame: FramePlan, t: int) -> str:
     text = f"{name(scene, t)}: "
+    if len(frame.ruled):
+        return text + "not touched: a target"
     if t in frame.masked:
         text += "mask"
         return text + (", layers counted" if t in frame.counted else "")

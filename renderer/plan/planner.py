@@ -12,6 +12,7 @@ from collections.abc import Set
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +23,9 @@ from seethrough.renderer.plan.blending import Blending, merged_parts
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import Boxes, screen_boxes
 from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.base import MASKS, Parameters, Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.renderer.techniques.standard.opaque import Standard
 
-Technique = Standard | DynamicTransparency
 Indices = NDArray[np.int64]
 
 SHORTCUTS = {
@@ -46,7 +46,7 @@ WORTH = 64  # pixels to save by drawing a triangle once more
 SORTED = 24  # pixels to sort more for a triangle less
 
 # Why an object is drawn as it is (FramePlan.reasons).
-OUTSIDE, OPAQUE, HARD, BLENDED = range(4)
+OUTSIDE, OPAQUE, HARD, BLENDED, RULED = range(5)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +68,8 @@ class FramePlan:
     drawn by that alone. `wide` are blended objects
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
     else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
-    are in levels. `boxes` are the extents of all objects. `reasons` (n,) say why each object is
+    are in levels. `ruled` are drawn last, each surface as the technique's rule has it. `boxes` are
+    the extents of all objects. `reasons` (n,) say why each object is
     drawn as it is, `behind` (n,) which target it is that makes it blend (−1: none).
     """
 
@@ -87,6 +88,7 @@ class FramePlan:
     clusters: tuple[Indices, ...] = ()
     held: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
     doubtful: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 4)))
+    ruled: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @property
     def ordered(self) -> int:
@@ -106,19 +108,22 @@ def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -
 def plan(
     scene: Scene,
     camera: Camera,
-    technique: Technique,
+    technique: Parameters,
     size: tuple[int, int],
     without: Set[str] = frozenset(),
     scale: float = 1.0,
+    state: Any = None,
 ) -> FramePlan:
     """Decide what the frame of `size` (width, height) in pixels needs. Pure.
 
-    `without` names SHORTCUTS not to take; `scale` shrinks the width of masks with the picture.
+    `without` names SHORTCUTS not to take; `scale` shrinks the width of masks with the picture;
+    `state` is what events have made of the technique's.
     """
     boxes = screen_boxes(scene.corners, camera, size)
     drawn = np.nonzero(boxes.inside | ("cull" in without))[0]
-    if isinstance(technique, Standard):
-        return _opaque(boxes, drawn, without)
+    if technique.technique.painter != MASKS:
+        touched = technique.technique.touches(technique, state, Shot(scene, camera, size, scale))
+        return _ruled(_opaque(boxes, drawn, without), touched)
     if not (scene.targets & boxes.within).any() and not without:
         return _opaque(boxes, drawn, without)
     reach = masks.reach(boxes.extents, technique, technique.width * scale, size)
@@ -190,6 +195,16 @@ def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
         np.full(len(reasons), -1),
         frozenset(without),
     )
+
+
+def _ruled(frame: FramePlan, touched: NDArray[np.bool_]) -> FramePlan:
+    """The plan with what the technique's rule may touch set apart from the opaque rest."""
+    ruled = touched[frame.opaque]
+    if not ruled.any():
+        return frame
+    reasons = np.where(touched & (frame.reasons == OPAQUE), RULED, frame.reasons)
+    opaque = frame.opaque
+    return replace(frame, opaque=opaque[~ruled], ruled=opaque[ruled], reasons=reasons)
 
 
 def _fit(scene: Scene, technique: DynamicTransparency) -> NDArray[np.bool_]:

@@ -46,13 +46,14 @@ def separate(a, b, slack):  # type: ignore[no-untyped-def]
         if least - most > slack * length:
             out[:3], out[3], out[4] = v / length, least / length, most / length
             return out
-        # The point nearest to 0 between v and the corner a[i] − b[j].
+        # The point nearest to 0 between v and the corner w: no point of a − b is less far along v
+        # than w is, so v·e ≥ 0, and v·w ≤ 0 but for the slack, so v·e ≤ e·e.
         w = a[i] - b[j]
         e = v - w
         square = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
         if square == 0:
             return out
-        t = min(max((v[0] * e[0] + v[1] * e[1] + v[2] * e[2]) / square, 0.0), 1.0)
+        t = (v[0] * e[0] + v[1] * e[1] + v[2] * e[2]) / square
         v = v - t * e
     return out
 

@@ -50,7 +50,7 @@ def tree(
 ) -> Tree:
     """A tree from nodes whose `children` are -1 where there is none."""
     n = len(planes)
-    links = np.where(children < 0, n, children).astype(np.uint32)
+    links = np.where(children == -1, n, children).astype(np.uint32)
     sizes = _subtree_sizes(links, np.append(np.diff(items), 0).astype(np.uint32))
     return Tree(np.asfortranarray(planes), links, items.astype(np.uint32), sizes, facing, depth)
 

@@ -40,7 +40,7 @@ def fragments(scene: Scene, camera: Camera, size: tuple[int, int]) -> Fragments:
     near_edge = np.zeros((height, width), dtype=np.bool_)
     outlines = []
     for i, thing in enumerate(scene.objects):
-        pieces, owners = _visible_triangles(thing, camera, size)
+        pieces, owners, _ = triangles(thing, camera, size)
         outlines.append(np.ascontiguousarray(pieces[:, :, :2]))
         if len(pieces):
             normals, points, colors = (np.zeros((height, width, 3)) for _ in range(3))
@@ -59,10 +59,11 @@ def _lit(depth, normals, points, colors, camera):  # type: ignore[no-untyped-def
     return lit
 
 
-def _visible_triangles(
-    thing: Object, camera: Camera, size: tuple[int, int]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Front-facing triangles beyond the near plane (k, 3, 12), and the mesh triangle of each (k,).
+def triangles(
+    thing: Object, camera: Camera, size: tuple[int, int], back: bool = False
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]:
+    """Triangles that face the eye, or with `back` all, between the near and far planes (k, 3, 12),
+    the mesh triangle of each (k,), and whether it faces the eye (k,).
 
     A vertex is its pixel x, y and 1/depth, then normal, camera point and colour, each divided by
     the depth.
@@ -78,14 +79,15 @@ def _visible_triangles(
         triangles = triangles[:, ::-1]
     a, b, c = (points[triangles[:, k]] for k in range(3))
     front = (np.cross(b - a, c - a) * -a).sum(axis=1) > 0
-    rows = np.concatenate([points, normals, colors], axis=1)[triangles[front]]
-    rows, owners = _clipped(rows, np.nonzero(front)[0], camera.near, camera.far)
+    chosen = np.nonzero(front | back)[0]
+    rows = np.concatenate([points, normals, colors], axis=1)[triangles[chosen]]
+    rows, owners = _clipped(rows, chosen, camera.near, camera.far)
     depth = -rows[..., 2]
     flat = projection.to_pixels(rows[..., :3], camera, size)
     parts = [flat, 1 / depth[..., None]] + [
         rows[..., k : k + 3] / depth[..., None] for k in (3, 0, 6)
     ]
-    return np.ascontiguousarray(np.concatenate(parts, axis=-1)), owners
+    return np.ascontiguousarray(np.concatenate(parts, axis=-1)), owners, front[owners]
 
 
 def _clipped(
@@ -124,7 +126,7 @@ def _rasterise(pieces, owners, depth, normals, points, colors, surface, near_edg
         for r in range(max(0, int(y0) - 1), min(height, int(min(y1, height)) + 2)):
             for c in range(max(0, int(x0) - 1), min(width, int(min(x1, width)) + 2)):
                 x, y = c + 0.5, r + 0.5
-                if _to_edges(p, x, y) < 1.0 / 256.0:
+                if to_edges(p, x, y) < 1.0 / 256.0:
                     near_edge[r, c] = True
                 if area == 0:
                     continue
@@ -147,7 +149,7 @@ def _rasterise(pieces, owners, depth, normals, points, colors, surface, near_edg
 
 
 @njit(cache=True)
-def _to_edges(p, x, y):  # type: ignore[no-untyped-def]
+def to_edges(p, x, y):  # type: ignore[no-untyped-def]
     """Distance from (x, y) to the nearest edge of a triangle."""
     best = np.inf
     for k in range(3):
@@ -190,7 +192,7 @@ def distances(outline, height, width, reach):  # type: ignore[no-untyped-def]
         for r in range(low, min(height, int(min(y1 + reach, height)) + 2)):
             left = max(0, int(max(x0 - reach, 0.0)) - 1)
             for c in range(left, min(width, int(min(x1 + reach, width)) + 2)):
-                d = _to_edges(p, c + 0.5, r + 0.5)
+                d = to_edges(p, c + 0.5, r + 0.5)
                 if d <= reach and d < distance[r, c]:
                     distance[r, c] = d
     return distance

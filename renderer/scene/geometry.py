@@ -35,6 +35,16 @@ class Mesh:
         return self.bounds.mean(axis=0)
 
     @cached_property
+    def hull(self) -> NDArray[np.float64]:
+        """(k, 3) the vertices of the convex hull, all vertices where they lie in a plane."""
+        from scipy.spatial import ConvexHull, QhullError
+
+        try:
+            return self.vertices[np.unique(ConvexHull(self.vertices).vertices)]
+        except QhullError:
+            return self.vertices
+
+    @cached_property
     def radius(self) -> float:
         """Radius of the sphere about `center` that holds every vertex."""
         return float(np.linalg.norm(self.vertices - self.center, axis=1).max())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,6 +17,7 @@ from seethrough.tasks.kit.events import Event
 
 OWN, SHARED = "own", "shared"
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
+NO_TEXTS: Texts = MappingProxyType({})
 
 
 class Place(Protocol):

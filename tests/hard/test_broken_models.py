@@ -8,7 +8,7 @@ from model_cases import RGB, TRIANGLES, XYZ, mtl, plain
 from model_cases_gltf import pbr
 from model_files import CUBE, QUADS, Gltf, logo, obj, ply, png, stl
 
-from seethrough.renderer.models.user import load_model
+from seethrough.renderer.models.user import load_model, read_model
 
 LIST = [(("uchar", "int"), "vertex_indices")]
 
@@ -185,3 +185,30 @@ def test_the_digest_covers_what_lies_beside(tmp_path):
             (tmp_path / name).write_bytes(data)
         digests.append(read_model(tmp_path / "a.obj")[1].digest)
     assert len(set(digests)) == 2
+
+
+MANY = 10_000  # what a scene may hold of one thing
+
+
+@pytest.mark.parametrize(
+    ("counts", "says"),
+    [((2, 3), r"\[2, 3\] entries"), ((1, 1), None), ((MANY,), None), ((MANY + 1,), "10001"),
+     ((MANY + 1, 2), r"\[2, 10001\]"), ((), r"\[\] entries")],
+)  # fmt: skip
+def test_copies_need_one_number_of_entries_and_not_too_many(tmp_path, counts, says):
+    """Of every attribute as many; what is refused is refused before any is made."""
+    g = Gltf()
+    g.primitive([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    names = ("TRANSLATION", "SCALE")[: len(counts)]
+    rows = {n: g.array(np.ones((c, 3))) for n, c in zip(names, counts, strict=True)}
+    g.json["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": rows}}
+    path = tmp_path / "many.glb"
+    path.write_bytes(g.binary())
+    if says is None:
+        copies = max(counts)
+        mesh, facts = read_model(path)
+        assert facts.in_file == copies and len(mesh.triangles) >= 1
+    else:
+        with pytest.raises(ValueError, match=says) as caught:
+            load_model(path)
+        assert "\n" not in str(caught.value)

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from desktop import wait_until
@@ -25,7 +26,7 @@ from seethrough.experiment.record.chain import verify
 BEAT, LEASE, DEAD = 0.2, 0.6, 2.5  # s, in place of 2, 6, 15: heartbeats are as they are, but faster
 
 STATION = f"""
-import sys, time
+import os, signal, sys, time
 from pathlib import Path
 from seethrough.experiment import cli
 from seethrough.experiment.ledger import ledger_lock
@@ -38,13 +39,21 @@ from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.tasks.kit.base import Outcome
 
 ledger_lock.BEAT, ledger_lock.LEASE, ledger_lock.DEAD = {BEAT}, {LEASE}, {DEAD}
-end = Path(sys.argv[2])
+end, stand = Path(sys.argv[2]), int(sys.argv[4])
 
 def play(study, participant, slot, source, data, guard):
+    asked, begun = [], []
+
+    def asks():
+        guard()
+        asked.append(None)
+        if begun and len(asked) - begun[0] == stand:  # just after it was told that all is well
+            os.kill(os.getpid(), signal.SIGSTOP)
+
     start = starting_point(study, data, source, participant, slot)
     made = {{"study_sha256": study.digest()}}
     who = Who(study.study.name, participant, source, slot, made, start.session)
-    recorder = FileRecorder(data, who, attempts=start.attempts, guard=guard)
+    recorder = FileRecorder(data, who, attempts=start.attempts, guard=asks)
     number, status = max(start.done, default=0), "left"
     try:
         while not end.exists():
@@ -55,6 +64,7 @@ def play(study, participant, slot, source, data, guard):
             answer = Outcome("1", "1", True)
             recorder.trial_ends(TrialRecord(trial, answer, 1, 0, 2, 0, False, 9, 0, 0.1, 0, 0))
             print("trial", number, flush=True)
+            begun.append(len(asked))
         status = "complete"
     finally:
         recorder.close(status)
@@ -69,9 +79,9 @@ sys.exit(cli.main(words + (["--ledger", sys.argv[3]] if sys.argv[3] else [])))
 class Station:
     """A process that plays P01 until it is told to end."""
 
-    def __init__(self, tmp_path, url):
+    def __init__(self, tmp_path, url, stand=0):
         self.end = tmp_path / "end"
-        command = [sys.executable, "-c", STATION, tmp_path / "data", self.end, url]
+        command = [sys.executable, "-c", STATION, tmp_path / "data", self.end, url, stand]
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
         self.process = subprocess.Popen(list(map(str, command)), **pipes)
 
@@ -113,7 +123,9 @@ def stations(request, tmp_path):
 
 
 def files(tmp_path):
-    return {p: p.read_bytes() for p in (tmp_path / "data" / "data").rglob("*") if p.is_file()}
+    """What was recorded: a trace in which nothing is yet may be taken away by who began it."""
+    paths = [p for p in (tmp_path / "data" / "data").rglob("*") if p.is_file()]
+    return {p: p.read_bytes() for p in paths if p.parent.name != "traces" or p.stat().st_size}
 
 
 def once(tmp_path):
@@ -168,6 +180,36 @@ def test_a_stopped_station_writes_nothing_after_another_took_over(stations, tmp_
     assert files(tmp_path) == before
     assert verify(tmp_path / "data/data/human/P01") == []
     assert once(tmp_path)
+
+
+# Once the first of its traces is made; before they are written; before the row is.
+@pytest.mark.parametrize("stand", [2, 4, 8])
+def test_what_it_wrote_between_being_asked_and_stopped_is_taken_back(stand, tmp_path):
+    """It stands still after it was told that the participant is still its own."""
+    first = Station(tmp_path, "", stand)
+    second = None
+    try:
+        first.played()
+        wait_until(lambda: state_of(first.process.pid) == "T", 20, "the stop")
+        second = Station(tmp_path, "").played()
+        second.end.touch()
+        assert second.said()[0] == 0
+        before = files(tmp_path)
+        first.send(signal.SIGCONT)
+        status, said = first.said()
+    finally:
+        for station in filter(None, (first, second)):
+            station.process.kill()
+            station.process.communicate()
+    assert status == 2 and "stood still for too long and was taken over" in said, said
+    assert files(tmp_path) == before
+    assert verify(tmp_path / "data/data/human/P01") == []
+    assert once(tmp_path)
+
+
+def state_of(process):
+    """The letter of what a process does, T when it is stopped."""
+    return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
 
 
 @pytest.fixture

@@ -13,11 +13,12 @@ from every_page import pages, views
 from imgui_bundle import imgui
 
 from seethrough.experiment.display.stage import Stage
-from seethrough.experiment.pages import blocks, page_blocks, page_drawing
+from seethrough.experiment.pages import page_blocks, page_drawing
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import HudDrawing
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, TextField
 from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.questions.ready import one_page
 
 SIZES = [(800, 600), (1024, 768), (1920, 1080), (2560, 1080)]
 LANGUAGES = ["en", "de"]
@@ -259,6 +260,10 @@ def test_the_list_of_pages_is_complete():
     names = {page.name.split(" ")[0] for page in every_page()}
     assert {
         "welcome", "consent", "demographics", "color", "instruction", "feedback", "ready", "pause",
-        "time", "thanks", "leave", "menu", "rating", "tlx", "sus", "comparison", "depth", "remarks",
+        "time", "thanks", "leave", "menu", "ratings", "tlx", "sus", "comparison", "depth",
+        "remarks",
     } == names  # fmt: skip
-    assert {len(blocks.tlx("dynamic").blocks), len(blocks.sus("dynamic").blocks)} == {6, 10}
+    assert {
+        len(one_page("tlx", transparency="dynamic").blocks),
+        len(one_page("sus", transparency="dynamic").blocks),
+    } == {6, 10}

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from screen import Screen, button, fields, seen
 
-from seethrough.experiment.pages import blocks
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.page_blocks import COLORS
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, TextField
+from seethrough.experiment.questions.ready import TLX_ITEMS, one_page
 
 RED = np.array([COLORS["wrong"] >> shift & 255 for shift in (0, 8, 16)])
 AGE = Page(
@@ -41,7 +41,7 @@ def pale_button(picture):
 
 @pytest.mark.parametrize("by", ["mouse", "keyboard"])
 def test_going_on_too_early_marks_what_is_open_and_goes_nowhere(screen, by):
-    form = Form(blocks.ratings("dynamic", "abstract"))
+    form = Form(one_page("ratings", transparency="dynamic", scenario="abstract"))
     first = screen.draw(form)
     assert len(red(first)[0]) == 0
     if by == "mouse":
@@ -66,7 +66,7 @@ def test_going_on_too_early_marks_what_is_open_and_goes_nowhere(screen, by):
 
 
 def test_enter_on_an_open_circle_answers_it_and_is_no_attempt_to_go_on(screen):
-    form = Form(blocks.ratings("dynamic", "abstract"))
+    form = Form(one_page("ratings", transparency="dynamic", scenario="abstract"))
     screen.draw(form)
     for name in ("down", "enter"):
         screen.key(form, name)
@@ -76,14 +76,14 @@ def test_enter_on_an_open_circle_answers_it_and_is_no_attempt_to_go_on(screen):
 
 
 def test_enter_on_a_slider_opens_it_and_is_no_attempt_to_go_on(screen):
-    form = Form(blocks.tlx("dynamic"))
+    form = Form(one_page("tlx", transparency="dynamic"))
     screen.draw(form)
     for name in ("down", "enter", "enter", "enter"):  # opened, closed, opened again
         screen.key(form, name)
         assert not form.insisted
-    other = Form(blocks.tlx("dynamic"))
+    other = Form(one_page("tlx", transparency="dynamic"))
     screen.click(other, *pale_button(screen.draw(other)))
-    assert other.insisted and other.missing == blocks.TLX
+    assert other.insisted and other.missing == TLX_ITEMS
 
 
 @pytest.mark.parametrize("by", ["mouse", "keyboard"])

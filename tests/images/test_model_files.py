@@ -48,14 +48,16 @@ def test_a_model_looks_as_it_was_made(tmp_path, case):
         right, ours = cast(case.faces, loops, direction), cast_mesh(mesh, direction)
         there, here = np.isfinite(right[:, 0]), np.isfinite(ours[:, 0])
         assert there.sum() > 50
-        # Where alpha cuts a hole, its border is that of texels, cut straight.
-        assert (there != here).sum() <= (12 if "mask" in case.name else 0)
+        # Where alpha cuts a hole, its border is that of texels, cut straight: a ray there meets
+        # the model in one picture and not in the other, or another texel's colour.
+        border = 12 if "mask" in case.name else 0
+        assert (there != here).sum() <= border
         off = np.abs(right - ours)[there & here].max(axis=1)
         if textured:
             assert 255 * off.mean() < CHANCE * facts.carried.mean + CODED
             assert facts.carried.mean < MEAN
-            assert (
-                255 * off > facts.carried.most + CODED
-            ).mean() < 0.05  # 1 % was said of all sides, a view meets three
+            # 1 % was said of all sides, and a view meets three of them at a thousand places.
+            beyond = (255 * off > facts.carried.most + CODED).sum()
+            assert beyond <= 0.03 * len(off) + border
         else:
             assert off.max() < PLAIN

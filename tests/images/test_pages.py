@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from screen import Screen, button, fields, seen
 
-from seethrough.experiment.pages import blocks
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import ACCENT, PILOT
 from seethrough.experiment.pages.pages import Page, Paragraph, TextField
+from seethrough.experiment.questions.ready import TLX_ITEMS, one_page
 
 
 @pytest.fixture
@@ -18,7 +18,7 @@ def screen(context):
 
 
 def test_scales_by_mouse_alone(screen):
-    form = Form(blocks.ratings("dynamic", "abstract"))
+    form = Form(one_page("ratings", transparency="dynamic", scenario="abstract"))
     circles = fields(screen.draw(form))
     assert len(circles) == 15
     for scale, step in enumerate((4, 0, 2)):
@@ -30,7 +30,7 @@ def test_scales_by_mouse_alone(screen):
 
 
 def test_scales_by_keyboard_alone(screen):
-    form = Form(blocks.ratings("dynamic", "abstract"))
+    form = Form(one_page("ratings", transparency="dynamic", scenario="abstract"))
     screen.draw(form)
     # After a mouse the first key but shows where the keyboard is.
     for keys in (("down", "up", "space"), ("down", "right", "space"), ("down", "enter")):
@@ -89,7 +89,9 @@ def test_text_scales_with_the_screen(context):
     extents = []
     for size in ((800, 600), (1600, 1200)):
         screen = Screen(context, size)
-        picture = screen.draw(Form(blocks.ratings("dynamic", "abstract")))
+        picture = screen.draw(
+            Form(one_page("ratings", transparency="dynamic", scenario="abstract"))
+        )
         screen.stage.interface.close()
         ink = np.nonzero(picture.max(axis=2)[: -size[1] // 50] < 140)
         assert len(ink[0]) > 1000
@@ -126,25 +128,25 @@ def test_a_long_text_is_read_to_its_end_by_keyboard_alone(screen, key, most):
 
 
 def test_a_number_typed_into_a_slider_stays_on_its_scale(screen):
-    form = Form(blocks.tlx("dynamic"))
+    form = Form(one_page("tlx", transparency="dynamic"))
     screen.draw(form)
     for name in ("down", "enter"):
         screen.key(form, name)
     screen.stage.interface.io.add_input_characters_utf8("99")
     screen.draw(form)
     screen.key(form, "enter")
-    assert [form.answers.get(item) for item in blocks.TLX if item in form.answers] == ["20"]
+    assert [form.answers.get(item) for item in TLX_ITEMS if item in form.answers] == ["20"]
 
 
 def test_sliders_by_keyboard_alone(screen):
-    form = Form(blocks.tlx("standard"))
+    form = Form(one_page("tlx", transparency="standard"))
     screen.draw(form)
     screen.key(form, "down")
     screen.key(form, "up")
-    for steps, _ in enumerate(blocks.TLX):
+    for steps, _ in enumerate(TLX_ITEMS):
         for name in ("space", *["right"] * steps, "space", "down"):
             screen.key(form, name)
-    assert form.answers == {item: str(10 + n) for n, item in enumerate(blocks.TLX)}
+    assert form.answers == {item: str(10 + n) for n, item in enumerate(TLX_ITEMS)}
     screen.key(form, "enter")
     assert screen.pressed
 

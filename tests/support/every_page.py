@@ -4,7 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 from seethrough.experiment.display.display import LEAVE
-from seethrough.experiment.pages import blocks
+from seethrough.experiment.questions.ready import one_page
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.questionnaire import after, asked, before
 from seethrough.experiment.session.session import _feedback, _instruction, _page
@@ -39,7 +39,10 @@ def pages(aspect):
         person.pages.append(_instruction(task_set.trials[0], 8, run))
     names = ("welcome", "ready", "pause", "time", "thanks")
     person.pages += [*map(_page, names), LEAVE, MENU]
-    person.pages += [blocks.tlx("dynamic"), blocks.sus("standard")]
+    person.pages += [
+        one_page("tlx", transparency="dynamic"),
+        one_page("sus", transparency="standard"),
+    ]
     trial = session_for(1, study.design.factors())[0].training[0]
     for outcome in (None, Outcome("12", "14", False, count_error=-2), Outcome("K", "K", True)):
         person.pages.append(_feedback(ended(trial, outcome)))

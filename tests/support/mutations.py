@@ -8,9 +8,11 @@ the whole suite in which coverage.py noted which test passes each line:
 
     python -m pytest -n2 --cov --cov-context=test --cov-report= && mv .coverage FILE
 
-A site is tried in a copy of the checkout, on the tests that pass its line; kernels are compiled,
-so coverage.py cannot see their lines: for those, on all tests that pass any line of the files that
-use them. Prints a line a site, then the share caught and the survivors; exit status 0.
+A site is tried in a copy of the checkout, on the tests that pass its line. Kernels are compiled, so
+coverage.py cannot see their lines, and what is run while a module is imported belongs to no test:
+for those, on all tests that pass any line of the files that use them, first of all those in files
+that name the module. A test that fails catches nothing unless it passes in an unchanged copy.
+Prints a line a site, then the share caught; exit status 0.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import argparse
 import ast
 import json
 import os
+import re
 import shutil
 import sqlite3
 import subprocess
@@ -35,7 +38,7 @@ from coverage.numbits import numbits_to_nums
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = ("analysis", "experiment", "renderer", "tasks")
-MOST_TESTS = 400  # tried for a site; more only repeat each other
+MOST_TESTS = 400  # tried for a site of a kind; more only repeat each other
 LIMIT = 900  # s for the tests of a site: a change that never ends is caught
 
 COMPARISONS = {
@@ -145,7 +148,8 @@ def _changed(node: ast.AST, source: str) -> list[str]:
 
 
 def drawn(number: int, seed: int, root: Path = ROOT) -> list[Site]:
-    """Sites of all rooms, each file's as likely as its number of them."""
+    """Sites of all rooms, each file's as likely as its number of them; in the order in which they
+    were drawn, so that the first of them are a sample as well."""
     every = [
         site
         for room in ROOMS
@@ -154,7 +158,7 @@ def drawn(number: int, seed: int, root: Path = ROOT) -> list[Site]:
     ]
     chosen = np.random.default_rng(seed).choice(len(every), min(number, len(every)), replace=False)
     print(f"{len(every)} sites, {len(chosen)} drawn with seed {seed}", flush=True)
-    return [every[k] for k in sorted(chosen)]
+    return [every[k] for k in chosen]
 
 
 class Passed:
@@ -163,6 +167,7 @@ class Passed:
     def __init__(self, database: Path, root: Path = ROOT) -> None:
         self.root = root
         self.known: dict[str, dict[int, set[str]]] = {}
+        self.size: dict[str, int] = {}  # lines that a test passes: those of few are quick
         rows = sqlite3.connect(f"file:{database}?mode=ro", uri=True).execute(
             "SELECT f.path, c.context, l.numbits FROM line_bits l "
             "JOIN file f ON f.id = l.file_id JOIN context c ON c.id = l.context_id"
@@ -171,23 +176,41 @@ class Passed:
             if not context:  # passed while a module was imported
                 continue
             lines = self.known.setdefault(Path(path).relative_to(root).as_posix(), {})
-            for line in numbits_to_nums(bits):
-                lines.setdefault(line, set()).add(context.partition("|")[0])
+            test, numbers = context.partition("|")[0], numbits_to_nums(bits)
+            self.size[test] = self.size.get(test, 0) + len(numbers)
+            for line in numbers:
+                lines.setdefault(line, set()).add(test)
 
     def tests(self, site: Site) -> list[str]:
         """The tests to try, quick kinds first."""
         found = set(self.known.get(site.path, {}).get(site.line, ()))
+        first: set[str] = set()
         if not found or site.compiled:
             module = Path(site.path).with_suffix("").as_posix().replace("/", ".")
             for user in (site.path, *self._users(module)):
                 found |= set().union(*self.known.get(user, {}).values(), set())
+            first = {test for test in found if self._names(test.partition("::")[0], module)}
         kinds = ("tests/unit", "tests/hard", "tests/images", "tests/contract", "tests/study")
         rank = {kind: k for k, kind in enumerate(kinds)}
-        ordered = sorted(found, key=lambda t: (rank.get("/".join(t.split("/")[:2]), 9), t))
-        if len(ordered) > MOST_TESTS:
-            step = len(ordered) / MOST_TESTS
-            ordered = [ordered[int(k * step)] for k in range(MOST_TESTS)]
-        return ordered
+        ordered = sorted(
+            found,
+            key=lambda t: (t not in first, rank["/".join(t.split("/")[:2])], self.size[t], t),
+        )
+        return _fewer(ordered[: len(first)]) + _fewer(ordered[len(first) :])
+
+    def in_kernels(self, site: Site) -> bool:
+        """Whether compiled code may hold the place: its own file's, or a constant's users'."""
+        if site.compiled or site.line in self.known.get(site.path, {}):
+            return site.compiled
+        module = Path(site.path).with_suffix("").as_posix().replace("/", ".")
+        users = (site.path, *self._users(module))
+        return any("njit" in (self.root / user).read_text("utf-8") for user in users)
+
+    def _names(self, test: str, module: str) -> bool:
+        """Whether a file of tests imports the module."""
+        package, _, name = module.rpartition(".")
+        words = rf"{re.escape(module)}\b|{re.escape(package)} import [^\n]*\b{re.escape(name)}\b"
+        return bool(re.search(words, (self.root / test).read_text("utf-8")))
 
     def _users(self, module: str) -> list[str]:
         """Files that import the module."""
@@ -201,31 +224,65 @@ class Passed:
         ]
 
 
-def caught(site: Site, tests: list[str], copy: Path) -> bool | None:
-    """Whether a test fails with the change; None if there is no test to try."""
+def _fewer(tests: list[str]) -> list[str]:
+    """At most MOST_TESTS of them, spread evenly."""
+    step = max(1.0, len(tests) / MOST_TESTS)
+    return [tests[int(k * step)] for k in range(min(len(tests), MOST_TESTS))]
+
+
+def caught(site: Site, tests: list[str], copy: Path, fresh: bool) -> tuple[bool | None, str]:
+    """Whether a test fails with the change, and which; None if there is no test to try. `fresh`:
+    kernels are compiled anew, for the change may be in them."""
     if not tests:
-        return None
+        return None, ""
     file = copy / site.path
     source = file.read_text("utf-8")
     file.write_text(site.applied(source), "utf-8")
-    cache = tempfile.mkdtemp(prefix="numba-") if site.compiled else None
-    (copy / "chosen.txt").write_text("\n".join(tests), "utf-8")
-    environment = {**os.environ, "PYTHONPATH": _path(copy), "PYTHONDONTWRITEBYTECODE": "1"}
-    if cache:
-        environment["NUMBA_CACHE_DIR"] = cache
-    options = ["-x", "-q", "-n0", "-p", "no:cacheprovider", "--no-header", "--tb=no"]
-    command = [sys.executable, "-m", "pytest", *options, f"@{copy / 'chosen.txt'}"]
+    cache = tempfile.mkdtemp(prefix="numba-") if fresh else None
     try:
-        run = subprocess.run(
-            command, cwd=copy, env=environment, capture_output=True, timeout=LIMIT, check=False
-        )
-        return run.returncode != 0
-    except subprocess.TimeoutExpired:
-        return True
+        status, failed = _run(tests, copy, ["-x"], {"NUMBA_CACHE_DIR": cache} if cache else {})
+        return status != 0, failed[0] if failed else ""
     finally:
         file.write_text(source, "utf-8")
         if cache:
             shutil.rmtree(cache)
+
+
+def _run(
+    tests: list[str], copy: Path, options: list[str], more: dict[str, str]
+) -> tuple[int, list[str]]:
+    """pytest's exit status in a copy, and which failed: of `tests`, or files that are no more
+    imported."""
+    (copy / "chosen.txt").write_text("\n".join(tests), "utf-8")
+    options = [*options, "-q", "-n0", "-p", "no:cacheprovider", "--no-header", "--tb=no"]
+    command = [sys.executable, "-m", "pytest", *options, f"@{copy / 'chosen.txt'}"]
+    environment = {**_environment(copy), **more}
+    try:
+        run = subprocess.run(
+            command, cwd=copy, env=environment, capture_output=True, timeout=LIMIT, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return 1, []
+    told = re.findall(r"^(?:FAILED|ERROR) (.+)$", run.stdout.decode(errors="replace"), re.M)
+    names = {*tests, *(test.partition("::")[0] for test in tests)}
+    found = [[n for n in names if t == n or t.startswith(f"{n} - ")] for t in told]
+    return run.returncode, [max(each, key=len) for each in found if each]
+
+
+def _environment(copy: Path) -> dict[str, str]:
+    """In which Python imports the copy's code: the folder it is started in comes in no case first,
+    for its `seethrough` has no rooms, and those of the checkout would be taken."""
+    more = {"PYTHONPATH": _path(copy), "PYTHONSAFEPATH": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+    return {**os.environ, **more}
+
+
+def _is_imported(copy: Path) -> bool:
+    """Whether the copy's code is what its tests test."""
+    command = [sys.executable, "-c", "import seethrough.renderer as r; print(r.__file__)"]
+    run = subprocess.run(
+        command, cwd=copy, env=_environment(copy), capture_output=True, text=True, check=True
+    )
+    return Path(run.stdout.strip()).resolve().is_relative_to(copy.resolve())
 
 
 def _path(copy: Path) -> str:
@@ -248,6 +305,7 @@ def _copies(number: int, folder: Path) -> Queue[Path]:
     leave = shutil.ignore_patterns(".git", ".venv", "out", ".hypothesis", "*.egg-info")
     for k in range(number):
         shutil.copytree(ROOT, folder / str(k), ignore=leave)
+        assert _is_imported(folder / str(k))
         copies.put(folder / str(k))
     return copies
 
@@ -262,14 +320,14 @@ def main() -> None:
     parser.add_argument("--out", type=Path)
     args = parser.parse_args()
     passed, chosen = Passed(args.coverage), drawn(args.sites, args.seed)
-    rows = []
     with tempfile.TemporaryDirectory() as folder:
         copies = _copies(args.workers, Path(folder))
 
-        def one(site: Site) -> dict[str, object]:
-            tests, copy = passed.tests(site), copies.get()
+        def one(site: Site, useless: frozenset[str] = frozenset()) -> dict[str, object]:
+            tests = [test for test in passed.tests(site) if test not in useless]
+            copy = copies.get()
             try:
-                found = caught(site, tests, copy)
+                found, by = caught(site, tests, copy, passed.in_kernels(site))
             finally:
                 copies.put(copy)
             source = (ROOT / site.path).read_text("utf-8")
@@ -281,10 +339,25 @@ def main() -> None:
                 "is": " ".join(site.text.split()),
             }
             print(f"{verdict:9}{row['site']}: {was[:60]} -> {row['is'][:60]}", flush=True)
-            return {**row, "verdict": verdict, "tests": len(tests)}
+            return {**row, "verdict": verdict, "tests": len(tests), "by": by}
 
         with ThreadPoolExecutor(args.workers) as pool:
             rows = list(pool.map(one, chosen))
+        useless: frozenset[str] = frozenset()
+        while True:  # what catches a change passes without it
+            by = sorted({str(row["by"]) for row in rows if "::" in str(row["by"])})
+            copy = copies.get()
+            failed = {
+                t for k in range(0, len(by), 20) for t in _run(by[k : k + 20], copy, [], {})[1]
+            }
+            copies.put(copy)
+            if not failed:
+                break
+            useless |= failed
+            print("fail unchanged, too:", *sorted(failed), sep="\n  ", flush=True)
+            again = [k for k, row in enumerate(rows) if row["by"] in failed]
+            for k in again:
+                rows[k] = one(chosen[k], useless)
     number = sum(row["verdict"] == "caught" for row in rows)
     print(f"{number} of {len(rows)} caught: {number / len(rows):.1%}")
     if args.out:

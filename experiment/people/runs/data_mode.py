@@ -47,7 +47,7 @@ class TableDisplay:
     def show(self, view: View, technique: Any) -> float:
         """Keep the view; the time now."""
         self._shown = view
-        self._level = "dynamic" if technique is self.pool.study.dynamic else "standard"
+        self._level = technique.technique.name
         return self.clock.now()
 
     def digest(self) -> str:

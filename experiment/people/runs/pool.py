@@ -85,7 +85,8 @@ class Pool(StudyScenes):
 
     def _open(self, scene: Scene, level: str) -> TableEyes:
         name, moving = self._names[id(scene)]
-        table = f"{name}-{fingerprint(scene, self.study.dynamic, window_of(self.study))}/{level}"
+        technique = self.study.technique(level)
+        table = f"{name}-{fingerprint(scene, technique, window_of(self.study))}/{level}"
         if level not in self._draws:
             self._draws[level] = None if self._draw is None else self._draw(level)
         return TableEyes(self.looks, table, len(scene.objects), moving, self._draws[level])
@@ -123,9 +124,7 @@ class LazyDraw:
 
     def __call__(self, level: str) -> Draw:
         """What draws for a transparency level."""
-        from seethrough.renderer.techniques.standard.opaque import Standard
-
-        technique = self.study.dynamic if level == "dynamic" else Standard()
+        technique = self.study.technique(level)
         return lambda scene, camera: self._look(scene, camera, technique)
 
     def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import moderngl
 import numpy as np
@@ -18,8 +18,10 @@ from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactJob, ExactPainter
-from seethrough.renderer.plan.planner import FramePlan, Level, Technique
+from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
+from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.techniques.base import REMOVAL, Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
+PAINTERS = {REMOVAL: RemovalPainter}
 # The minimum takes no factors: colour stays because a mask's own is made to be larger.
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
@@ -51,6 +54,7 @@ class Layer:
     def __init__(self, context: moderngl.Context, store: MeshStore, ids: bool) -> None:
         self._context, self._store = context, store
         defines = ["WITH_IDS"] if ids else []
+        self._defines, self._ruled = defines, dict[str, Any]()
         self._object = program(context, "object.vert", "object.frag", defines)
         self._depth = program(context, "object.vert", "depth.frag", defines)
         self._flat = program(context, "flat.vert", "depth.frag", defines)
@@ -64,13 +68,14 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: Technique,
+        technique: Any,
         target: FrameTarget,
         scale: float = 1.0,
         after_level: AfterLevel | None = None,
+        state: Any = None,
     ) -> FrameStats:
         """Draw the plan. `scale` shrinks the masks' width; `after_level` follows each level
-        and is told its objects, None for the opaque ones."""
+        and is told its objects, None for the opaque ones. `state` is the technique's."""
         self._passes = self._draws = 0
         reused.begin(self._context)
         camera = tight(camera, frame)
@@ -86,18 +91,32 @@ class Layer:
         self._pass(self._object, runs[0], OPAQUE)
         if after_level is not None:
             after_level(None)
-        if frame.levels and isinstance(technique, DynamicTransparency):
+        if frame.levels:
             counts = self._looked_up(table, frame, camera, technique, rest, size)
             target.framebuffer.use()
             self._set_state()
             self._masks.begin(counts)
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
+        if len(frame.ruled):
+            shot = Shot(table.scene, camera, size, scale)
+            self._draw_ruled(table, frame, technique, state, shot, target)
+            if after_level is not None:
+                after_level(frame.ruled)
         if len(frame.exact) and after_level is None:
             job = self._job(table, frame, camera, technique, scale, size)
             self._draw_exact(job, target, self._masks if frame.levels else None)
         return FrameStats(
             self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
         )
+
+    def _draw_ruled(self, table, frame, technique, state, shot, target) -> None:  # type: ignore[no-untyped-def]
+        """What the technique's rule is asked about, by the painter that it names."""
+        name = technique.technique.painter
+        if name not in self._ruled:
+            self._ruled[name] = PAINTERS[name](self._context, self._defines)
+        painter = self._ruled[name]
+        self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
+        self._passes += 1
 
     def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
         """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""

@@ -15,7 +15,7 @@ HIDE: Color = (0.50, 0.50, 0.53)
 
 def _elephant_half(side: int, fore: float, hind: float) -> list[L]:
     """Ear, legs and toes of one side; `fore` and `hind` are how far behind the feet stand."""
-    x, ear, nail = 0.30 * side, (0.44, 0.43, 0.46), (0.85, 0.82, 0.75)
+    x, ear, nail = side * 0.30, (0.44, 0.43, 0.46), (0.85, 0.82, 0.75)
     front = [(x, 1.15, -0.45), (x, 0.6, -0.47 + fore / 2), (x, 0.1, -0.45 + fore)]
     back = [(x, 1.1, 0.55), (x, 0.62, 0.56 + hind / 2), (x, 0.1, 0.62 + hind)]
     toes = [(x + dx, 0.05, z - 0.15) for z in (front[2][2], back[2][2]) for dx in (-0.09, 0, 0.09)]

@@ -1,1 +1,5 @@
 """Dynamic transparency."""
+
+from seethrough.renderer.techniques.dynamic.technique import TECHNIQUE
+
+__all__ = ["TECHNIQUE"]

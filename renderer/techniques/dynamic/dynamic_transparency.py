@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seethrough.renderer.declared import check, key
+from seethrough.renderer.techniques.base import Parameters
 
 MASKS = ("outline", "ring", "circle", "ellipse", "oriented-ellipse", "hull")
 MODES = ("passive", "active")
@@ -17,7 +18,7 @@ _OWNER = "dynamic transparency"
 
 
 @dataclass(frozen=True)
-class DynamicTransparency:
+class DynamicTransparency(Parameters):
     """What the technique may vary. The paper prints 128 × 128 cells and no other value: the
     defaults are ours, chosen by `seethrough bench accuracy` (benchmarks/README.md has the table
     and says how each follows from it).

@@ -1,1 +1,5 @@
 """The depth buffer alone."""
+
+from seethrough.renderer.techniques.standard.opaque import TECHNIQUE
+
+__all__ = ["TECHNIQUE"]

@@ -4,7 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from seethrough.renderer.techniques import base
+
 
 @dataclass(frozen=True)
-class Standard:
+class Standard(base.Parameters):
     """Opaque objects and a depth buffer. It has no parameters."""
+
+
+class StandardRendering(base.Plain):
+    """Nothing is touched: the frame is the depth buffer's."""
+
+    name = "standard"
+    title = "Standard rendering"
+    instruction = "Things hide what lies behind them."
+    source = "004"
+    Parameters = Standard
+
+
+TECHNIQUE = StandardRendering()

@@ -46,6 +46,7 @@ def test_what_is_known_to_be_off_has_no_bound():
     off = {name for kind in kinds() for name in kind.off}
     assert off == {
         "Friedman χ², two levels",
+        "TOST, shares right",
         "no worse, shares right",
         "omnibus F, uncorrected",
         "F of raw times",

@@ -7,12 +7,13 @@ import pytest
 
 from seethrough.experiment.display.display import Leave
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.pages import blocks
 from seethrough.experiment.pages.color_plates import FIGURE, GROUND, plates
-from seethrough.experiment.pages.depth_test import RATIO, depth_test
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Choice, PlatePicture, Scale, TextField
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.questions.depth_test.depth_pairs import RATIO, depth_test
+from seethrough.experiment.questions.kit import Asking
+from seethrough.experiment.questions.ready import READY, TLX, question
 from seethrough.experiment.session import questionnaire
 from seethrough.experiment.study.config import load, parse
 
@@ -151,9 +152,15 @@ def test_remarks_left_empty_leave_no_row():
     assert row["text"] == "<b>ok</b>"
 
 
+def sus_score(values):
+    (part,) = READY["sus"].parts(Asking("sus"))
+    items = {item: value for item, value in values.items() if item != "sus"}
+    return question(part.kind).total(part.parameters, items)
+
+
 def test_sus_scores_the_known_extremes_and_the_middle():
     def score(values):
-        return blocks.sus_score({f"sus_{n}": str(v) for n, v in enumerate(values, start=1)})
+        return sus_score({f"sus_{n}": str(v) for n, v in enumerate(values, start=1)})
 
     assert score([4, 0] * 5) == 100.0
     assert score([0, 4] * 5) == 0.0
@@ -170,19 +177,19 @@ def test_a_score_that_a_power_failure_cut_off_counts_the_answers_that_were_kept(
     mine = {r["item"]: r["value"] for r in rows if r["transparency"] == "dynamic"}
     assert set(mine) == {f"sus_{n}" for n in range(5, 11)} | {"sus"}
     both = {item: value for (item, *_), value in kept.items()} | mine
-    assert float(mine["sus"]) == blocks.sus_score(both)
+    assert float(mine["sus"]) == sus_score(both)
     new = {f"sus_{n}": mine["sus_5"] for n in range(1, 11)}
-    assert float(mine["sus"]) != blocks.sus_score(new)
+    assert float(mine["sus"]) != sus_score(new)
 
 
 def test_tlx_has_six_scales_of_21_steps_for_each_level():
     rows = rows_of(questionnaire.after(with_blocks("tlx")), Answers())
     assert len(rows) == 12 and {r["value"] for r in rows} == {"20"}
-    assert {r["item"] for r in rows} == {f"tlx_{name}" for name in blocks.TLX}
+    assert {r["item"] for r in rows} == {f"tlx_{name}" for name in TLX}
 
 
 def test_the_depth_test_asks_three_disjoint_clear_pairs_and_scores_them():
-    test = depth_test(PUBLISHED)
+    test = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
     assert len(test.pairs) == 3 and len({k for pair in test.pairs for k in pair}) == 6
     scene, camera = test.view.scene, test.view.camera
     for (a, b), near in zip(test.pairs, test.nearer, strict=True):
@@ -209,7 +216,9 @@ def _in_picture(camera, point):
 
 
 def test_the_same_study_has_the_same_depth_test():
-    one, two = depth_test(PUBLISHED), depth_test(PUBLISHED)
+    one = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
+    depth_test.cache_clear()
+    two = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
     assert one.pairs == two.pairs and one.nearer == two.nearer
 
 
@@ -263,7 +272,7 @@ def test_optional_questions_do_not_hold_a_page_up():
 
 
 def test_simulated_participants_judge_the_depth_of_what_is_in_the_picture():
-    test = depth_test(PUBLISHED)
+    test = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
     scores = []
     for seed in range(20):
         person = SimulatedParticipant(np.random.default_rng(seed))

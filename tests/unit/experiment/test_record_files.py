@@ -1,13 +1,21 @@
 """Rows of tables: texts of several lines stay one cell, and half a row is cut off as a whole."""
 
 import csv
+import hashlib
 import io
 
 import pytest
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.record.columns import NOTES, QUESTIONNAIRE
-from seethrough.experiment.record.record_files import Table, Trace, csv_line, mend, whole_rows
+from seethrough.experiment.record.record_files import (
+    CHUNK,
+    Table,
+    Trace,
+    csv_line,
+    mend,
+    whole_rows,
+)
 
 TEXTS = ("one\ntwo", "one\r\ntwo", "\r", "\n", 'a "quoted"\nline', "comma, and\nbreak", "plain")
 
@@ -63,3 +71,50 @@ def test_a_trace_that_was_begun_after_somebody_took_over_is_not_left(tmp_path):
     with pytest.raises(InputError, match="taken over"):
         Trace(path, "time", taken_over)
     assert not list(tmp_path.iterdir())
+
+
+class Taken:
+    """A guard that says so from its call of this number on."""
+
+    def __init__(self, number):
+        self.left = number
+
+    def __call__(self):
+        self.left -= 1
+        if self.left <= 0:
+            raise InputError("taken over")
+
+
+def test_a_row_written_while_somebody_took_over_is_taken_back(tmp_path):
+    path = tmp_path / "a_questionnaire_data.csv"
+    guard = Taken(99)
+    table = Table(path, QUESTIONNAIRE, "start", guard)
+    table.append({"item": "ease", "value": "1"})
+    size, chain = path.stat().st_size, table.chain
+    guard.left = 2  # it asks before, and again after
+    with pytest.raises(InputError, match="taken over"):
+        table.append({"item": "ease", "value": "2"})
+    table.close()
+    assert (path.stat().st_size, table.chain) == (size, chain)
+
+
+@pytest.mark.parametrize("call", [1, 2])
+def test_a_table_begun_while_somebody_took_over_is_not_left(tmp_path, call):
+    with pytest.raises(InputError, match="taken over"):
+        Table(tmp_path / "a_notes_data.csv", QUESTIONNAIRE, None, Taken(call))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_piece_of_a_trace_is_taken_back(tmp_path):
+    guard = Taken(99)
+    trace = Trace(tmp_path / "session-1_trial-002_events.csv", "time", guard)
+    trace.line("x" * (CHUNK + 1))
+    size = trace.path.stat().st_size
+    assert size > CHUNK
+    guard.left = 2
+    with pytest.raises(InputError, match="taken over"):
+        trace.line("y" * (CHUNK + 1))
+    assert trace.path.stat().st_size == size
+    guard.left = 99
+    trace.close()
+    assert trace.sha256 == hashlib.sha256(trace.path.read_bytes()).hexdigest()

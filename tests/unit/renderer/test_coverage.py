@@ -7,7 +7,7 @@ import pytest
 
 from seethrough.renderer.plan import blocks, coverage
 from seethrough.renderer.plan.blocks import BLOCK
-from seethrough.renderer.reference.reference import fragments
+from seethrough.renderer.reference.pixel_fragments import fragments
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.projection import screen_boxes

@@ -103,3 +103,22 @@ def test_a_circle_and_ellipses_hold_their_points():
     distance = masks.ellipse_distance(circle, (100, 80))
     expected = np.hypot(10.5 - circle[0], 5.5 - circle[1]) - circle[4]
     assert distance[5, 10] == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [[(5, 5)], [(5, 5), (9, 5)], [(9, 5), (5, 5)], [(3, 8), (3, 2)], [(1, 1), (4, 3), (7, 5)],
+     [(7, 1), (4, 3), (1, 5)]],
+)  # fmt: skip
+def test_what_is_seen_edge_on_gets_the_box_about_its_points(points):
+    """A ten-thousandth of a pixel about them, however they lie and whichever comes first."""
+    cloud = np.array(points, float)
+    rows, _ = masks.hulls_with_skirts(cloud, np.array([0, len(cloud)]), 0.0)
+    low, high = cloud.min(axis=0) - 1e-4, cloud.max(axis=0) + 1e-4
+    np.testing.assert_allclose(rows[:, :2].min(axis=0), low, atol=1e-6)  # they are float32
+    np.testing.assert_allclose(rows[:, :2].max(axis=0), high, atol=1e-6)
+    a, b, c = rows[:, :2].astype(float).reshape(-1, 3, 2).swapaxes(0, 1)
+    u, v = b - a, c - a
+    area = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2
+    # Sides of 2e-4 pixels at places of up to 9, which float32 holds to 5e-7.
+    assert area == pytest.approx(np.prod(high - low), rel=1e-2)

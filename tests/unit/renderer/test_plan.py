@@ -11,10 +11,10 @@ from sample_scenes import SHAPES, before_column, column, room
 from seethrough.renderer.plan.blending import merged_parts
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import BLENDED, HARD, OUTSIDE, impenetrable, plan
-from seethrough.renderer.reference import reference
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques.dynamic import exact
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 
@@ -96,7 +96,7 @@ def test_things_are_as_far_as_the_nearest_point_of_their_box():
                 continue
             technique = replace(TECHNIQUE, penetrable_within=within)
             assert impenetrable(scene, camera, technique).tolist() == [hard]
-            assert reference.impenetrable(scene, camera, technique).tolist() == [hard]
+            assert exact.impenetrable(scene, camera, technique).tolist() == [hard]
 
 
 def test_a_standard_frame_needs_nothing():

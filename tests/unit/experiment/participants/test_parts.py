@@ -229,6 +229,9 @@ def test_things_are_told_by_their_places():
     assert tally.add(walker, _Found(4)) == 0
 
 
+LEVELS = ("dynamic", "", "standard")  # what the options of a comparison speak for
+
+
 def test_pages_are_read_and_filled_in():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
     for level, seconds in (("standard", 100.0), ("dynamic", 30.0)):
@@ -239,14 +242,15 @@ def test_pages_are_read_and_filled_in():
             opinions.spent("unique", seconds)
     ratings = {"standard": [], "dynamic": []}
     for level in ratings:
-        name = f"rating {level} walkthrough"
-        page = Page(name, "r", (Scale("ease", "rating.ease", "l", "h"),))
+        about = (("transparency", level), ("scenario", "walkthrough"))
+        page = Page("r", "r", (Scale("ease", "rating.ease", "l", "h"),), about=about)
         for _ in range(40):
             answers, spent = opinions.answer(page)
             assert spent > 0 and 0 <= int(answers["ease"]) <= 4
             ratings[level].append(int(answers["ease"]))
     assert np.mean(ratings["dynamic"]) > np.mean(ratings["standard"]) + 1
-    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c")), TextField("remarks", "t")))
+    choice = Choice("preference", "p", ("a", "b", "c"), prefer=LEVELS)
+    page = Page("c", "c", (choice, TextField("remarks", "t")))
     chosen = [opinions.answer(page)[0] for _ in range(50)]
     assert sum(a["preference"] == "0" for a in chosen) > 40
     assert all(a["remarks"] == "" for a in chosen)
@@ -254,7 +258,7 @@ def test_pages_are_read_and_filled_in():
 
 def test_opinions_without_experience_are_neutral():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
-    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c")),))
+    page = Page("c", "c", (Choice("preference", "p", ("a", "b", "c"), prefer=LEVELS),))
     assert opinions.answer(page)[0]["preference"] == "1"
 
 
@@ -266,10 +270,10 @@ def test_load_and_negative_statements_are_rated_the_other_way():
         opinions.spent("count", seconds)
     means = {}
     for level in ("standard", "dynamic"):
-        tlx = Page(f"tlx {level}", "t", (Scale("effort", "x", "l", "h", steps=21),))
-        sus = Page(
-            f"sus {level}", "s", (Scale("sus_1", "x", "l", "h"), Scale("sus_2", "x", "l", "h"))
-        )
+        load = Scale("effort", "x", "l", "h", steps=21, against=True)
+        tlx = Page("tlx", "t", (load,), about=(("transparency", level),))
+        both = (Scale("sus_1", "x", "l", "h"), Scale("sus_2", "x", "l", "h", against=True))
+        sus = Page("sus", "s", both, about=(("transparency", level),))
         answers = [opinions.answer(tlx)[0] | opinions.answer(sus)[0] for _ in range(40)]
         means[level] = {
             k: np.mean([int(a[k]) for a in answers]) for k in ("effort", "sus_1", "sus_2")

@@ -1,23 +1,21 @@
-"""The static depth test (004 §VI-G): a still of the building with dynamic transparency on, and
-three pairs of things in it: which is nearer?"""
+"""The static depth test (004 §VI-G): a still of a world, and three pairs of things in it: which is
+nearer?"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture
-from seethrough.experiment.study.config import Study
+from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture, on_picture
 from seethrough.experiment.study.design import STUDY_SCENES, generator
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import rotation_y
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 PAIRS = 3
 RATIO = 1.2  # the farther of a pair is at least this much farther: ours
@@ -56,31 +54,27 @@ class DepthTest:
         return answers[f"pair_{number}"] == str(self.nearer[number])
 
 
-def depth_test(study: Study) -> DepthTest:
-    """The study's own test, the same for everybody. Raises ValueError if no scene shows six kinds.
+@lru_cache(maxsize=4)
+def depth_test(seed: int, world: str, place: Any) -> DepthTest:
+    """The test of a study, in a world of such parameters: the same for everybody. Raises ValueError
+    if no scene shows six kinds.
 
     Each kind in a pair occurs once in the picture, so that its name is enough to point at it, and
     is large enough to be recognised. The window's shape plays no part: every picture on
     a page has the same.
     """
-    return _made(study.study.seed, study.walkthrough)
-
-
-@lru_cache(maxsize=4)
-def _made(seed: int, building: BuildingParameters) -> DepthTest:
-    world = WORLDS["building"]
     for number in range(MOST_SCENES):
         rng = generator(seed, (*STREAM, number))
-        place = world.make(rng, building)
-        for camera in _around(world.viewer(place, building, PICTURE_ASPECT).camera()):
-            view = View(place.scene, camera)
+        made = WORLDS[world].make(rng, place)
+        for camera in _around(WORLDS[world].viewer(made, place, PICTURE_ASPECT).camera()):
+            view = View(made.scene, camera)
             depths = _depths(view)
             names = [str(name) for name in rng.permutation(sorted(depths))]
             pairs = _pairs(names, depths)
             if len(pairs) == PAIRS:
                 nearer = tuple(int(depths[a] > depths[b]) for a, b in pairs)
                 return DepthTest(view, pairs, nearer)
-    raise ValueError(f"walkthrough: expected a scene with {2 * PAIRS} kinds in one view")
+    raise ValueError(f"{world}: expected a scene with {2 * PAIRS} kinds in one view")
 
 
 def _around(camera: Camera) -> list[Camera]:
@@ -113,13 +107,6 @@ def _depths(view: View) -> dict[str, float]:
 
 def _radius(thing: Object) -> float:
     return thing.mesh.radius * float(np.linalg.norm(thing.transform[:3, 0]))
-
-
-def on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 2) places in half-heights of the picture from its middle."""
-    seen = (points - camera.eye) @ camera.rotation
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
 
 
 def _pairs(names: list[str], depths: dict[str, float]) -> tuple[tuple[str, str], ...]:

@@ -1,0 +1,63 @@
+"""A number: typed, and refused where it cannot be meant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from seethrough.experiment.pages.pages import Answers, Page, TextField
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Respondent, Row, row
+from seethrough.renderer.declared import check, key
+from seethrough.tasks.kit.own_texts import OwnTexts
+from seethrough.tasks.kit.world import Texts
+
+
+@dataclass(frozen=True)
+class NumberParameters:
+    """What a study may say of a number."""
+
+    text: str = key(..., "what is asked")
+    low: float = key(0.0, "the least it may be", low=-1e9, high=1e9)
+    high: float = key(1_000_000.0, "the most it may be", low=-1e9, high=1e9)
+    whole: bool = key(True, "whether it has to be a whole number")
+    unit: str = key("", "what it counts, for those who read the data")
+    wrong: str = key("number.wrong", "what to say of anything else, with {answer} and {most} in it")
+    required: bool = key(False, "the page goes on only when it is answered")
+    title: str = key("", "stands above the page; none: which levels it is about")
+
+    def __post_init__(self) -> None:
+        check(self)
+        if self.high <= self.low:
+            raise ValueError(f"high = {self.high}, expected more than `low` ({self.low})")
+
+
+class NumberQuestion(OnOnePage):
+    """How many?"""
+
+    name, version = "number", "1"
+    source = "ours"
+    Parameters = NumberParameters
+    texts: Texts = OwnTexts("seethrough.experiment.questions.number")
+
+    def blocks(self, p: NumberParameters, asking: Asking) -> tuple[TextField, ...]:
+        """A field of one line."""
+        limits = {"most": p.high, "least": p.low, "whole": p.whole}
+        return (
+            TextField(asking.name, p.text, 1, wrong=p.wrong, optional=not p.required, **limits),
+        )
+
+    def rows(self, p: NumberParameters, asking: Asking, number: int, answers: Answers) -> list[Row]:
+        """The number, with a point; none where it was left open."""
+        text = answers.get(asking.name, "").strip().replace(",", ".")
+        return [row(asking.name, text)] if text else []
+
+    def items(self, p: NumberParameters, name: str) -> dict[str, str]:
+        """The number."""
+        return {name: f"{p.text} ({p.unit})" if p.unit else p.text}
+
+    def simulate(self, p: NumberParameters, page: Page, person: Respondent) -> Answers:
+        """Any number that may be, if one has to be."""
+        answers = person.by_blocks(page)
+        if p.required:
+            value = person.rng.uniform(p.low, p.high)
+            answers[page.asked[0].name] = str(round(value)) if p.whole else f"{value:.3f}"
+        return answers

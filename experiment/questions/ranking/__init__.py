@@ -1,0 +1,5 @@
+"""All options in an order."""
+
+from seethrough.experiment.questions.ranking.ranking_question import RankingQuestion
+
+QUESTION = RankingQuestion()

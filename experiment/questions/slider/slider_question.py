@@ -1,0 +1,55 @@
+"""A slider: a place on a line between two ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from seethrough.experiment.pages.pages import Answers, Scale
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Row, row
+from seethrough.renderer.declared import check, key
+from seethrough.tasks.kit.world import NO_TEXTS, Texts
+
+
+@dataclass(frozen=True)
+class SliderParameters:
+    """What a study may say of a slider."""
+
+    text: str = key(..., "what is asked")
+    low: int = key(0, "the lowest value", low=-1_000_000, high=1_000_000)
+    high: int = key(100, "the highest value", low=-1_000_000, high=1_000_000)
+    ends: tuple[str, ...] = key(
+        ("question.low", "question.high"), "what the ends mean", said="an array of two texts"
+    )
+    required: bool = key(True, "the page goes on only when it was moved")
+    title: str = key("", "stands above the page; none: which levels it is about")
+
+    def __post_init__(self) -> None:
+        check(self)
+        if len(self.ends) != 2:
+            raise ValueError(f"ends = {list(self.ends)!r}, expected an array of two texts")
+        if self.high <= self.low:
+            raise ValueError(f"high = {self.high}, expected more than `low` ({self.low})")
+
+
+class SliderQuestion(OnOnePage):
+    """Where between the ends?"""
+
+    name, version = "slider", "1"
+    source = "visual analogue scale, Hayes and Patterson 1921"
+    Parameters = SliderParameters
+    texts: Texts = NO_TEXTS
+
+    def blocks(self, p: SliderParameters, asking: Asking) -> tuple[Scale, ...]:
+        """The slider."""
+        steps = p.high - p.low + 1
+        return (Scale(asking.name, p.text, *p.ends, steps, (), p.low, True, not p.required),)
+
+    def rows(self, p: SliderParameters, asking: Asking, number: int, answers: Answers) -> list[Row]:
+        """The value."""
+        if asking.name not in answers:
+            return []
+        return [row(asking.name, str(p.low + int(answers[asking.name])))]
+
+    def items(self, p: SliderParameters, name: str) -> dict[str, str]:
+        """The value."""
+        return {name: f"{p.text} ({p.low}–{p.high})"}

@@ -1,0 +1,278 @@
+"""What every technique has to keep to (decisions/0012), tried on small scenes.
+
+`seethrough technique check NAME` prints it, and the tests run it over every registered technique.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.experiment.suites import technique_scenes as scenes
+from seethrough.experiment.suites.finding import Finding
+from seethrough.experiment.suites.technique_scenes import Case
+from seethrough.experiment.suites.variants import pairwise, refused
+from seethrough.renderer.declared import declared
+from seethrough.renderer.gpu.levels.layer import PAINTERS
+from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.plan.explain import explain
+from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.reference.reference import ExactPicture, exact
+from seethrough.renderer.reference.surfaces import surfaces
+from seethrough.renderer.techniques import base, named
+from seethrough.tasks.kit import events
+
+SIZE = (96, 72)
+STEP = 1.0  # of 255: what a picture may differ, half of it rounding to 8 bits
+LEFT_OUT = 0.02  # share of pixels too near an edge to be compared
+TAKES = ("pointer", "wheel", "second button")
+
+
+def check(technique: Any, context: Any, most: int = 1000) -> Iterator[Finding]:
+    """Try everything on a technique. `most` combinations of options are compared with the
+    reference; `context` is an OpenGL context."""
+    tried = _Tried(technique, context)
+    steps: dict[str, Callable[[], Finding]] = {
+        "described": tried.described,
+        "refuses": tried.refuses,
+        "pure": tried.pure,
+        "exact": partial(tried.exact, most),
+        "idle": tried.idle,
+        "no state between frames": tried.kept,
+        "replay": tried.replayed,
+        "look": tried.looked,
+        "explains": tried.explained,
+        "cost": tried.cost,
+    }
+    for name, step in steps.items():
+        try:
+            yield step()
+        except Exception as error:  # a stranger's code may raise anything
+            yield Finding(name, False, f"{type(error).__name__}: {error}")
+
+
+class _Tried:
+    """A technique, its parameters, and what draws it."""
+
+    def __init__(self, technique: Any, context: Any) -> None:
+        self.technique, self.context = technique, context
+        self.p = technique.Parameters()
+        self.cases = scenes.cases()
+
+    def described(self) -> Finding:
+        """What it says of itself."""
+        technique, p = self.technique, self.p
+        missing = [n for n in ("name", "version", "title", "source") if not getattr(technique, n)]
+        if technique.instruction.count(".") != 1 or not technique.instruction.endswith("."):
+            missing.append("instruction, one sentence")
+        if technique.painter not in (*PAINTERS, base.MASKS):
+            missing.append(f"painter, one of {sorted((*PAINTERS, base.MASKS))}")
+        strange = [t for t in technique.takes if t not in TAKES and not t.startswith("key:")]
+        missing += [f"takes {t!r}, expected one of {', '.join(TAKES)} or key:q" for t in strange]
+        if p.technique is not technique:
+            missing.append("parameters that know their technique (derive them from Parameters)")
+        undeclared = {f.name for f in dataclasses.fields(p)} - set(declared(type(p)))
+        missing += [f"a declaration of {name}" for name in sorted(undeclared)]
+        said = f"{technique.title}, {technique.version}"
+        return Finding("described", not missing, "; ".join(f"lacks {m}" for m in missing) or said)
+
+    def refuses(self) -> Finding:
+        """Values beyond what is declared are refused."""
+        taken, count = [], 0
+        for name, value in refused(self.p):
+            count += 1
+            try:
+                dataclasses.replace(self.p, **{name: value})
+                taken.append(f"{name} = {value!r}")
+            except ValueError:
+                pass
+        said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
+        return Finding("refuses", not taken, said)
+
+    def picture(self, case: Case, p: Any, state: Any = None) -> NDArray[np.uint8]:
+        """(h, w, 3) drawn by a fresh renderer."""
+        renderer = Renderer(self.context, SIZE)
+        renderer.draw(case.scene, case.camera, p, state=state)
+        return renderer.read()
+
+    def played(self, case: Case, p: Any) -> tuple[Any, list[bool]]:
+        """The state after some events of every kind, and which ones were used up."""
+        shot = base.Shot(case.scene, case.camera, SIZE)
+        state, used = self.technique.begin(p), []
+        for event in some_events():
+            state, taken = self.technique.on_event(p, state, event, shot)
+            used.append(taken)
+        return state, used
+
+    def pure(self) -> Finding:
+        """Asked twice, everything is the same; nothing that is passed is written into."""
+        case = self.cases[0]
+        shot = base.Shot(case.scene, case.camera, SIZE)
+        seen, _ = surfaces(shot)
+        for field in dataclasses.fields(seen):
+            array = getattr(seen, field.name)
+            if hasattr(array, "setflags"):
+                array.setflags(write=False)
+        state, _ = self.played(case, self.p)
+        looks = []
+        try:
+            for _ in range(2):
+                known = self.technique.known(self.p, state, seen)
+                looks.append(self.technique.rule(self.p, state, seen, known))
+        except ValueError as error:
+            return Finding("pure", False, f"writes into what it is given ({error})")
+        same = all(
+            np.array_equal(getattr(looks[0], f.name), getattr(looks[1], f.name))
+            for f in dataclasses.fields(base.Look)
+        )
+        touched = self.technique.touches(self.p, state, shot)
+        again = self.technique.touches(self.p, state, shot)
+        frozen = dataclasses.is_dataclass(state) is False or state.__dataclass_params__.frozen
+        holds = same and np.array_equal(touched, again) and frozen
+        said = "the same twice, state frozen" if holds else "differs when asked again"
+        return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
+
+    def exact(self, most: int) -> Finding:
+        """The exact picture, with every two values of two options, on every scene in turn."""
+        variants = pairwise(self.p, np.random.default_rng(11))[:most]
+        worst, left, where = 0.0, 0.0, ""
+        for k in range(max(len(variants), len(self.cases))):
+            p, case = variants[k % len(variants)], self.cases[k % len(self.cases)]
+            drawn = self.technique.exactly(p)
+            state = self.technique.begin(p) if k % 2 else self.played(case, p)[0]
+            truth = exact(case.scene, case.camera, drawn, SIZE, state)
+            apart = _apart(self.picture(case, drawn, state), truth)
+            left = max(left, float(truth.near_edge.mean()))
+            if apart > worst:
+                worst, where = apart, f" on {case.name}, {p}"
+        said = (
+            f"{max(len(variants), len(self.cases))} pictures within {worst:.2f} of 255 of the "
+            f"reference, at most {100 * left:.2f} % of the pixels left out"
+        )
+        holds = worst <= STEP and left <= LEFT_OUT
+        return Finding("exact", holds, said if holds else said + where)
+
+    def idle(self) -> Finding:
+        """Where the rule changes no surface, the frame is the standard frame, byte for byte."""
+        standard = named("standard")
+        wrong, idle = [], 0
+        for case in (scenes.fixed(), *self.cases):
+            shot = base.Shot(case.scene, case.camera, SIZE)
+            seen, _ = surfaces(shot)
+            state = self.technique.begin(self.p)
+            look = self.technique.rule(
+                self.p, state, seen, self.technique.known(self.p, state, seen)
+            )
+            first = seen.first(seen.front)
+            plain = (look.kept[first] & (look.opacity[first] == 1)).all()
+            plain &= not (look.kept & ~seen.front).any()
+            plain &= look.tint is None or not look.tint[look.kept, 3].any()
+            if plain:
+                idle += 1
+                same = np.array_equal(self.picture(case, self.p), self.picture(case, standard))
+                wrong += [] if same else [case.name]
+        said = (
+            f"differs from the standard frame on {', '.join(wrong)}"
+            if wrong
+            else (f"{idle} scenes without anything to do are the standard frame")
+        )
+        return Finding("idle", not wrong and idle > 0, said)
+
+    def kept(self) -> Finding:
+        """A frame is the same whatever was drawn before it."""
+        renderer = Renderer(self.context, SIZE)
+        wrong = []
+        for case in (*self.cases, *reversed(self.cases)):
+            for state in (self.played(case, self.p)[0], self.technique.begin(self.p)):
+                renderer.draw(case.scene, case.camera, self.p, state=state)
+                same = np.array_equal(renderer.read(), self.picture(case, self.p, state))
+                wrong += [] if same else [case.name]
+        said = f"differs on {', '.join(wrong)}" if wrong else f"{4 * len(self.cases)} frames"
+        return Finding("no state between frames", not wrong, said)
+
+    def replayed(self) -> Finding:
+        """The same events lead to the same state; only what it takes is used up."""
+        case = self.cases[0]
+        (state, used), (again, _) = self.played(case, self.p), self.played(case, self.p)
+        takes = [_kind(e) in self.technique.takes for e in some_events()]
+        stolen = [_kind(e) for e, u, t in zip(some_events(), used, takes, strict=True) if u > t]
+        changes = state != self.technique.begin(self.p)
+        holds = state == again and not stolen and (changes or not self.technique.takes)
+        said = f"{sum(used)} of {len(used)} events used up, the same state again"
+        if stolen:
+            said = f"uses up {', '.join(sorted(set(stolen)))}, which it does not say it takes"
+        elif not holds:
+            said = "another state from the same events, or none from those that it takes"
+        return Finding("replay", holds, said)
+
+    def looked(self) -> Finding:
+        """What `look` finds of each object is the share that the reference gives it."""
+        worst = 0.0
+        for case in self.cases[:4]:
+            p = self.technique.exactly(self.p)
+            state = self.played(case, p)[0]
+            seen = Renderer(self.context, SIZE).look(case.scene, case.camera, p, SIZE, state)
+            truth = exact(case.scene, case.camera, p, SIZE, state)
+            weights = np.where(truth.weights >= 1 / 64, truth.weights, 0).sum(axis=(1, 2))
+            room = 2 + truth.near_edge.sum()
+            worst = max(worst, float(np.abs(seen.area * SIZE[0] * SIZE[1] - weights).max() / room))
+        said = f"areas of objects differ by at most {worst:.2f} of what edges allow"
+        return Finding("look", worst <= 1, said)
+
+    def explained(self) -> Finding:
+        """Each object is named, with why it was touched or left."""
+        case = self.cases[3]
+        lines = explain(case.scene, plan(case.scene, case.camera, self.p, SIZE))
+        named_ = [k for k, o in enumerate(case.scene.objects) if not _mentioned(lines, o, k)]
+        said = f"nothing of objects {named_}" if named_ else f"{len(lines)} lines"
+        return Finding("explains", not named_, said)
+
+    def cost(self) -> Finding:
+        """Its time over the standard frame's, frames interleaved; nothing is asked of it."""
+        renderer = Renderer(self.context, (400, 300), without=frozenset({"still"}))
+        case, spent = self.cases[0], ([], [])
+        for _ in range(12):
+            for times, p in zip(spent, (named("standard"), self.p), strict=True):
+                start = time.perf_counter()
+                renderer.draw(case.scene, case.camera, p)
+                self.context.finish()
+                times.append(time.perf_counter() - start)
+        standard, own = (float(np.median(times[2:])) for times in spent)
+        return Finding("cost", True, f"{own / standard:.2f} × the standard frame at 400 × 300")
+
+
+def some_events() -> list[Any]:
+    """A pointer that moves, presses and drags, and keys."""
+    moves = [events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)]
+    return [
+        *moves,
+        events.PointerPress(0.5, 0.65, 0.45),
+        events.PointerMove(0.6, 0.7, 0.5, 0.05, 0.05, dragging=True),
+        events.PointerRelease(0.7, 0.7, 0.5),
+        *(events.KeyPress(0.8, k) for k in ("q", "e", "up")),
+        *(events.KeyRelease(0.9, k) for k in ("q", "e", "up")),
+        events.Tick(1.0),
+    ]
+
+
+def _kind(event: Any) -> str:
+    name = type(event).__name__
+    if name.startswith("Key"):
+        return f"key:{event.key}"
+    return "pointer" if name.startswith("Pointer") else name.lower()
+
+
+def _apart(picture: NDArray[np.uint8], truth: ExactPicture) -> float:
+    apart = np.abs(picture - truth.picture * 255).max(axis=2)[~truth.near_edge]
+    return float(apart.max(initial=0.0))
+
+
+def _mentioned(lines: list[str], thing: Any, k: int) -> bool:
+    name = f"{thing.kind or 'object'} {k}"
+    return any(line.startswith(f"{name}:") for line in lines)

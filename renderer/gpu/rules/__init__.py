@@ -1,0 +1,1 @@
+"""Draws what a technique's rule says of each surface, for any technique."""

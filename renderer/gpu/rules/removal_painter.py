@@ -1,0 +1,41 @@
+"""Draws what a rule removes: one pass over the objects that it touches, from both sides."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import moderngl
+
+from seethrough.renderer.gpu.device.scene_table import SceneTable
+from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
+from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.techniques.base import Shot
+
+
+class RemovalPainter:
+    """Keeps the programs. A depth buffer is all the order that removal needs."""
+
+    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
+        self._context = context
+        self._programs = RulePrograms(context, defines)
+
+    def draw(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        technique: Any,
+        state: Any,
+        shot: Shot,
+        target: FrameTarget,
+        matrix: bytes,
+    ) -> int:
+        """Draw the plan's ruled objects among those already in the target. Returns the draws."""
+        shader = self._programs.ready(table, technique, state, shot, matrix)
+        sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
+        target.framebuffer.use()
+        self._context.enable_only(moderngl.DEPTH_TEST)
+        self._context.depth_func = "<="
+        draw(self._context, shader, table, sequence, runs[0], shot.camera, matrix)
+        return len(runs[0])

@@ -1,0 +1,123 @@
+"""A technique's rule as a shader, with what it looks up: uniforms, and pictures of one number."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.gpu.device.programs import Shader, program
+from seethrough.renderer.gpu.device.reused import kept
+from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.techniques.base import Shot
+
+PICTURES = 5  # the first texture unit of a rule's pictures
+
+# What a technique may need → which objects are drawn for it.
+NEEDED = {"target_depth"}
+
+
+class RulePrograms:
+    """The programs of all techniques that were drawn, and their pictures."""
+
+    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
+        self._context, self._defines = context, list(defines)
+        self._programs: dict[str, Shader] = {}
+        self._pictures: dict[str, moderngl.Texture] = {}
+        self._depth = program(context, "object.vert", "view_depth.frag")
+        self._framebuffers: dict[tuple[int, int], moderngl.Framebuffer] = {}
+
+    def ready(
+        self, table: SceneTable, technique: Any, state: Any, shot: Shot, matrix: bytes
+    ) -> Shader:
+        """The technique's program with everything set but the sequence. Binds a framebuffer where
+        the technique needs to know the targets' depth."""
+        rules = technique.technique
+        needed = {name: self._target_depth(table, shot, matrix) for name in sorted(rules.needs)}
+        if rules.glsl not in self._programs:
+            values = {"rule": rules.glsl}
+            self._programs[rules.glsl] = program(
+                self._context, "object.vert", "rule.frag", self._defines, values=values
+            )
+        shader = self._programs[rules.glsl]
+        use(shader, shot.camera, matrix)
+        shader.set(size=shot.size, lens=0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
+        for name, value in rules.uniforms(technique, state, shot).items():
+            if name in shader.members:
+                member: Any = shader[name]
+                member.value = value
+        pictures = rules.pictures(technique, state, shot, needed)
+        for unit, (name, picture) in enumerate(sorted(pictures.items()), PICTURES):
+            if name in shader.members:
+                self._upload(name, picture).use(unit)
+                shader.set(**{name: unit})
+        return shader
+
+    def _upload(self, name: str, picture: NDArray[np.float32]) -> moderngl.Texture:
+        size = (picture.shape[1], picture.shape[0])
+        if name not in self._pictures or self._pictures[name].size != size:
+            if name in self._pictures:
+                self._pictures.pop(name).release()
+            texture = kept(self._context.texture(size, 1, dtype="f4"))
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            self._pictures[name] = texture
+        rows = np.ascontiguousarray(picture[::-1], dtype="f4")
+        self._pictures[name].write(rows)
+        return self._pictures[name]
+
+    def _target_depth(self, table: SceneTable, shot: Shot, matrix: bytes) -> NDArray[np.float32]:
+        """(h, w) view depth of the farthest front-facing surface of a target; 0 where there is
+        none."""
+        if shot.size not in self._framebuffers:
+            for old in self._framebuffers.values():
+                old.release()
+            texture = self._context.texture(shot.size, 1, dtype="f4")
+            depth = self._context.depth_renderbuffer(shot.size)
+            self._framebuffers = {shot.size: self._context.framebuffer([texture], depth)}
+        framebuffer = self._framebuffers[shot.size]
+        framebuffer.clear(depth=0.0)
+        framebuffer.use()
+        targets = np.nonzero(shot.scene.targets)[0]
+        sequence, runs = table.sequence([targets], shot.camera)
+        self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._context.depth_func = ">"
+        draw(self._context, self._depth, table, sequence, runs[0], shot.camera, matrix)
+        data = framebuffer.read(components=1, dtype="f4", alignment=1)
+        return np.frombuffer(data, "f4").reshape(shot.size[1], shot.size[0])[::-1]
+
+
+def use(shader: Shader, camera: Camera, matrix: bytes) -> None:
+    """Set what every program over objects takes."""
+    shader["clip_from_offset"].write(matrix)
+    right, up, back = (tuple(axis) for axis in camera.rotation.T.tolist())
+    forward = tuple(-x for x in back)
+    shader.set(table=0, sequence=1, right=right, up=up, forward=forward)
+
+
+def draw(
+    context: moderngl.Context,
+    shader: Shader,
+    table: SceneTable,
+    sequence: moderngl.Texture,
+    runs: list[Run],
+    camera: Camera,
+    matrix: bytes,
+) -> None:
+    """Draw objects of the sequence into the bound framebuffer."""
+    table.table.use(0)
+    sequence.use(1)
+    use(shader, camera, matrix)
+    for mesh, start, count in runs:
+        mesh.draw(context, shader, start, count)
+
+
+def numbers(technique: Any, shot: Shot) -> NDArray[np.float64]:
+    """(n,) the technique's own number of each object."""
+    return np.asarray(technique.technique.objects(technique, shot.scene), dtype=float)
+
+
+Pictures = Mapping[str, NDArray[np.float32]]

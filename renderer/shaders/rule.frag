@@ -1,0 +1,71 @@
+// Provides what a technique's rule says of a surface: its lit colour where it is kept, nothing where
+// it is removed. A template: `rule` is the technique's own GLSL. With PEELED, only the nearest
+// surface behind the layer before, and the colour comes times its opacity, which is the alpha.
+in vec3 offset;
+in vec3 normal;
+in vec3 color;
+flat in int object;
+flat in int channel;
+
+uniform vec3 right;    // the camera's axes in the world
+uniform vec3 up;
+uniform vec3 forward;
+uniform vec2 size;     // of the picture, in pixels
+uniform float lens;    // pixels for a slope of 1
+
+layout(location = 0) out vec4 picture;
+#ifdef WITH_IDS
+layout(location = 1) out float id;
+#endif
+
+struct Surface {
+    vec3 offset;   // from the eye, in the world
+    vec3 normal;   // outwards, not of unit length
+    float depth;   // view depth
+    vec2 slope;    // to the right and up, for each unit of depth
+    vec2 place;    // the middle of the pixel: column + 0.5, row + 0.5
+    ivec2 texel;   // of the pixel in `pictures`
+    bool front;    // whether the outside faces the eye
+    int number;    // the technique's own number of the object
+};
+
+vec4 tinted = vec4(0.0);  // a rule may set a colour, and how much of it covers the lit one
+
+{{ rule }}
+
+#ifdef PEELED
+uniform sampler2D above;    // depth of the layer before, as the depth buffer has it
+uniform sampler2D below;    // of what is opaque
+uniform sampler2D covered;  // colour and opacity of all layers before
+#endif
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+#ifdef PEELED
+    if (gl_FragCoord.z <= texelFetch(above, texel, 0).x) discard;
+    if (gl_FragCoord.z >= texelFetch(below, texel, 0).x) discard;
+    if (texelFetch(covered, texel, 0).a >= 0.9999) discard;
+#endif
+    Surface s;
+    s.offset = offset;
+    s.normal = normal;
+    s.depth = dot(offset, forward);
+    s.slope = (gl_FragCoord.xy - 0.5 * size) / lens;
+    s.place = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y);
+    s.texel = texel;
+    s.front = gl_FrontFacing;
+    s.number = channel;
+    float shown = opacity(s);
+    if (shown <= 0.0) discard;
+    if (!s.front && !opened(s)) discard;
+    vec3 lit = min(color * shade(s.front ? normal : -normal, -offset), 1.0);
+    lit = mix(lit, tinted.rgb, tinted.a);
+#ifdef PEELED
+    picture = vec4(lit * shown, shown);
+#else
+    picture = vec4(lit, 1.0);
+#endif
+#ifdef WITH_IDS
+    id = float(object + 1);
+#endif
+}

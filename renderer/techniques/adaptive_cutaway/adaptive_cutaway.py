@@ -1,0 +1,127 @@
+"""Adaptive cut-away (Burns and Finkelstein 2008): a cone opens towards the viewer before each point
+of a target.
+
+What lies before a target's point q, and nearer to the line of sight through q than the tangent of
+an angle times its distance before q, is removed; the hole is the union over all points of targets
+that face the viewer within the picture. With slopes s = (x, y) / depth and T = tan θ, that is
+|s − s_q| · z < (z_q − z) · T, so that a line of sight leaves the hole at the depth
+
+    z = max over q of z_q · T / (|s − s_q| + T).
+
+The axis of our cones is the line of sight, not the view vector: a target beside the middle of the
+picture is uncovered as one in it. `exact` finds the greatest q at every pixel; else it is found for
+blocks of 8 × 8 pixels, and a pixel takes the best of its block's and its neighbours'.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.declared import key
+from seethrough.renderer.techniques import removal
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+
+
+@dataclass(frozen=True)
+class AdaptiveParameters(removal.Removing):
+    """How wide the cones are."""
+
+    angle: float = key(
+        0.35, "between a cone's side and its axis, the line of sight", "radians",
+        low=0.001, high=1.5,
+    )  # fmt: skip
+    exact: bool = key(False, "find the hole at every pixel: slower, no approximation")
+
+
+@dataclass(frozen=True, eq=False)
+class Cones:
+    """(h·w,) depth at which a line of sight leaves the hole, 0 where it does not meet it: as the
+    targets' points are, and the least and the most that float32 may make of it."""
+
+    depth: Floats
+    least: Floats
+    most: Floats
+
+
+class AdaptiveCutaway(removal.Removal):
+    """Cones before the points of targets."""
+
+    name = "adaptive_cutaway"
+    title = "Adaptive cut-away"
+    instruction = "Whatever stands before a target is cut away in a funnel that opens towards you."
+    source = "burns2008"
+    Parameters = AdaptiveParameters
+    removes = removal.CLIPPED
+    needs = frozenset({"target_depth"})
+
+    def touches(self, p: AdaptiveParameters, state: Any, shot: Shot) -> Bools:
+        """What is nearer than the farthest target."""
+        from seethrough.renderer.scene.projection import screen_boxes
+
+        boxes = screen_boxes(shot.scene.corners, shot.camera, shot.size)
+        far = boxes.far[shot.scene.targets & boxes.inside].max(initial=0.0)
+        return removal.reached(shot, removal.whole(shot, 1), np.array([far]))
+
+    def known(self, p: AdaptiveParameters, state: Any, seen: Surfaces) -> Cones:
+        """The hole, from every point of a target."""
+        width, height = seen.shot.size
+        front = seen.targets & seen.front
+        depth = seen.farthest(front).reshape(height, width)
+        slack = np.zeros(height * width)
+        np.maximum.at(slack, seen.pixel[front], seen.slack[front])
+        slack = slack.reshape(height, width)
+        sure = np.where(seen.edge.reshape(height, width), 0.0, depth - slack)
+        wide = np.where(depth > 0, depth + slack, 0.0)
+        around = np.pad(wide, 1)
+        beside = [around[r : r + height, c : c + width] for r in range(3) for c in range(3)]
+        wide = np.where(seen.edge.reshape(height, width), np.max(beside, axis=0), wide)
+        made = (_hole(p, d, seen.shot) for d in (depth, sure, wide))
+        return Cones(*made)
+
+    def rule(self, p: AdaptiveParameters, state: Any, seen: Surfaces, known: Cones) -> Look:
+        """Removed before the depth at which the line of sight leaves the hole."""
+        signed = known.depth[seen.pixel] - seen.depth
+        slack = removal.uncertain(seen)
+        doubt = seen.depth > known.least[seen.pixel] - slack
+        doubt &= seen.depth < known.most[seen.pixel] + slack
+        return removal.look(p, seen, signed, known.depth > 0, doubt)
+
+    def pictures(
+        self, p: AdaptiveParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+    ) -> Mapping[str, NDArray[np.float32]]:
+        """The hole, from the farthest target at each pixel."""
+        from seethrough.renderer.techniques.adaptive_cutaway import cones
+
+        depth = np.ascontiguousarray(needed["target_depth"], dtype=np.float32)
+        find = cones.of_pixels if p.exact else cones.of_blocks
+        return {"clip": find(depth, _lens(shot), float(np.tan(p.angle)))}
+
+    def exactly(self, p: AdaptiveParameters) -> AdaptiveParameters:
+        """At every pixel."""
+        return replace(p, exact=True)
+
+
+def _lens(shot: Shot) -> float:
+    """Pixels for a slope of 1."""
+    return float(0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
+
+
+def _hole(p: AdaptiveParameters, depth: Floats, shot: Shot) -> Floats:
+    """(h·w,) the greatest of all cones at each pixel, tried one by one."""
+    height, width = depth.shape
+    pixels = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1).reshape(-1, 2)
+    points = np.nonzero(depth.ravel() > 0)[0]
+    wide = np.tan(p.angle) * _lens(shot)  # slopes in pixels
+    found = np.zeros(height * width)
+    for q in points:
+        away = np.hypot(*(pixels - pixels[q]).T)
+        np.maximum(found, depth.flat[q] * wide / (away + wide), out=found)
+    return found
+
+
+TECHNIQUE = AdaptiveCutaway()

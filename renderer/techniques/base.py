@@ -1,0 +1,271 @@
+"""What a technique is: one object that says of itself all that others must know (decisions/0012).
+
+Its parameters are a frozen dataclass, its state is a frozen value that events replace, and its
+`rule` says of every surface at a pixel how strongly it shows. The reference (renderer/reference)
+composes the exact picture from that; a painter on the GPU is held to it. No object has a state of
+its own: a frame follows from scene, camera, parameters and state alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.declared import check
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+
+Bools = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+# How a technique is drawn (renderer/gpu): one of ours. What it touches is drawn
+MASKS = "masks"  # by levels and pixels, with a mask about each target
+REMOVAL = "removal"  # in one pass that leaves out what the rule takes away
+PEELS = "peels"  # layer by layer from the front, each as strongly as the rule says
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """What a technique may vary: a frozen dataclass whose fields declare themselves
+    (renderer/declared.py). It knows its `technique`, which alone knows what they mean.
+
+    Raises ValueError, in one line, for a value that is not allowed.
+    """
+
+    technique: ClassVar[Technique]
+
+    def __post_init__(self) -> None:
+        check(self, self.technique.title.lower())
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """What is drawn: a scene, from where, and how large (width, height in pixels). `scale` is the
+    picture's size over the window's: widths in pixels of the window shrink with it."""
+
+    scene: Scene
+    camera: Camera
+    size: tuple[int, int]
+    scale: float = 1.0
+
+    @property
+    def aspect(self) -> float:
+        """Width / height."""
+        return self.size[0] / self.size[1]
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """What stands there in this frame: the scene, perhaps with moved transforms; objects, meshes
+    and flags stay as they are. `traces` (k, 2, 3) are lines in the world, drawn where they show."""
+
+    scene: Scene
+    traces: Floats | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """All surfaces of all objects at all pixels, front and back: m rows in the order of pixels, at
+    each pixel from the front to the back; of two at the same depth the later object comes first.
+
+    pixel (m,) is row · width + column; depth (m,) the view depth; object and triangle (m,) say
+    whose surface it is; front (m,) whether its outside faces the eye; offset (m, 3) leads from the
+    eye to it, in the world; normal (m, 3) is the mesh's own, turned outwards, not of unit length;
+    color (m, 3) is unlit; slack (m,) is by how much its depth may differ where float32 and float64
+    put edges 1/256 pixel apart. starts (h·w + 1,) says where each pixel's rows begin; outlines has
+    for each object its front-facing triangles (k, 3, 2) in pixels, cut at the near plane; edge
+    (h·w,) are the pixels within 1/256 pixel of the edge of a triangle that faces the eye.
+    """
+
+    shot: Shot
+    pixel: Indices
+    depth: Floats
+    object: Indices
+    triangle: Indices
+    front: Bools
+    offset: Floats
+    normal: Floats
+    color: Floats
+    slack: Floats
+    starts: Indices
+    outlines: tuple[Floats, ...]
+    edge: Bools
+
+    @property
+    def targets(self) -> Bools:
+        """(m,) which rows belong to targets."""
+        return self.shot.scene.targets[self.object]
+
+    @property
+    def penetrable(self) -> Bools:
+        """(m,) which rows belong to what is no target and not impenetrable."""
+        scene = self.shot.scene
+        return ~(scene.targets | scene.impenetrable)[self.object]
+
+    @property
+    def place(self) -> Floats:
+        """(m, 2) column + 0.5 and row + 0.5: the middle of each row's pixel."""
+        row, column = np.divmod(self.pixel, self.shot.size[0])
+        return np.stack([column, row], axis=1) + 0.5
+
+    def first(self, among: Bools) -> Bools:
+        """(m,) which rows are the nearest of their object at their pixel, among some."""
+        rows = np.nonzero(among)[0]
+        key = self.pixel[rows] * (int(self.object.max(initial=0)) + 1) + self.object[rows]
+        found = np.zeros(len(among), dtype=bool)
+        found[rows[np.unique(key, return_index=True)[1]]] = True
+        return found
+
+    def nearest(self, among: Bools) -> Floats:
+        """(h·w,) depth of each pixel's nearest row among some, inf where there is none."""
+        return self._extreme(among, np.minimum, np.inf)
+
+    def farthest(self, among: Bools) -> Floats:
+        """(h·w,) depth of each pixel's farthest row among some, 0 where there is none."""
+        return self._extreme(among, np.maximum, 0.0)
+
+    def _extreme(self, among: Bools, ufunc: np.ufunc, none: float) -> Floats:
+        found = np.full(len(self.starts) - 1, none)
+        ufunc.at(found, self.pixel[among], self.depth[among])
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """How each row of Surfaces shows: kept (m,); opacity (m,), of what is kept; tint (m, 4): a
+    colour, and how much of it covers the lit one; doubt (m,): rows so near a border of the rule
+    that float32 may decide otherwise, whose pixels are not compared. `additive`: opacities of a
+    line of sight add up (004 §III-A) instead of multiplying."""
+
+    kept: Bools
+    opacity: Floats
+    tint: Floats | None = None
+    doubt: Bools | None = None
+    additive: bool = False
+
+
+class Technique(Protocol):
+    """How a frame shows a scene. `Plain` has what most of them have in common.
+
+    `source` is a paper's key in REFERENCES.md; `instruction` is the sentence that a participant
+    reads about it. `takes` are the events it may use up: "pointer", "wheel", "second button" or
+    "key:q". `painter` names how it is drawn (above), `glsl` its rule again for that: functions
+
+        float opacity(Surface s)   0 where it is removed
+        bool opened(Surface s)     whether it shows from inside as well
+
+    of shaders/rule.glsl's Surface, with the uniforms that `uniforms` gives and the pictures that
+    `pictures` gives or `needs` names.
+    """
+
+    name: str
+    version: str
+    title: str
+    instruction: str
+    source: str
+    takes: frozenset[str]
+    painter: str
+    glsl: str
+    needs: frozenset[str]
+    Parameters: Any
+
+    def begin(self, p: Any) -> Any:
+        """The state before the first event."""
+
+    def on_event(self, p: Any, state: Any, event: Any, shot: Shot) -> tuple[Any, bool]:
+        """The state after an event, and whether the event is used up."""
+
+    def shown(self, p: Any, state: Any, shot: Shot) -> Shown:
+        """What stands there in this frame."""
+
+    def touches(self, p: Any, state: Any, shot: Shot) -> Bools:
+        """(n,) the objects whose surfaces the rule may change: more may be named, none left out."""
+
+    def known(self, p: Any, state: Any, seen: Surfaces) -> Any:
+        """What is not local to a pixel: all that `rule` may know beside its own pixel's rows."""
+
+    def rule(self, p: Any, state: Any, seen: Surfaces, known: Any) -> Look:
+        """How each surface shows."""
+
+    def uniforms(self, p: Any, state: Any, shot: Shot) -> Mapping[str, Any]:
+        """Values of the uniforms that `glsl` declares."""
+
+    def pictures(
+        self, p: Any, state: Any, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
+    ) -> Mapping[str, NDArray[np.float32]]:
+        """Name → (h, w) of the pictures that `glsl` looks up, made from those that it `needs`."""
+
+    def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
+        """(n,) a number of each object's, the Surface's `number` in `glsl`."""
+
+    def looked_at(self, p: Any) -> Any:
+        """The parameters with which `look` finds what is seen."""
+
+    def exactly(self, p: Any) -> Any:
+        """The parameters with which what is drawn is the rule at every pixel, however long it
+        takes."""
+
+
+class Plain:
+    """What most techniques are like: no events, no state, nothing moves, nothing is touched."""
+
+    version = "1"
+    takes: frozenset[str] = frozenset()
+    painter = REMOVAL
+    needs: frozenset[str] = frozenset()
+    glsl = "float opacity(Surface s) { return 1.0; }\nbool opened(Surface s) { return false; }\n"
+    Parameters: Any
+
+    def __init__(self) -> None:
+        self.Parameters.technique = self
+
+    def begin(self, p: Any) -> Any:
+        """No state."""
+        return None
+
+    def on_event(self, p: Any, state: Any, event: Any, shot: Shot) -> tuple[Any, bool]:
+        """Nothing is used up."""
+        return state, False
+
+    def shown(self, p: Any, state: Any, shot: Shot) -> Shown:
+        """The scene as it is."""
+        return Shown(shot.scene)
+
+    def touches(self, p: Any, state: Any, shot: Shot) -> Bools:
+        """Nothing."""
+        return np.zeros(len(shot.scene.objects), dtype=bool)
+
+    def known(self, p: Any, state: Any, seen: Surfaces) -> Any:
+        """Nothing but what stands at a pixel."""
+        return None
+
+    def rule(self, p: Any, state: Any, seen: Surfaces, known: Any) -> Look:
+        """Opaque front faces."""
+        return Look(seen.front, np.ones(len(seen.depth)))
+
+    def uniforms(self, p: Any, state: Any, shot: Shot) -> Mapping[str, Any]:
+        """None."""
+        return {}
+
+    def pictures(
+        self, p: Any, state: Any, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
+    ) -> Mapping[str, NDArray[np.float32]]:
+        """Those that it needs, as they are."""
+        return needed
+
+    def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
+        """1 what may be penetrated, 0 targets and what may not."""
+        return (~(scene.targets | scene.impenetrable)).astype(np.int64)
+
+    def looked_at(self, p: Any) -> Any:
+        """As it is drawn."""
+        return p
+
+    def exactly(self, p: Any) -> Any:
+        """As it is drawn."""
+        return p

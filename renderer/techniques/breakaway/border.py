@@ -1,0 +1,115 @@
+"""How far a pixel lies inside a hole's border: about a convex outline, with teeth if asked."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+
+@njit(cache=True)
+def _distance(corners, x, y):  # type: ignore[no-untyped-def]
+    """Pixels from a point to a convex outline, 0 within."""
+    n = len(corners)
+    best, positive, negative = np.inf, False, False
+    for k in range(n):
+        j = (k + 1) % n
+        ex, ey = corners[j, 0] - corners[k, 0], corners[j, 1] - corners[k, 1]
+        fx, fy = x - corners[k, 0], y - corners[k, 1]
+        side = ex * fy - ey * fx
+        positive |= side > 0
+        negative |= side < 0
+        t = min(max((fx * ex + fy * ey) / max(ex * ex + ey * ey, 1e-300), 0.0), 1.0)
+        best = min(best, (fx - t * ex) ** 2 + (fy - t * ey) ** 2)
+    if n > 2 and not (positive and negative):
+        return 0.0
+    return np.sqrt(best)
+
+
+@njit(cache=True)
+def _room(corners, middle, x, y, margin, jagged, teeth):  # type: ignore[no-untyped-def]
+    """Pixels from a point to the border, above 0 within the hole."""
+    distance = _distance(corners, x, y)
+    reach = margin
+    if jagged > 0:
+        turn = np.arctan2(y - middle[1], x - middle[0]) / (2 * np.pi) * teeth
+        tooth = abs(2 * (turn - np.floor(turn)) - 1)
+        reach = margin * (1 - jagged * tooth)
+    return reach - distance if distance > 0 else max(reach, 1e-2)
+
+
+@njit(cache=True)
+def _middle(corners):  # type: ignore[no-untyped-def]
+    low, high = corners[0].copy(), corners[0].copy()
+    for k in range(len(corners)):
+        for c in range(2):
+            low[c], high[c] = min(low[c], corners[k, c]), max(high[c], corners[k, c])
+    return (low + high) / 2
+
+
+@njit(cache=True)
+def room(corners, points, margin, jagged, teeth):  # type: ignore[no-untyped-def]
+    """(p,) pixels from points (p, 2) to the border of a hole with these corners (k, 2), above 0
+    within. Teeth go round the middle of the corners' box."""
+    middle = _middle(corners)
+    found = np.empty(len(points))
+    for k in range(len(points)):
+        x, y = points[k, 0], points[k, 1]
+        found[k] = _room(corners, middle, x, y, margin, jagged, teeth)
+    return found
+
+
+@njit(cache=True)
+def filled(corners, starts, depths, width, height, margin, jagged, teeth):  # type: ignore[no-untyped-def]
+    """(height, width) the farthest depth of all holes at each pixel, 0 where there is none.
+
+    A row of pixels meets a convex hole without its teeth in one stretch, which is looked at only
+    where teeth can be; the stretch through the hull alone has none.
+    """
+    out = np.zeros((height, width), np.float32)
+    for h in range(len(depths)):
+        hull = corners[starts[h] : starts[h + 1]]
+        middle = _middle(hull)
+        depth = np.float32(depths[h])
+        low, high = hull[:, 1].min() - margin, hull[:, 1].max() + margin
+        for r in range(max(0, int(low) - 1), min(height, int(max(high, 0.0)) + 2)):
+            y = r + 0.5
+            left, right = _stretch(hull, y, margin)
+            first, last = max(0, int(left) - 1), min(width, int(max(right, 0.0)) + 2)
+            if left > right:
+                continue
+            inner, outer = left + 1.0, right - 1.0
+            if jagged > 0:
+                inner, outer = _stretch(hull, y, 0.0)
+            for c in range(first, last):
+                x = c + 0.5
+                if depth <= out[r, c]:
+                    continue
+                if (inner + 1e-3 < x < outer - 1e-3) or (
+                    _room(hull, middle, x, y, margin, jagged, teeth) > 0
+                ):
+                    out[r, c] = depth
+    return out
+
+
+@njit(cache=True)
+def _stretch(hull, y, margin):  # type: ignore[no-untyped-def]
+    """Where a row meets the outline grown by a margin, from left to right; inf, -inf: nowhere."""
+    left, right = np.inf, -np.inf
+    n = len(hull)
+    for k in range(n):
+        away = abs(y - hull[k, 1])
+        if away <= margin:
+            half = np.sqrt(margin * margin - away * away)
+            left, right = min(left, hull[k, 0] - half), max(right, hull[k, 0] + half)
+        j = (k + 1) % n
+        ex, ey = hull[j, 0] - hull[k, 0], hull[j, 1] - hull[k, 1]
+        length = np.sqrt(ex * ex + ey * ey)
+        if length == 0:
+            continue
+        for side in (-1.0, 1.0):
+            ox, oy = -side * margin * ey / length, side * margin * ex / length
+            y0, y1 = hull[k, 1] + oy, hull[j, 1] + oy
+            if min(y0, y1) <= y <= max(y0, y1) and y0 != y1:
+                x = hull[k, 0] + ox + (y - y0) / (y1 - y0) * ex
+                left, right = min(left, x), max(right, x)
+    return left, right

@@ -1,0 +1,113 @@
+"""Break-away (Diepstraten, Weiskopf and Ertl 2003): a hole in the shape of each target.
+
+What lies within the outline of a target's convex hull on the screen, or a margin about it, and
+nearer than the target's farthest point, is removed. `jagged` breaks the margin into teeth, as if
+the hole had been knocked into the wall. The hull is that of the points beyond the near plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.declared import key
+from seethrough.renderer.techniques import removal
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+
+
+@dataclass(frozen=True)
+class BreakawayParameters(removal.Removing):
+    """How far the hole reaches beyond its target, and what its border is like."""
+
+    margin: float = key(
+        12.0, "how far the hole reaches beyond the target", "pixels of the window", low=0, high=1000
+    )
+    jagged: float = key(0.0, "part of the margin that teeth of the border take", low=0, high=1)
+    teeth: int = key(11, "teeth about each target", low=3, high=200)
+
+
+@dataclass(frozen=True, eq=False)
+class Hole:
+    """Before one target: the corners of its hull in pixels (k, 2), and its farthest depth."""
+
+    corners: Floats
+    depth: float
+
+
+class Breakaway(removal.Removal):
+    """Holes in the shape of targets."""
+
+    name = "breakaway"
+    title = "Break-away"
+    instruction = "Whatever stands before a target has a hole in the target's shape."
+    source = "diepstraten2003"
+    Parameters = BreakawayParameters
+    removes = removal.CLIPPED
+
+    def touches(self, p: BreakawayParameters, state: Any, shot: Shot) -> Bools:
+        """What reaches into a hole's rectangle, and nearer than its target's end."""
+        made = holes(shot)
+        grow = (p.margin * shot.scale + 1) * np.array([-1, -1, 1, 1])
+        extents = [np.concatenate([h.corners.min(axis=0), h.corners.max(axis=0)]) for h in made]
+        depths = np.array([hole.depth for hole in made])
+        return removal.reached(shot, np.reshape(extents, (-1, 4)) + grow, depths)
+
+    def known(self, p: BreakawayParameters, state: Any, seen: Surfaces) -> list[Hole]:
+        """The holes."""
+        return holes(seen.shot)
+
+    def rule(self, p: BreakawayParameters, state: Any, seen: Surfaces, known: list[Hole]) -> Look:
+        """Removed within a hole, and before its target's end."""
+        from seethrough.renderer.techniques.breakaway.border import room
+
+        width, height = seen.shot.size
+        pixels = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1) + 0.5
+        signed = np.full(len(seen.depth), -np.inf)
+        doubt = np.zeros(len(seen.depth), dtype=bool)
+        pierced = np.zeros(width * height, dtype=bool)
+        teeth = (p.margin * seen.shot.scale, p.jagged, p.teeth)
+        for hole in known:
+            inside = room(hole.corners, pixels.reshape(-1, 2), *teeth)
+            pierced |= inside > 0
+            before = hole.depth - seen.depth
+            signed = np.maximum(signed, np.where(inside[seen.pixel] > 0, before, -np.inf))
+            doubt |= (np.abs(inside) < 1e-3)[seen.pixel] & (before > 0)
+        return removal.look(p, seen, signed, pierced, doubt)
+
+    def pictures(
+        self, p: BreakawayParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+    ) -> Mapping[str, NDArray[np.float32]]:
+        """The depth at which each pixel's line of sight leaves the hole."""
+        from seethrough.renderer.techniques.breakaway.border import filled
+
+        made = holes(shot)
+        corners = np.concatenate([np.zeros((0, 2)), *(hole.corners for hole in made)])
+        starts = np.cumsum([0, *(len(hole.corners) for hole in made)])
+        depths = np.array([hole.depth for hole in made], dtype=float)
+        teeth = (p.margin * shot.scale, p.jagged, p.teeth)
+        return {"clip": filled(corners, starts, depths, shot.size[0], shot.size[1], *teeth)}
+
+
+def holes(shot: Shot) -> list[Hole]:
+    """One for each target of which something lies beyond the near plane."""
+    from seethrough.renderer.masks.masks import convex_hull
+    from seethrough.renderer.scene.projection import to_camera, to_pixels
+
+    scene, camera = shot.scene, shot.camera
+    found = []
+    for t in np.nonzero(scene.targets)[0]:
+        thing = scene.objects[t]
+        world = thing.mesh.hull @ thing.transform[:3, :3].T + thing.transform[:3, 3]
+        points = to_camera(world, camera)
+        points = points[-points[:, 2] > camera.near]
+        if len(points):
+            hull = convex_hull(np.ascontiguousarray(to_pixels(points, camera, shot.size)))
+            found.append(Hole(hull, float(-points[:, 2].min())))
+    return found
+
+
+TECHNIQUE = Breakaway()

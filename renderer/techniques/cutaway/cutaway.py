@@ -1,0 +1,131 @@
+"""Cut-away (Diepstraten, Weiskopf and Ertl 2003): few planes by a target's box cut off what lies
+before it.
+
+The faces of the box about a target that are turned away from the viewer, moved outwards by a
+margin, cut: what lies on the viewer's side of all of those chosen, and nearer than the box's
+farthest corner, is removed, like a slice of a cake whose cut faces show. These half-spaces hold the
+eye and the target, so nothing penetrable is left between them; and a line of sight leaves the hole
+once: the hole is a depth at each pixel, the farthest of those of all targets. 1 / depth of a plane
+is linear on the screen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.declared import key
+from seethrough.renderer.techniques import removal
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+
+
+@dataclass(frozen=True)
+class CutawayParameters(removal.Removing):
+    """How many planes cut, and how far from the target."""
+
+    planes: int = key(3, "planes that cut about each target, the farthest from the viewer",
+                      low=1, high=3)  # fmt: skip
+    margin: float = key(
+        0.1, "how far the planes lie outside the target's box", "halves of the box's side",
+        low=0, high=10,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Wedge:
+    """About one target: unit normals (k, 3) of the planes, towards the eye, their distances from it
+    along them (k,), below 0, and the view depth of the box's farthest corner."""
+
+    normals: Floats
+    away: Floats
+    depth: float
+
+
+class Cutaway(removal.Removal):
+    """Few planes cut off what stands before a target."""
+
+    name = "cutaway"
+    title = "Cut-away"
+    instruction = "What stands before a target is cut off along planes, like a slice of a cake."
+    source = "diepstraten2003"
+    Parameters = CutawayParameters
+    removes = removal.CLIPPED
+
+    def touches(self, p: CutawayParameters, state: Any, shot: Shot) -> Bools:
+        """What is nearer than the end of a wedge."""
+        made = wedges(p, shot)
+        depths = np.array([w.depth for w in made])
+        return removal.reached(shot, removal.whole(shot, len(made)), depths)
+
+    def known(self, p: CutawayParameters, state: Any, seen: Surfaces) -> list[Wedge]:
+        """The wedges."""
+        return wedges(p, seen.shot)
+
+    def rule(self, p: CutawayParameters, state: Any, seen: Surfaces, known: list[Wedge]) -> Look:
+        """Removed inside a wedge: before all its planes, and before the box's end."""
+        signed = np.full(len(seen.depth), -np.inf)
+        for wedge in known:
+            outside = (seen.offset @ wedge.normals.T - wedge.away).min(axis=1, initial=np.inf)
+            signed = np.maximum(signed, np.minimum(outside, wedge.depth - seen.depth))
+        width, height = seen.shot.size
+        pierced = np.full(width * height, bool(known))
+        return removal.look(p, seen, signed, pierced)
+
+    def pictures(
+        self, p: CutawayParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+    ) -> Mapping[str, NDArray[np.float32]]:
+        """The depth at which each pixel's line of sight leaves the hole."""
+        return {"clip": clip_depth(wedges(p, shot), shot)}
+
+
+def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
+    """One for each target that reaches beyond the near plane and has a box of some volume."""
+    scene, camera = shot.scene, shot.camera
+    found = []
+    for t in np.nonzero(scene.targets)[0]:
+        center, sides = scene.centers[t] - camera.eye, scene.box_sides[t]
+        across = np.cross(sides[[1, 2, 0]], sides[[2, 0, 1]])
+        across *= np.sign((across * sides).sum(axis=1, keepdims=True))
+        lengths = np.linalg.norm(across, axis=1, keepdims=True)
+        reach = np.concatenate([sides, -sides]) * (1 + p.margin)
+        depth = float(center @ camera.forward + np.abs(reach[:3] @ camera.forward).sum())
+        if depth <= camera.near or not (lengths > 0).all():
+            continue
+        normals = np.concatenate([-across, across]) / np.concatenate([lengths, lengths])
+        away = (normals * (center + reach)).sum(axis=1)
+        chosen = np.argsort(away, kind="stable")[: p.planes]
+        chosen = chosen[away[chosen] < 0]
+        found.append(Wedge(normals[chosen], away[chosen], depth))
+    return found
+
+
+def clip_depth(made: list[Wedge], shot: Shot) -> NDArray[np.float32]:
+    """(h, w) the farthest depth of a hole at each pixel, 0 where there is none."""
+    from seethrough.renderer.techniques.maps import least_of_greatest
+
+    if not made:
+        return np.zeros(shot.size[::-1], np.float32)
+    planes = [linear(wedge, shot) for wedge in made]
+    return least_of_greatest(planes, shot.size)
+
+
+def linear(wedge: Wedge, shot: Shot) -> Floats:
+    """(k + 1, 3) 1 / depth at which lines of sight leave a wedge, at most 0 where they
+    never do: a · column + b · row + c at a pixel's middle."""
+    right, up, back = shot.camera.rotation.T
+    lens = 0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2)
+    # A line of sight is depth · (forward + x right + y up); it meets n · p = away at 1 / depth
+    # = n · (forward + x right + y up) / away.
+    x = wedge.normals @ right / wedge.away / lens
+    y = wedge.normals @ up / wedge.away / lens
+    level = wedge.normals @ -back / wedge.away
+    middle = np.array(shot.size) / 2
+    rows = np.stack([x, -y, level - x * middle[0] + y * middle[1]], axis=1)
+    return np.concatenate([rows, [[0.0, 0.0, 1.0 / wedge.depth]]])
+
+
+TECHNIQUE = Cutaway()

@@ -1,0 +1,52 @@
+"""Dynamic transparency as a technique: its rule is exact.py, its painter draws masks by levels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from seethrough.renderer.techniques import base
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+
+
+class DynamicRendering(base.Plain):
+    """What stands before a target turns transparent, by a mask about it."""
+
+    name = "dynamic"
+    title = "Dynamic transparency"
+    instruction = "Things turn transparent where a target lies behind them."
+    source = "004"
+    painter = base.MASKS
+    Parameters = DynamicTransparency
+
+    def touches(self, p: DynamicTransparency, state: Any, shot: base.Shot) -> base.Bools:
+        """Whatever is not impenetrable, where there is a target."""
+        scene = shot.scene
+        return np.full(len(scene.objects), bool(scene.targets.any())) & ~scene.impenetrable
+
+    def known(self, p: DynamicTransparency, state: Any, seen: base.Surfaces) -> Any:
+        """The masks."""
+        from seethrough.renderer.techniques.dynamic import exact
+
+        return exact.known(p, seen)
+
+    def rule(
+        self, p: DynamicTransparency, state: Any, seen: base.Surfaces, known: Any
+    ) -> base.Look:
+        """Opacities of the front-most surface of each object."""
+        from seethrough.renderer.techniques.dynamic import exact
+
+        return exact.rule(p, seen, known)
+
+    def exactly(self, p: DynamicTransparency) -> DynamicTransparency:
+        """Every pixel sorted by itself."""
+        return replace(p, exact=True)
+
+    def looked_at(self, p: DynamicTransparency) -> DynamicTransparency:
+        """Polygons have no numbers of their objects: what they show is looked for by pixel."""
+        return replace(p, order="planes") if p.order == "polygons" else p
+
+
+TECHNIQUE = DynamicRendering()

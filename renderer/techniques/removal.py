@@ -1,0 +1,111 @@
+"""What techniques have in common that remove what stands in the way: the hole, and its wall.
+
+A surface is removed where a signed depth or distance of the technique's own is above 0. Only what
+is no target and not impenetrable is removed. Where a thing is pierced, what is left of it shows
+from inside as well: the first surface left is a back face exactly where the cut runs through its
+inside, so that painting it flat fills the cut. An open mesh has no inside, and shows a hole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seethrough.renderer.declared import key
+from seethrough.renderer.techniques import base
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Surfaces
+
+CAPS = ("none", "inside", "flat")
+WALL = (0.36, 0.34, 0.33)
+
+# Where a hole is one depth at each pixel, from the eye on: the picture `clip` has it, 0 for none.
+CLIPPED = """
+uniform sampler2D clip;
+bool removed(Surface s) { return s.depth < texelFetch(clip, s.texel, 0).x; }
+bool pierced(Surface s) { return texelFetch(clip, s.texel, 0).x > 0.0; }
+"""
+
+_GLSL = f"""
+uniform int cap;
+
+float opacity(Surface s) {{ return s.number == 1 && removed(s) ? 0.0 : 1.0; }}
+
+bool opened(Surface s) {{
+    if (cap == 0 || s.number != 1 || !pierced(s)) return false;
+    if (cap == 2) tinted = vec4{(*WALL, 1.0)};
+    return true;
+}}
+"""
+
+
+@dataclass(frozen=True)
+class Removing(base.Parameters):
+    """What every technique that removes may vary."""
+
+    cap: str = key(
+        "flat", "where a thing is cut: nothing of it, its inside, or a flat wall", choices=CAPS
+    )
+
+
+class Removal(base.Plain):
+    """A technique that removes. `removes` is its GLSL: `bool removed(Surface s)` for what is
+    penetrable, and `bool pierced(Surface s)`, whether the pixel's ray meets the hole at all."""
+
+    painter = base.REMOVAL
+    removes: str
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.glsl = self.removes + _GLSL
+
+    def uniforms(self, p: Any, state: Any, shot: base.Shot) -> Mapping[str, Any]:
+        """How cuts are shown."""
+        return {"cap": CAPS.index(p.cap)}
+
+
+def look(
+    p: Removing, seen: Surfaces, signed: Floats, pierced: Bools, doubt: Bools | float = 0.0
+) -> Look:
+    """How surfaces show that are removed where `signed` (m,) is above 0. `pierced` (h·w,) are the
+    pixels whose ray meets the hole. In `doubt` (m,) are also surfaces nearer to the hole's border
+    than float32 can tell."""
+    open_ = seen.penetrable
+    removed = open_ & (signed > 0)
+    inside = ~seen.front & open_ & pierced[seen.pixel] & (p.cap != "none")
+    tint = np.zeros((len(signed), 4))
+    if p.cap == "flat":
+        tint[inside] = (*WALL, 1.0)
+    near = open_ & (np.abs(signed) <= uncertain(seen))
+    kept = (seen.front | inside) & ~removed
+    return Look(kept, np.ones(len(signed)), tint, near | (open_ & (doubt > 0)))
+
+
+def uncertain(seen: Surfaces) -> Floats:
+    """(m,) by how far a surface's place may differ in float32, in world units: 1/256 pixel along
+    the surface, and rounding of numbers as large as its distance."""
+    lens = 0.5 * seen.shot.size[1] / np.tan(seen.shot.camera.fov_y / 2)
+    along = np.linalg.norm(seen.offset, axis=1) / np.maximum(seen.depth, 1e-300)
+    return seen.slack * along + seen.depth * along * (1 / (256 * lens) + 1e-5)
+
+
+def reached(shot: base.Shot, extents: Floats, depth: Floats) -> Bools:
+    """(n,) penetrable objects that reach into one of some parts of the picture (k, 4: left, top,
+    right, bottom in pixels) and before the view depth (k,) that belongs to it."""
+    from seethrough.renderer.scene.projection import screen_boxes
+
+    scene = shot.scene
+    found = np.zeros(len(scene.objects), dtype=bool)
+    if len(extents):
+        boxes = screen_boxes(scene.corners, shot.camera, shot.size)
+        low = (boxes.extents[:, None, :2] <= extents[None, :, 2:]).all(axis=2)
+        high = (boxes.extents[:, None, 2:] >= extents[None, :, :2]).all(axis=2)
+        found = (low & high & (boxes.near[:, None] <= depth)).any(axis=1)
+    return found & ~scene.targets & ~scene.impenetrable
+
+
+def whole(shot: base.Shot, count: int) -> Floats:
+    """(count, 4) the whole picture, so many times."""
+    return np.tile(np.array([0.0, 0.0, *shot.size]), (count, 1))
