@@ -13,6 +13,7 @@ import argparse
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,9 +28,11 @@ from seethrough.renderer.gpu.levels.approximations import (
     StochasticPainter,
     WeightedPainter,
 )
+from seethrough.renderer.gpu.levels.polygon_painter import Corners
 from seethrough.renderer.models.translucent.scenes import scene
 from seethrough.renderer.polygons import axis_tree, boxes, bsp, distance, feudal
 from seethrough.renderer.polygons.prepared import Prepared
+from seethrough.renderer.scene.camera import Camera
 
 SCENES = ("panels100", "boxes", "leaves", "cow", "house", "soup1000")
 SIZE = (400, 300)
@@ -65,7 +68,7 @@ def ways(bench: Bench) -> Iterator[Way]:
         start = time.perf_counter()
         prepared = prepare(bench.made.polygons)
         spent = 1e3 * (time.perf_counter() - start)
-        yield Way(name, lambda eye, p=prepared: bench.paint(p, eye), spent)  # type: ignore[misc]
+        yield Way(name, partial(bench.paint, prepared), spent)
     yield from _without_order(bench)
 
 
@@ -78,17 +81,20 @@ def _without_order(bench: Bench) -> Iterator[Way]:
         away = float(np.linalg.norm(eye - bench.made.center))
         return away - bench.made.radius, away + bench.made.radius
 
+    def _passes(paint: Callable[[Corners, Camera, int], None], n: int, eye: Floats) -> None:
+        paint(plain, camera(eye), n)
+
     yield Way(UNSORTED, lambda eye: painter.paint(plain, None, camera(eye)))
     yield Way("weighted blended", lambda eye: weighted.paint(plain, camera(eye), depths(eye)))
     for n in PASSES:
         yield Way(
             f"depth peeling, {n}",
-            lambda eye, n=n: peeling.paint(plain, camera(eye), n),  # type: ignore[misc]
+            partial(_passes, peeling.paint, n),
         )
     for n in DRAWS:
         yield Way(
             f"stochastic, {n}",
-            lambda eye, n=n: chance.paint(plain, camera(eye), n),  # type: ignore[misc]
+            partial(_passes, chance.paint, n),
         )
     yield Way("exact list", lambda eye: bench.exact.paint(plain, camera(eye)))
 

@@ -67,8 +67,9 @@ def _panel(axes: Axes, results: list[dict[str, Any]]) -> None:
             label = f"{starts[0]}, {', '.join(numbers)}"
             axes.plot(times, errors, "-o", color=color, ms=4, lw=1, label=label)
             for number, x, y in zip(numbers, times, errors, strict=True):
-                at = {"xytext": (3, 3), "textcoords": "offset points", "fontsize": 6.5}
-                axes.annotate(number, (x, y), color=INK, **at)
+                axes.annotate(
+                    number, (x, y), (3, 3), textcoords="offset points", fontsize=6.5, color=INK
+                )
             continue
         for mark, r, x, y in zip(MARKS, members, times, errors, strict=False):
             axes.plot(x, y, mark, color=color, ms=6, mec=PAPER, mew=0.5, label=r["way"])

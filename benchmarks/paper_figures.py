@@ -108,8 +108,7 @@ def draw_rates(rates: dict[int, dict[str, float]], path: Path) -> None:
     for count, (mean, worst, best) in PUBLISHED.items():
         label = "published: mean, worst, best" if count == min(PUBLISHED) else None
         reach = [[mean - worst], [best - mean]]
-        style = {"fmt": "D", "color": "#d64f86", "capsize": 3, "label": label}
-        axes.errorbar([count], [mean], yerr=reach, **style)
+        axes.errorbar([count], [mean], yerr=reach, fmt="D", color="#d64f86", capsize=3, label=label)
     plain(axes)
     axes.set(yscale="log")
     axes.set_xlabel("parallel panels", color=INK)

@@ -26,7 +26,7 @@ ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
 ASKED, PROMPT = 5, 0.02  # how often the server is asked the time until it says so within so many s
 
 
-class SystemWindow(pyglet.window.Window):
+class SystemWindow(pyglet.window.Window):  # type: ignore[misc]  # pyglet picks it as it runs
     """Keeps the system's stamp of the event that is being dispatched, where the system has one."""
 
     event_time: EventTime | None = None
@@ -90,7 +90,7 @@ class SystemWindow(pyglet.window.Window):
 
 def open_window(table: DisplayTable, title: str) -> SystemWindow:
     """A window as the study wants it. Raises InputError where none can be opened."""
-    config = pyglet.gl.Config(
+    config = pyglet.gl.Config(  # type: ignore[abstract]  # its __new__ makes the platform's
         double_buffer=True, major_version=3, minor_version=3, forward_compatible=True
     )
     try:

@@ -70,9 +70,9 @@ def reconcile(ledger: Ledger, data: Path, now: datetime) -> tuple[str, ...]:
     said = []
     for name, (slot, when) in withdrawn(data).items():
         if name not in entries:
-            entry = Entry(slot, name, VOID, when, when, "withdrawn")
-            ledger.add([entry])
-            entries[name] = entry
+            void = Entry(slot, name, VOID, when, when, "withdrawn")
+            ledger.add([void])
+            entries[name] = void
             said.append(f"{name}: withdrawn, not in the ledger: entered as void")
     for name in sorted(taken(data, SOURCE)):
         entry = entries.get(name)
@@ -119,7 +119,7 @@ def ends_complete(folder: Path) -> list[bool]:
     return [end.get("status") == "complete" for end in ends]
 
 
-def _read(path: Path) -> dict:  # type: ignore[type-arg]
+def _read(path: Path) -> dict[str, object]:
     try:
         value = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError) as error:

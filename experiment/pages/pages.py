@@ -229,4 +229,5 @@ def on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float6
     """(n, 2) places in half-heights of the picture from its middle."""
     seen = (points - camera.eye) @ camera.rotation
     with np.errstate(divide="ignore", invalid="ignore"):
-        return seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
+        places: NDArray[np.float64] = seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
+    return places

@@ -28,7 +28,7 @@ from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
 
-KINDS = {c.__name__: c for c in (ev.PointerMove, ev.PointerPress, ev.PointerRelease)}
+KINDS = {c.__name__: c for c in (ev.PointerPress, ev.PointerRelease)}
 CAMERA = ("eye_x", "eye_y", "eye_z", "forward_x", "forward_y", "forward_z")
 KEYS = {c.__name__: c for c in (ev.KeyPress, ev.KeyRelease)}
 
@@ -185,8 +185,8 @@ def _events(path: Path) -> Iterator[ev.Event]:
             if kind == "tick":
                 yield ev.Tick(time)
             elif kind == "PointerMove":
-                place = (float(row[n]) for n in ("x", "y", "dx", "dy"))
-                yield ev.PointerMove(time, *place, row["dragging"] == "true")
+                x, y, dx, dy = (float(row[n]) for n in ("x", "y", "dx", "dy"))
+                yield ev.PointerMove(time, x, y, dx, dy, row["dragging"] == "true")
             elif kind in KINDS:
                 yield KINDS[kind](time, float(row["x"]), float(row["y"]))
             elif kind in KEYS:

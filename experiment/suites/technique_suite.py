@@ -236,7 +236,8 @@ class _Tried:
     def cost(self) -> Finding:
         """Its time over the standard frame's, frames interleaved; nothing is asked of it."""
         renderer = Renderer(self.context, (400, 300), without=frozenset({"still"}))
-        case, spent = self.cases[0], ([], [])
+        case = self.cases[0]
+        spent: tuple[list[float], list[float]] = ([], [])
         for _ in range(12):
             for times, p in zip(spent, (named("standard"), self.p), strict=True):
                 start = time.perf_counter()

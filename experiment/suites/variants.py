@@ -18,7 +18,7 @@ def values(parameters: Any, name: str, said: Key) -> list[Any]:
     hint = get_type_hints(type(parameters))[name]
     kinds = [h for h in (get_args(hint) or (hint,)) if h is not type(None)]
     if tuple in (get_origin(hint), get_origin(kinds[0])):
-        found = []
+        found: list[Any] = []
     elif kinds[0] is bool:
         found = [not default]
     elif said.choices:

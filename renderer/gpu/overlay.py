@@ -38,6 +38,14 @@ void main() { out_color = color * texture(u_texture, uv); }
 
 STRIDE = 20  # bytes a vertex: position 2 × f4, uv 2 × f4, color 4 × u1
 
+# Straight alpha in, the alpha of what is there added up.
+OVER = (
+    moderngl.SRC_ALPHA,
+    moderngl.ONE_MINUS_SRC_ALPHA,
+    moderngl.ONE,
+    moderngl.ONE_MINUS_SRC_ALPHA,
+)
+
 
 @dataclass(frozen=True)
 class Batch:
@@ -95,8 +103,7 @@ class Overlay:
         target.viewport = (0, 0, width, height)
         context.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         context.enable(moderngl.BLEND)
-        over = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
-        state.blend(context, over, (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA))
+        state.blend(context, OVER)
         self._program["u_size"] = (width, height)
         points = np.frombuffer(vertices, np.uint8).reshape(-1, STRIDE)
         for batch in batches:

@@ -8,6 +8,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints
+
 
 def least_of_greatest(
     functions: Sequence[NDArray[np.float64]], size: tuple[int, int]
@@ -34,7 +36,7 @@ def _above(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
 
 
 @njit(cache=True)
-def _least_of_greatest(rows, starts, width, height):  # type: ignore[no-untyped-def]
+def _least_of_greatest(rows: Floats, starts: Ints, width: int, height: int) -> Floats32:
     out = np.empty((height, width), np.float32)
     for r in range(height):
         least = np.full(width, np.inf)

@@ -10,12 +10,9 @@ def within(target: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) 
     target.scissor = box  # type: ignore[assignment]  # takes None, as its documentation says
 
 
-def blend(
-    context: moderngl.Context, color: tuple[int, int], alpha: tuple[int, int] | None = None
-) -> None:
-    """Factors of what is drawn and of what is there; those of alpha where they are others."""
-    factors = (*color, *(alpha or color))
-    context.blend_func = factors  # type: ignore[assignment]  # takes four, too
+def blend(context: moderngl.Context, factors: tuple[int, int] | tuple[int, int, int, int]) -> None:
+    """Factors of what is drawn and of what is there; two more for alpha where it has its own."""
+    context.blend_func = factors  # type: ignore[assignment]  # takes four, as its text says
 
 
 def combine(context: moderngl.Context, color: int, alpha: int | None = None) -> None:

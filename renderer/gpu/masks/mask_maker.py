@@ -69,6 +69,7 @@ def mask_geometry(
     ellipses = technique.mask in ("circle", "ellipse", "oriented-ellipse")
     shaped = np.ones_like(hulled) if ellipses else hulled
     plain, pictured = masked[shaped], masked[~shaped]
+    vertices: NDArray[np.floating]
     if ellipses:
         vertices, firsts = _ellipses(table, plain, frame, camera, technique.mask, width, size)
     else:

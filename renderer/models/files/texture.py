@@ -79,7 +79,7 @@ def decoded(
     pixels = _pixels(data, what)
     if upward:
         pixels = np.dstack([pixels[::-1, :, :3], np.full(pixels.shape[:2], 255, np.uint8)])
-    first = np.empty(pixels.shape, np.float32)
+    first: Floats32 = np.empty(pixels.shape, np.float32)
     first[..., :3] = _LIGHT[pixels[..., :3]]
     first[..., 3] = pixels[..., 3] / 255
     while first.shape[0] * first.shape[1] > MOST_TEXELS:
