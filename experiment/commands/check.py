@@ -7,7 +7,7 @@ import csv
 from collections import Counter
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.pages.texts import Texts
@@ -16,6 +16,8 @@ from seethrough.experiment.study.design import order_of, session_for
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 
 if TYPE_CHECKING:
+    from moderngl import Context
+
     from seethrough.experiment.session.machine import FrameTimes
     from seethrough.experiment.study.certificate import Difficulty, Match
 
@@ -80,7 +82,7 @@ def _models(study: Study, said: Verdicts) -> None:
 
 
 def _contact_sheet(
-    study: Study, context: Any, arguments: argparse.Namespace, said: Verdicts
+    study: Study, context: Context, arguments: argparse.Namespace, said: Verdicts
 ) -> None:
     """The study's own models in a picture, where it has any."""
     if study.walkthrough.models:
@@ -109,7 +111,7 @@ def _design(study: Study, said: Verdicts) -> None:
         said.say("design", "the orders are not equally often", WARNING, why)
 
 
-def _measured(study: Study, context: Any) -> list[Difficulty]:
+def _measured(study: Study, context: Context) -> list[Difficulty]:
     """Every trial's difficulty, with progress."""
     from seethrough.experiment.session.progress import Progress
     from seethrough.experiment.study.certificate import Certifier, trials_of
@@ -124,7 +126,7 @@ def _measured(study: Study, context: Any) -> list[Difficulty]:
 
 
 def _difficulty(
-    study: Study, measured: list[Difficulty], context: Any, redraw: bool, said: Verdicts
+    study: Study, measured: list[Difficulty], context: Context, redraw: bool, said: Verdicts
 ) -> None:
     from seethrough.experiment.study.certificate import matches, worst
 
@@ -155,7 +157,7 @@ def _apart(match: Match, value: float) -> str:
     return f"{value:.3f}" if match.measure in SHARES else f"{100 * value:.0f} %"
 
 
-def _redraw(study: Study, measured: list[Difficulty], context: Any, said: Verdicts) -> None:
+def _redraw(study: Study, measured: list[Difficulty], context: Context, said: Verdicts) -> None:
     """Draw the worst scene again until all match; print the line for the config."""
     from seethrough.experiment.study.certificate import Certifier, matches, trials_of, worst
 
@@ -190,7 +192,7 @@ def _write(measured: list[Difficulty], path: Path) -> None:
 
 
 def _machine(
-    study: Study, measured: list[Difficulty], context: Any, seconds: float, said: Verdicts
+    study: Study, measured: list[Difficulty], context: Context, seconds: float, said: Verdicts
 ) -> None:
     """Frame times where they are worst: the scenes with most to see through, in each scenario."""
     from seethrough.experiment.session.machine import crossings, frame_times, free_disk

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 import moderngl
 
@@ -18,6 +18,9 @@ from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.hud import Inset, Label
+
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.base import Parameters
 
 
 class Stage:
@@ -35,7 +38,7 @@ class Stage:
         self.done = 0.0  # part of the session
         self.pilot = False
         self.pointer: tuple[float, float] | None = None
-        self.last: Form | tuple[View, Any] | None = None  # what was drawn
+        self.last: Form | tuple[View, Parameters] | None = None  # what was drawn
         self._pictures: dict[int, _SmallPicture] = {}
 
     @property
@@ -49,7 +52,7 @@ class Stage:
         self.renderer.resize(size)
 
     def draw_view(
-        self, view: View, technique: Any, target: moderngl.Framebuffer, passed: float
+        self, view: View, technique: Parameters, target: moderngl.Framebuffer, passed: float
     ) -> None:
         """Draw a task's view with its HUD."""
         self.last = (view, technique)
@@ -133,7 +136,7 @@ class _SmallPicture:
         self._target = context.framebuffer([self._texture])
         interface.overlay.adopt_texture(name, self._texture)
 
-    def draw(self, view: View, technique: Any) -> int:
+    def draw(self, view: View, technique: Parameters) -> int:
         self._renderer.draw(view.scene, view.camera, technique, self._target)
         return self.name
 

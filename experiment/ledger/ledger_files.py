@@ -8,6 +8,7 @@ import os
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, check_participant, folder_of, taken
@@ -119,7 +120,7 @@ def ends_complete(folder: Path) -> list[bool]:
     return [end.get("status") == "complete" for end in ends]
 
 
-def _read(path: Path) -> dict[str, object]:
+def _read(path: Path) -> dict[str, Any]:
     try:
         value = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError) as error:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.pages.color_plates import Plate
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.hud import FloorPlan
@@ -147,7 +148,7 @@ class Picture:
     """
 
     look: Callable[[], View]
-    technique: object = Standard()
+    technique: Parameters = Standard()
     height: float = 0.36
 
     @cached_property

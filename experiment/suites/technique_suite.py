@@ -9,7 +9,7 @@ import dataclasses
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,13 +28,18 @@ from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.techniques import base, named
 from seethrough.tasks.kit import events
 
+if TYPE_CHECKING:
+    from moderngl import Context
+
+    from seethrough.renderer.techniques.base import Technique
+
 SIZE = (96, 72)
 STEP = 1.0  # of 255: what a picture may differ, half of it rounding to 8 bits
 LEFT_OUT = 0.02  # share of pixels too near an edge to be compared
 TAKES = ("pointer", "wheel", "second button")
 
 
-def check(technique: Any, context: Any, most: int = 1000) -> Iterator[Finding]:
+def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[Finding]:
     """Try everything on a technique. `most` combinations of options are compared with the
     reference; `context` is an OpenGL context."""
     tried = _Tried(technique, context)
@@ -60,7 +65,7 @@ def check(technique: Any, context: Any, most: int = 1000) -> Iterator[Finding]:
 class _Tried:
     """A technique, its parameters, and what draws it."""
 
-    def __init__(self, technique: Any, context: Any) -> None:
+    def __init__(self, technique: Technique, context: Context) -> None:
         self.technique, self.context = technique, context
         self.p = technique.Parameters()
         self.cases = scenes.cases()

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from seethrough.renderer.arrays import Floats, Floats32, Ints
+from seethrough.renderer.arrays import Floats, Floats32, Ints, Real
 
 
 @njit(cache=True)
-def _distance(corners: Floats, x: float, y: float) -> float:
+def _distance(corners: Real, x: float, y: float) -> float:
     """Pixels from a point to a convex outline, 0 within."""
     n = len(corners)
     best, positive, negative = np.inf, False, False
@@ -29,7 +29,7 @@ def _distance(corners: Floats, x: float, y: float) -> float:
 
 @njit(cache=True)
 def _room(
-    corners: Floats, middle: Floats, x: float, y: float, margin: float, jagged: float, teeth: int
+    corners: Real, middle: Floats, x: float, y: float, margin: float, jagged: float, teeth: int
 ) -> float:
     """Pixels from a point to the border, above 0 within the hole."""
     distance = _distance(corners, x, y)
@@ -42,7 +42,7 @@ def _room(
 
 
 @njit(cache=True)
-def _middle(corners: Floats) -> Floats:
+def _middle(corners: Real) -> Floats:
     low, high = corners[0].copy(), corners[0].copy()
     for k in range(len(corners)):
         for c in range(2):
@@ -51,7 +51,7 @@ def _middle(corners: Floats) -> Floats:
 
 
 @njit(cache=True)
-def room(corners: Floats, points: Floats, margin: float, jagged: float, teeth: int) -> Floats:
+def room(corners: Real, points: Real, margin: float, jagged: float, teeth: int) -> Floats:
     """(p,) pixels from points (p, 2) to the border of a hole with these corners (k, 2), above 0
     within. Teeth go round the middle of the corners' box."""
     middle = _middle(corners)
@@ -64,7 +64,7 @@ def room(corners: Floats, points: Floats, margin: float, jagged: float, teeth: i
 
 @njit(cache=True)
 def filled(
-    corners: Floats,
+    corners: Real,
     starts: Ints,
     depths: Floats,
     width: int,
@@ -105,7 +105,7 @@ def filled(
 
 
 @njit(cache=True)
-def _stretch(hull: Floats, y: float, margin: float) -> tuple[float, float]:
+def _stretch(hull: Real, y: float, margin: float) -> tuple[float, float]:
     """Where a row meets the outline grown by a margin, from left to right; inf, -inf: nowhere."""
     left, right = np.inf, -np.inf
     n = len(hull)

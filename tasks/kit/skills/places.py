@@ -115,7 +115,7 @@ def _read(scene: Scene) -> Layout:
     )
 
 
-def _pieces(wall: Object) -> list[NDArray[np.float64]]:  # type: ignore[no-untyped-def]
+def _pieces(wall: Object) -> list[NDArray[np.float64]]:
     """A wall's middle line in (x, z), open at its doorway."""
     along = np.unique(wall.mesh.vertices[:, 0].round(6))  # 0, the doorway, the length
     ends = np.zeros((len(along), 3))
