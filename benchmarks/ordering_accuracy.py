@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -49,7 +48,7 @@ ORDERINGS: dict[str, Callable[..., Prepared]] = {
     "feudal static (002)": feudal.prepare,
     "feudal dynamic (002)": lambda p: feudal.prepare(p, "dynamic"),
 }
-Result = dict[str, Any]
+Result = Row
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +138,7 @@ def measure_all(names: tuple[str, ...] = SCENES) -> list[Result]:
     return [result for name in names for result in measure(name)]
 
 
-def figures() -> Iterator[dict[str, Any]]:
+def figures() -> Iterator[Row]:
     """The tables as rows of `seethrough bench`."""
     yield from ordering_exactness.figures()
     for name in SCENES:
@@ -154,7 +153,7 @@ def rows(results: list[Result]) -> Iterator[Row]:
             yield row(f"{what}, {result['way']}", result["scene"], result[what], unit)
 
 
-def results_of(table: list[dict[str, Any]]) -> list[Result]:
+def results_of(table: list[Row]) -> list[Result]:
     """The results that rows were made of."""
     found: dict[tuple[str, str], Result] = {}
     for line in table:
@@ -165,14 +164,14 @@ def results_of(table: list[dict[str, Any]]) -> list[Result]:
     return list(found.values())
 
 
-def summary(table: list[dict[str, Any]]) -> str:
+def summary(table: list[Row]) -> str:
     """Which way to pick when, from the rows of `figures`."""
     from seethrough.benchmarks.ordering_advice import advice
 
     return advice(results_of(table))
 
 
-def chart(table: list[dict[str, Any]], path: Path) -> None:
+def chart(table: list[Row], path: Path) -> None:
     """The figure of error against time, from the rows of `figures`."""
     draw_figure(results_of(table), path)
 

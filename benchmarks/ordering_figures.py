@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from seethrough.benchmarks.rows import Row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +34,7 @@ FAMILIES = {
 MARKS = "os^D"
 
 
-def error_against_time(results: list[dict[str, Any]], path: Path) -> None:
+def error_against_time(results: list[Row], path: Path) -> None:
     """One panel for each scene: time of a frame to the right, error upwards, down left is best."""
     from matplotlib.figure import Figure
 
@@ -57,7 +59,7 @@ def error_against_time(results: list[dict[str, Any]], path: Path) -> None:
     )
 
 
-def _panel(axes: Axes, results: list[dict[str, Any]]) -> None:
+def _panel(axes: Axes, results: list[Row]) -> None:
     for starts, (color, chained) in FAMILIES.items():
         members = [r for r in results if r["way"].startswith(starts)]
         times = [r["frame_ms"] for r in members]

@@ -31,15 +31,15 @@ class SystemWindow(pyglet.window.Window):  # type: ignore[misc]  # pyglet picks 
 
     event_time: EventTime | None = None
 
-    def dispatch_platform_event(self, event: Any) -> None:
+    def dispatch_platform_event(self, event: object) -> None:
         """X11 only: keys come this way."""
         self._stamped(super().dispatch_platform_event, event, "window")
 
-    def dispatch_platform_event_view(self, event: Any) -> None:
+    def dispatch_platform_event_view(self, event: object) -> None:
         """X11 only: the pointer's events come this way."""
         self._stamped(super().dispatch_platform_event_view, event, "view")
 
-    def _stamped(self, dispatch: Callable[[Any], None], event: Any, queue: str) -> None:
+    def _stamped(self, dispatch: Callable[[Any], None], event: object, queue: str) -> None:
         if self.event_time is None:
             return dispatch(event)
         self.event_time.stamp, self.event_time.queue = x11_stamp(event), queue
@@ -109,7 +109,7 @@ def say_when_the_server_goes() -> None:
     """Xlib ends the program when its server does: with one line of ours instead of its own."""
     from pyglet.libs.x11 import xlib
 
-    def end(_: Any) -> int:
+    def end(_: object) -> int:
         line = "seethrough: display: the desktop went away; every completed trial is saved"
         print(line, file=sys.stderr, flush=True)
         os._exit(2)

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import moderngl
 import pyglet
@@ -276,7 +276,7 @@ class Window(Waits):
         """Whether the event came before anybody saw the page: meant for the one before it."""
         return self._form is not None and self._when.moment()[0] < self._form_shown
 
-    def _note(self, kind: Callable[..., Event], *what: Any) -> None:
+    def _note(self, kind: Callable[..., Event], *what: object) -> None:
         time, within = self._when.moment()
         self._events.append(kind(time, *what, within))
 

@@ -148,7 +148,7 @@ class Picture:
     """
 
     look: Callable[[], View]
-    technique: Parameters = Standard()
+    technique: Parameters = field(default_factory=Standard)
     height: float = 0.36
 
     @cached_property

@@ -59,7 +59,7 @@ class Table:
         ask_again(guard, path.unlink)
         self._file: int | None = os.open(path, os.O_WRONLY | os.O_APPEND)
 
-    def append(self, *rows: Mapping[str, Any]) -> None:
+    def append(self, *rows: Mapping[str, object]) -> None:
         """Rows at once; columns that are not given stay empty. Unknown columns raise KeyError."""
         lines, value = [], self.chain
         for row in rows:
@@ -200,7 +200,7 @@ def header_of(columns: tuple[Column, ...]) -> str:
     return ",".join(c.name for c in columns)
 
 
-def cell(value: Any) -> str:
+def cell(value: object) -> str:
     """A value as its column's type is written (CONVENTIONS.md, tables)."""
     if value is None:
         return ""

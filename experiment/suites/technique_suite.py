@@ -106,7 +106,7 @@ class _Tried:
         renderer.draw(case.scene, case.camera, p, state=state)
         return renderer.read()
 
-    def played(self, case: Case, p: Any) -> tuple[Any, list[bool]]:
+    def played(self, case: Case, p: object) -> tuple[Any, list[bool]]:
         """The state after some events of every kind, and which ones were used up."""
         shot = base.Shot(case.scene, case.camera, SIZE)
         state, used = self.technique.begin(p), []

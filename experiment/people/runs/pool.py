@@ -7,6 +7,7 @@ study, the same for everybody, as in the real session.
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,7 +40,11 @@ class Pool(StudyScenes):
     """
 
     def __init__(
-        self, study: Study, size: int, draw: Any = None, looks: KeptLooks | None = None
+        self,
+        study: Study,
+        size: int,
+        draw: Callable[[str], Draw] | None = None,
+        looks: KeptLooks | None = None,
     ) -> None:
         if size < 0:
             raise ValueError(f"pool = {size}: expected at least 1 scene a task, 0 for the study's")

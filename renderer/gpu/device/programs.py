@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any
 
 import moderngl
 
@@ -44,7 +43,7 @@ def program(
     fragment: str,
     defines: Sequence[str] = (),
     version: int = 330,
-    values: Mapping[str, Any] | None = None,
+    values: Mapping[str, object] | None = None,
 ) -> Shader:
     """Build a program; `shade()` of renderer.lighting is known to the fragment shader. Both files
     are templates if `values` are given."""
@@ -58,7 +57,7 @@ def program(
     )
 
 
-def _filled_in(name: str, values: Mapping[str, Any]) -> str:
+def _filled_in(name: str, values: Mapping[str, object]) -> str:
     from jinja2 import Environment  # for the few frames that need it
 
     return Environment(line_statement_prefix="%").from_string(_source(name)).render(values)

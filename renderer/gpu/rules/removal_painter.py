@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import moderngl
 
@@ -25,8 +24,8 @@ class RemovalPainter:
         self,
         table: SceneTable,
         frame: FramePlan,
-        technique: Any,
-        state: Any,
+        technique: object,
+        state: object,
         shot: Shot,
         target: FrameTarget,
         matrix: bytes,
