@@ -12,7 +12,7 @@ from seethrough.experiment.errors import InputError
 
 HELP = "write a package with a plug-in of your own, to begin with"
 NAME = re.compile(r"[a-z][a-z0-9_]{0,40}")
-KINDS = ("technique",)
+KINDS = ("technique", "task", "world", "question")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -78,6 +78,10 @@ class Question(Protocol):
         """The frozen dataclass of what a study may set."""
 
     @property
+    def example(self) -> Any:
+        """Parameters that show it."""
+
+    @property
     def texts(self) -> Texts:
         """What it says to participants."""
 

@@ -50,6 +50,7 @@ class Ready:
     source: str = "ours"
     version: str = "1"
     Parameters: Any = NoParameters
+    example: Any = NoParameters()
 
     @property
     def texts(self) -> Texts:
@@ -89,8 +90,13 @@ class Ready:
         return person.by_blocks(page)
 
     def _each(self, asking: Asking) -> list[tuple[Question, Any, Asking]]:
+        """Kind, parameters, what it is asked about: the page says once which levels these are."""
         return [
-            (registry.get("question", part.kind), part.parameters, replace(asking, name=part.item))
+            (
+                registry.get("question", part.kind),
+                part.parameters,
+                replace(asking, name=part.item, about={}),
+            )
             for part in self.parts(asking)
         ]
 

@@ -186,7 +186,7 @@ class Renderer:
 
         scale = size[1] / self.size[1]
         layer.draw(self._table(scene), frame, camera, technique, small, scale, keep, state)
-        return found
+        return [*found, *layer.peeled]
 
     def _looking(self, size: tuple[int, int]) -> tuple[FrameTarget, Layer]:
         """The picture with ids, and what draws into it."""

@@ -122,8 +122,9 @@ def plan(
     boxes = screen_boxes(scene.corners, camera, size)
     drawn = np.nonzero(boxes.inside | ("cull" in without))[0]
     if technique.technique.painter != MASKS:
-        touched = technique.technique.touches(technique, state, Shot(scene, camera, size, scale))
-        return _ruled(_opaque(boxes, drawn, without), touched)
+        rules, shot = technique.technique, Shot(scene, camera, size, scale)
+        state = rules.begin(technique) if state is None else state
+        return _ruled(_opaque(boxes, drawn, without), rules.touches(technique, state, shot))
     if not (scene.targets & boxes.within).any() and not without:
         return _opaque(boxes, drawn, without)
     reach = masks.reach(boxes.extents, technique, technique.width * scale, size)

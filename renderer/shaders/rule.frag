@@ -14,7 +14,9 @@ uniform vec2 size;     // of the picture, in pixels
 uniform float lens;    // pixels for a slope of 1
 
 layout(location = 0) out vec4 picture;
-#ifdef WITH_IDS
+#ifdef PEELED
+layout(location = 1) out vec2 place;  // depth as the depth buffer has it, the object's number + 1
+#elif defined(WITH_IDS)
 layout(location = 1) out float id;
 #endif
 
@@ -34,7 +36,8 @@ vec4 tinted = vec4(0.0);  // a rule may set a colour, and how much of it covers 
 {{ rule }}
 
 #ifdef PEELED
-uniform sampler2D above;    // depth of the layer before, as the depth buffer has it
+uniform bool nearest;       // whether this is the first layer
+uniform sampler2D above;    // `place` of the layer before
 uniform sampler2D below;    // of what is opaque
 uniform sampler2D covered;  // colour and opacity of all layers before
 #endif
@@ -42,7 +45,8 @@ uniform sampler2D covered;  // colour and opacity of all layers before
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
 #ifdef PEELED
-    if (gl_FragCoord.z <= texelFetch(above, texel, 0).x) discard;
+    vec2 before = texelFetch(above, texel, 0).xy;
+    if (!nearest && (before.y == 0.0 || gl_FragCoord.z <= before.x)) discard;
     if (gl_FragCoord.z >= texelFetch(below, texel, 0).x) discard;
     if (texelFetch(covered, texel, 0).a >= 0.9999) discard;
 #endif
@@ -62,10 +66,11 @@ void main() {
     lit = mix(lit, tinted.rgb, tinted.a);
 #ifdef PEELED
     picture = vec4(lit * shown, shown);
+    place = vec2(gl_FragCoord.z, float(object + 1));
 #else
     picture = vec4(lit, 1.0);
 #endif
-#ifdef WITH_IDS
+#if defined(WITH_IDS) && !defined(PEELED)
     id = float(object + 1);
 #endif
 }

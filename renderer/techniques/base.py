@@ -203,6 +203,12 @@ class Technique(Protocol):
     def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
         """(n,) a number of each object's, the Surface's `number` in `glsl`."""
 
+    def sides(self, p: Any) -> bool:
+        """Whether back faces can show."""
+
+    def layers(self, p: Any) -> int | None:
+        """How many layers are peeled at most; None: all."""
+
     def looked_at(self, p: Any) -> Any:
         """The parameters with which `look` finds what is seen."""
 
@@ -261,6 +267,14 @@ class Plain:
     def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
         """1 what may be penetrated, 0 targets and what may not."""
         return (~(scene.targets | scene.impenetrable)).astype(np.int64)
+
+    def sides(self, p: Any) -> bool:
+        """They can."""
+        return True
+
+    def layers(self, p: Any) -> int | None:
+        """All."""
+        return None
 
     def looked_at(self, p: Any) -> Any:
         """As it is drawn."""

@@ -65,6 +65,10 @@ class Removal(base.Plain):
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
 
+    def sides(self, p: Any) -> bool:
+        """Where cuts show a wall."""
+        return bool(p.cap != "none")
+
 
 def look(
     p: Removing, seen: Surfaces, signed: Floats, pierced: Bools, doubt: Bools | float = 0.0

@@ -13,7 +13,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan
 from seethrough.tasks.kit.measure import Measure
-from seethrough.tasks.kit.world import Texts, World
+from seethrough.tasks.kit.world import NO_TEXTS, Texts, World
 
 if TYPE_CHECKING:
     from seethrough.tasks.kit.skills.strategy import Strategy
@@ -70,6 +70,40 @@ class Setting:
 @dataclass(frozen=True)
 class NoParameters:
     """The parameters of a task or world that has none."""
+
+
+class Basics:
+    """What most tasks have in common, to be inherited: any place of the world will do, the question
+    is about its targets, and there are no parameters."""
+
+    name: str
+    version = "1"
+    Parameters: Any = NoParameters
+    texts: Texts = NO_TEXTS
+
+    @property
+    def title(self) -> str:
+        """The name of the text above the instruction."""
+        return f"{self.name}.title"
+
+    @property
+    def instruction(self) -> str:
+        """The name of the text that says what to do."""
+        return f"{self.name}.instruction"
+
+    def make_scene(self, rng: Generator, setting: Setting) -> Any:
+        """A place of the world."""
+        return setting.world.make(rng, setting.place)
+
+    def solution(self, state: Any) -> FloorPlan | None:
+        """No plan."""
+        return None
+
+    def example(self, state: Any, aspect: float) -> Example:
+        """The targets as they are seen at first."""
+        view: View = self.view(state)  # type: ignore[attr-defined] # a task's own
+        asked = [i for i, thing in enumerate(view.scene.objects) if thing.target]
+        return Example(tuple(asked), (view.camera,))
 
 
 class Task(Protocol):

@@ -3,8 +3,8 @@
 import numpy as np
 
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.suites.plain_looks import plain_look
 from seethrough.renderer.scene import geometry
-from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS, setting
 from seethrough.tasks.worlds.building.building import count_building, unique_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
@@ -32,19 +32,7 @@ def begun(name, seed):
 
 def sight(view, shown):
     """All that `shown` (n,) marks and that lies in the view, large and clear; no occlusion."""
-    camera, scene = view.camera, view.scene
-    local = (scene.centers - camera.eye) @ camera.rotation
-    depth = -local[:, 2]
-    half = np.tan(camera.fov_y / 2)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        x = ASPECT / 2 + local[:, 0] / depth / half / 2
-        y = 0.5 - local[:, 1] / depth / half / 2
-    inside = (depth > 0.5) & (np.abs(x - ASPECT / 2) < ASPECT / 2) & (np.abs(y - 0.5) < 0.5)
-    seen = shown & (inside | np.array([o.kind in ("wall", "outer wall") for o in scene.objects]))
-    pixels = np.where(seen, 400, 0)
-    position = np.where(seen[:, None], np.stack([x, y], axis=1), np.nan)
-    on = seen.astype(float)
-    return Visibility(pixels, on, position, 0.6 * on, 400 / 30_000 * on)
+    return plain_look(view, ASPECT, shown)
 
 
 def play(name, seed=1, shown=lambda scene: np.ones(len(scene.objects), bool), most=4000, **more):

@@ -56,6 +56,7 @@ class ChoiceQuestion(OnOnePage):
     name, version = "choice", "1"
     source = "ours"
     Parameters = ChoiceParameters
+    example = ChoiceParameters(text="What did you use?", options=("keyboard", "mouse"))
     texts: Texts = NO_TEXTS
 
     def blocks(self, p: ChoiceParameters, asking: Asking) -> tuple[Choice | Several, ...]:

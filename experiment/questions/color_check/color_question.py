@@ -24,6 +24,7 @@ class ColorQuestion:
     name, version = "color_check", "1"
     source = "ours, after Ishihara 1917"
     Parameters = ColorParameters
+    example = ColorParameters()
     texts: Texts = NO_TEXTS
 
     def count(self, p: ColorParameters) -> int:

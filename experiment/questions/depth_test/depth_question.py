@@ -27,6 +27,7 @@ class DepthQuestion:
     name, version = "depth_test", "1"
     source = "Elmqvist, Assarsson and Tsigas 2007, section VI-G"
     Parameters = DepthParameters
+    example = DepthParameters()
     texts: Texts = NO_TEXTS
 
     def count(self, p: DepthParameters) -> int:

@@ -62,6 +62,7 @@ class LikertQuestion(OnOnePage):
     name, version = "likert", "1"
     source = "Likert 1932"
     Parameters = LikertParameters
+    example = LikertParameters(items=("It was hard work.", "I knew where I was."), points=7)
     texts: Texts = NO_TEXTS
 
     def blocks(self, p: LikertParameters, asking: Asking) -> tuple[Scale, ...]:

@@ -36,6 +36,7 @@ class NumberQuestion(OnOnePage):
     name, version = "number", "1"
     source = "ours"
     Parameters = NumberParameters
+    example = NumberParameters(text="How many things did you see?", high=50)
     texts: Texts = OwnTexts("seethrough.experiment.questions.number")
 
     def blocks(self, p: NumberParameters, asking: Asking) -> tuple[TextField, ...]:

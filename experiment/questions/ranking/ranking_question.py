@@ -35,6 +35,9 @@ class RankingQuestion(OnOnePage):
     name, version = "ranking", "1"
     source = "ours"
     Parameters = RankingParameters
+    example = RankingParameters(
+        text="Put these in order; 1 is best.", options=("red", "green", "blue")
+    )
     texts: Texts = NO_TEXTS
 
     def blocks(self, p: RankingParameters, asking: Asking) -> tuple[Ranking, ...]:

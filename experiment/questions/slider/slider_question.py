@@ -37,6 +37,7 @@ class SliderQuestion(OnOnePage):
     name, version = "slider", "1"
     source = "visual analogue scale, Hayes and Patterson 1921"
     Parameters = SliderParameters
+    example = SliderParameters(text="How sure are you?")
     texts: Texts = NO_TEXTS
 
     def blocks(self, p: SliderParameters, asking: Asking) -> tuple[Scale, ...]:

@@ -31,6 +31,7 @@ class StatementQuestion:
     name, version = "statement", "1"
     source = "ours"
     Parameters = StatementParameters
+    example = StatementParameters(text="Please sit upright.")
     texts: Texts = NO_TEXTS
 
     def count(self, p: StatementParameters) -> int:

@@ -29,6 +29,7 @@ class TextQuestion(OnOnePage):
     name, version = "text", "1"
     source = "ours"
     Parameters = TextParameters
+    example = TextParameters(text="What did you do?")
     texts: Texts = NO_TEXTS
 
     def blocks(self, p: TextParameters, asking: Asking) -> tuple[TextField, ...]:

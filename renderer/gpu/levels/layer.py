@@ -18,10 +18,12 @@ from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactJob, ExactPainter
+from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.techniques.base import REMOVAL, Shot
+from seethrough.renderer.scene.visibility import Drawn
+from seethrough.renderer.techniques.base import PEELS, REMOVAL, Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 if TYPE_CHECKING:
@@ -31,7 +33,7 @@ OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
-PAINTERS = {REMOVAL: RemovalPainter}
+PAINTERS = {PEELS: PeelPainter, REMOVAL: RemovalPainter}
 # The minimum takes no factors: colour stays because a mask's own is made to be larger.
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
@@ -55,6 +57,7 @@ class Layer:
         self._context, self._store = context, store
         defines = ["WITH_IDS"] if ids else []
         self._defines, self._ruled = defines, dict[str, Any]()
+        self.peeled: list[Drawn] = []  # layers of the last frame with ids, from the back
         self._object = program(context, "object.vert", "object.frag", defines)
         self._depth = program(context, "object.vert", "depth.frag", defines)
         self._flat = program(context, "flat.vert", "depth.frag", defines)
@@ -77,6 +80,7 @@ class Layer:
         """Draw the plan. `scale` shrinks the masks' width; `after_level` follows each level
         and is told its objects, None for the opaque ones. `state` is the technique's."""
         self._passes = self._draws = 0
+        self.peeled = []
         reused.begin(self._context)
         camera = tight(camera, frame)
         size = target.size
@@ -100,7 +104,7 @@ class Layer:
         if len(frame.ruled):
             shot = Shot(table.scene, camera, size, scale)
             self._draw_ruled(table, frame, technique, state, shot, target)
-            if after_level is not None:
+            if after_level is not None and not self.peeled:
                 after_level(frame.ruled)
         if len(frame.exact) and after_level is None:
             job = self._job(table, frame, camera, technique, scale, size)
@@ -117,6 +121,7 @@ class Layer:
         painter = self._ruled[name]
         self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
         self._passes += 1
+        self.peeled = painter.found[::-1]
 
     def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
         """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""

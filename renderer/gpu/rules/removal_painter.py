@@ -10,7 +10,8 @@ from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
 from seethrough.renderer.plan.planner import FramePlan
-from seethrough.renderer.techniques.base import Shot
+from seethrough.renderer.scene.visibility import Drawn
+from seethrough.renderer.techniques.base import Parameters, Shot
 
 
 class RemovalPainter:
@@ -19,12 +20,13 @@ class RemovalPainter:
     def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
         self._context = context
         self._programs = RulePrograms(context, defines)
+        self.found: list[Drawn] = []  # one layer, which is the picture
 
     def draw(
         self,
         table: SceneTable,
         frame: FramePlan,
-        technique: object,
+        technique: Parameters,
         state: object,
         shot: Shot,
         target: FrameTarget,
@@ -34,7 +36,8 @@ class RemovalPainter:
         shader = self._programs.ready(table, technique, state, shot, matrix)
         sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
         target.framebuffer.use()
-        self._context.enable_only(moderngl.DEPTH_TEST)
+        sides = technique.technique.sides(technique)
+        self._context.enable_only(moderngl.DEPTH_TEST | (0 if sides else moderngl.CULL_FACE))
         self._context.depth_func = "<="
         draw(self._context, shader, table, sequence, runs[0], shot.camera, matrix)
         return len(runs[0])

@@ -1,0 +1,148 @@
+"""Draws surfaces that show through one another: layer by layer, from the front.
+
+Each pass keeps the nearest surface behind the layer before, with the colour and opacity that the
+rule gives it, and puts it under what is there already, until no pass finds one (depth peeling).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.gpu.device.programs import program
+from seethrough.renderer.gpu.device.scene_table import SceneTable
+from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
+from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.scene.visibility import Drawn
+from seethrough.renderer.techniques.base import Shot
+
+# Texture units, beyond those of a rule's pictures.
+ABOVE, BELOW, COVERED, LAYER = 10, 11, 12, 13
+UNDER = (moderngl.ONE_MINUS_DST_ALPHA, moderngl.ONE)
+OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
+
+
+class _Buffers:
+    """Two layers in turn, what they add up to, and the depth of what is opaque."""
+
+    def __init__(self, context: moderngl.Context, size: tuple[int, int], ids: bool) -> None:
+        self.size, self.ids = size, ids
+        self.owned: list[Any] = []
+
+        def texture(components: int, dtype: str) -> moderngl.Texture:
+            made = context.texture(size, components, dtype=dtype)
+            made.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            self.owned.append(made)
+            return made
+
+        def framebuffer(*attachments: Any) -> moderngl.Framebuffer:
+            made = context.framebuffer(list(attachments[:-1]), attachments[-1])
+            self.owned.append(made)
+            return made
+
+        self.colors = [texture(4, "f4") for _ in range(2)]
+        self.places = [texture(2, "f4") for _ in range(2)]
+        depths = [context.depth_renderbuffer(size) for _ in range(2)]
+        self.layers = [
+            framebuffer(color, place, depth)
+            for color, place, depth in zip(self.colors, self.places, depths, strict=True)
+        ]
+        self.sum = texture(4, "f4")
+        self.total = framebuffer(self.sum, None)
+        self.below = context.depth_texture(size)
+        self.below.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.below.compare_func = ""
+        like = [texture(4, "f2"), *([texture(1, "f4")] * ids)]
+        self.opaque = framebuffer(*like, self.below)
+        self.owned += [*depths, self.below]
+
+    def release(self) -> None:
+        for thing in self.owned:
+            thing.release()
+
+
+class PeelPainter:
+    """Keeps programs and buffers. `found` are the layers of the last frame drawn with ids."""
+
+    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
+        self._context, self._ids = context, "WITH_IDS" in defines
+        self._programs = RulePrograms(context, ["PEELED"])
+        self._put = program(context, "present.vert", "layer.frag")
+        self._screen = context.vertex_array(self._put.program, [])
+        self._buffers: _Buffers | None = None
+        self._query = context.query(samples=True)
+        self.found: list[Drawn] = []
+
+    def draw(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        technique: Any,
+        state: Any,
+        shot: Shot,
+        target: FrameTarget,
+        matrix: bytes,
+    ) -> int:
+        """Draw the plan's ruled objects over those already in the target. Returns the draws."""
+        context, size = self._context, target.size
+        if self._buffers is None or self._buffers.size != size:
+            if self._buffers is not None:
+                self._buffers.release()
+            self._buffers = _Buffers(context, size, self._ids)
+        buffers = self._buffers
+        context.copy_framebuffer(buffers.opaque, target.framebuffer)
+        shader = self._programs.ready(table, technique, state, shot, matrix)
+        sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
+        buffers.total.clear()
+        shader.set(above=ABOVE, below=BELOW, covered=COVERED)
+        self.found, draws = [], 0
+        most, sides = technique.technique.layers(technique), technique.technique.sides(technique)
+        for k in range(most if most is not None else 10_000):
+            layer = buffers.layers[k % 2]
+            layer.clear(depth=1.0)
+            layer.use()
+            self._bind(buffers, k)
+            shader.set(nearest=k == 0)
+            context.enable_only(moderngl.DEPTH_TEST | (0 if sides else moderngl.CULL_FACE))
+            context.depth_func = "<"
+            with self._query:
+                draw(context, shader, table, sequence, runs[0], shot.camera, matrix)
+            draws += len(runs[0])
+            if self._query.samples == 0:
+                break
+            if self._ids:
+                self.found.append(_drawn(layer, size))
+            self._compose(buffers.colors[k % 2], buffers.total, UNDER)
+        self._compose(buffers.sum, target.framebuffer, OVER)
+        return draws
+
+    def _bind(self, buffers: _Buffers, k: int) -> None:
+        buffers.places[(k + 1) % 2].use(ABOVE)
+        buffers.below.use(BELOW)
+        buffers.sum.use(COVERED)
+
+    def _compose(self, layer: moderngl.Texture, into: moderngl.Framebuffer, how: Any) -> None:
+        into.use()
+        layer.use(LAYER)
+        self._put.set(layer=LAYER)
+        self._context.enable_only(moderngl.BLEND)
+        self._context.blend_func = how
+        self._screen.render(moderngl.TRIANGLES, 3)
+
+
+def _drawn(layer: moderngl.Framebuffer, size: tuple[int, int]) -> Drawn:
+    """Where a layer shows something, what, and how strongly."""
+    width, height = size
+
+    def read(attachment: int, components: int) -> NDArray[np.float32]:
+        data = layer.read(components=components, attachment=attachment, dtype="f4", alignment=1)
+        return np.frombuffer(data, "f4").reshape(height, width, components)[::-1]
+
+    numbers_, opacity = read(1, 2)[..., 1].ravel(), read(0, 4)[..., 3].ravel()
+    where = np.nonzero(numbers_ > 0)[0]
+    return where, numbers_[where].astype(np.int64), opacity[where]

@@ -1,0 +1,93 @@
+"""Importance-driven transparency (Viola, Kanitsar and Gröller 2004): what hides what matters grows
+sparse.
+
+Targets matter. A surface in front of one, at the same pixel, keeps only the opacity `least`; in
+the style "screen door" it keeps that part of its pixels, in a fixed pattern of 4 × 4, and is opaque
+in them. Nothing gradual is about a target: its neighbourhood stays as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.declared import key
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.layered import Layered, Layering
+from seethrough.renderer.techniques.removal import reached
+
+STYLES = ("opacity", "screen door")
+# Bayer's threshold matrix, 0 to 15: the pattern of a screen door of any density.
+DOOR = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
+
+
+@dataclass(frozen=True)
+class ImportanceParameters(Layered):
+    """How sparse what hides a target becomes."""
+
+    least: float = key(0.25, "opacity, or part of the pixels, that is left before a target",
+                       low=0, high=1)  # fmt: skip
+    style: str = key("opacity", "how a surface grows sparse", choices=STYLES)
+
+
+class Importance(Layering):
+    """Sparse where a target is behind."""
+
+    name = "importance"
+    title = "Importance-driven transparency"
+    instruction = "Whatever hides a target grows sparse there."
+    source = "viola2004"
+    needs = frozenset({"target_depth"})
+    Parameters = ImportanceParameters
+    strength = f"""
+uniform sampler2D target_depth;
+uniform float least;
+uniform bool door;
+const int pattern[16] = int[16]({", ".join(map(str, DOOR.ravel().tolist()))});
+float opacity_of(Surface s) {{
+    if (s.depth >= texelFetch(target_depth, s.texel, 0).x) return 1.0;
+    if (!door) return least;
+    int cell = pattern[(int(s.place.y) % 4) * 4 + int(s.place.x) % 4];
+    return (float(cell) + 0.5) / 16.0 < least ? 1.0 : 0.0;
+}}
+"""
+
+    def touches(self, p: ImportanceParameters, state: Any, shot: Shot) -> Bools:
+        """What overlaps a target on the screen and reaches nearer than its end."""
+        from seethrough.renderer.scene.projection import screen_boxes
+
+        boxes = screen_boxes(shot.scene.corners, shot.camera, shot.size)
+        among = shot.scene.targets & boxes.inside
+        return reached(shot, boxes.extents[among] + [-1, -1, 1, 1], boxes.far[among])
+
+    def known(self, p: ImportanceParameters, state: Any, seen: Surfaces) -> Floats:
+        """(h·w,) depth of the farthest surface of a target that faces the viewer."""
+        return seen.farthest(seen.targets & seen.front)
+
+    def rule(self, p: ImportanceParameters, state: Any, seen: Surfaces, known: Floats) -> Look:
+        """Sparse before the farthest target at the pixel."""
+        before = seen.depth < known[seen.pixel]
+        strength = np.full(len(before), p.least)
+        if p.style == "screen door":
+            column, row = seen.place.astype(np.int64).T
+            strength = ((DOOR[row % 4, column % 4] + 0.5) / 16 < p.least).astype(float)
+        near = np.abs(seen.depth - known[seen.pixel]) <= 2 * seen.slack
+        return self.look(p, seen, np.where(before, strength, 1.0), near & seen.penetrable)
+
+    def uniforms(self, p: ImportanceParameters, state: Any, shot: Shot) -> dict[str, Any]:
+        """How sparse."""
+        style = {"least": p.least, "door": p.style == "screen door"}
+        return {**super().uniforms(p, state, shot), **style}
+
+    def pictures(
+        self, p: ImportanceParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+    ) -> Mapping[str, NDArray[np.float32]]:
+        """The targets' depth."""
+        return needed
+
+
+TECHNIQUE = Importance()

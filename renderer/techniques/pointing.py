@@ -1,0 +1,54 @@
+"""What the pointer does to techniques that follow it: its place, and a number that keys change.
+
+An event is told by its class's name, as tasks/kit/events.py has them: the renderer lies below it.
+Where the pointer has not moved, or is captured to walk, the place is the middle of the view.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from seethrough.renderer.techniques.base import Floats, Shot
+
+
+@dataclass(frozen=True)
+class Pointing:
+    """Where the pointer is, in view units (None: it has not moved), and how far it works."""
+
+    pointer: tuple[float, float] | None
+    depth: float
+
+    def pixel(self, shot: Shot) -> tuple[float, float]:
+        """Column and row of the place, in pixels."""
+        x, y = self.pointer or (shot.aspect / 2, 0.5)
+        return x * shot.size[1], y * shot.size[1]
+
+    def direction(self, shot: Shot) -> Floats:
+        """(3,) from the eye through the place, in the world, of view depth 1."""
+        column, row = self.pixel(shot)
+        right, up, back = shot.camera.rotation.T
+        x, y = column - shot.size[0] / 2, shot.size[1] / 2 - row
+        found: Floats = (x * right + y * up) / lens(shot) - back
+        return found
+
+
+def lens(shot: Shot) -> float:
+    """Pixels for a slope of 1."""
+    return float(0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
+
+
+def followed(state: Pointing, event: Any, step: float) -> tuple[Pointing, bool]:
+    """The state after an event: the pointer moves it, q and e bring it nearer and farther by a
+    `step` (a share), and so does the wheel. A move of the pointer is left to others as well."""
+    kind = type(event).__name__
+    if kind == "PointerMove":
+        return replace(state, pointer=(event.x, event.y)), False
+    if kind == "KeyPress" and event.key in ("q", "e"):
+        factor = 1 + step if event.key == "e" else 1 / (1 + step)
+        return replace(state, depth=state.depth * factor), True
+    if kind == "Wheel":
+        return replace(state, depth=state.depth * (1 + step) ** event.steps), True
+    return state, False

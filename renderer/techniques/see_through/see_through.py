@@ -1,0 +1,52 @@
+"""See-through surfaces (Chittaro and Scagnetto 2001): some things, as walls, are transparent.
+
+Which ones, the study says by their kind; targets and what is impenetrable stay opaque.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.declared import key
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.base import Look, Shot, Surfaces
+from seethrough.renderer.techniques.layered import Layered, Layering
+
+
+@dataclass(frozen=True)
+class SeeThroughParameters(Layered):
+    """Which things are transparent, and how much."""
+
+    alpha: float = key(0.3, "opacity of their surfaces", low=0, high=1)
+    kinds: tuple[str, ...] = key(("wall",), "kinds of things that are transparent")
+
+
+class SeeThrough(Layering):
+    """One opacity for things of some kinds."""
+
+    name = "see_through"
+    title = "See-through surfaces"
+    instruction = "Walls are transparent."
+    source = "chittaro2001"
+    Parameters = SeeThroughParameters
+    strength = "uniform float alpha;\nfloat opacity_of(Surface s) { return alpha; }\n"
+
+    def objects(self, p: SeeThroughParameters, scene: Scene) -> NDArray[np.int64]:
+        """1 what is of one of the kinds."""
+        kinds = np.array([thing.kind in p.kinds for thing in scene.objects], dtype=bool)
+        return (kinds & ~scene.targets & ~scene.impenetrable).astype(np.int64)
+
+    def rule(self, p: SeeThroughParameters, state: Any, seen: Surfaces, known: Any) -> Look:
+        """The same for each surface of the kinds."""
+        return self.look(p, seen, np.full(len(seen.depth), p.alpha))
+
+    def uniforms(self, p: SeeThroughParameters, state: Any, shot: Shot) -> dict[str, Any]:
+        """The opacity."""
+        return {**super().uniforms(p, state, shot), "alpha": p.alpha}
+
+
+TECHNIQUE = SeeThrough()

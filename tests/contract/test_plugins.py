@@ -1,0 +1,149 @@
+"""Every task, world and kind of question is what its suite demands; strangers' are found and pass
+with no edit elsewhere; and the suite finds what is wrong."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from plugins import seethrough
+
+from seethrough import registry
+from seethrough.experiment import cli
+from seethrough.experiment.suites import suite
+from seethrough.experiment.suites.suite import RULES, findings
+from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.count.count_task import Count
+from seethrough.tasks.kit.hud import Label
+from seethrough.tasks.kit.measure import DISTANCE
+from seethrough.tasks.worlds.abstract.abstract_world import Abstract
+
+LONGEST = 60  # lines of a toy, all its files together
+OURS = [(kind, name) for kind in RULES for name in registry.names(kind)]
+
+
+@pytest.mark.parametrize(("kind", "name"), OURS)
+def test_every_plugin_is_what_its_suite_demands(kind: str, name: str) -> None:
+    """No rule of a kind finds anything in any of it."""
+    found = list(findings(kind, name))
+    assert len(found) >= 6
+    assert [str(finding) for finding in found if not finding.holds] == []
+
+
+class Shifts(Count):
+    """Remembers what it must not: the second trial begins elsewhere."""
+
+    begun = 0
+
+    def begin(self, made, setting, aspect):
+        Shifts.begun += 1
+        state = super().begin(made, setting, aspect)
+        return replace(state, orbit=replace(state.orbit, yaw=0.1 * Shifts.begun))
+
+
+class Late(Count):
+    """Its picture depends on the clock."""
+
+    def view(self, state):
+        time.monotonic()
+        return super().view(state)
+
+
+class Fragile(Count):
+    """One key too many."""
+
+    def on_event(self, state, event):
+        if getattr(event, "key", "") == "tab":
+            raise RuntimeError("tab")
+        return super().on_event(state, event)
+
+
+class Mute(Count):
+    """Says what no language knows, and measures what it does not."""
+
+    measures = (*Count.measures, DISTANCE)
+
+    def view(self, state):
+        view = super().view(state)
+        return replace(view, hud=(*view.hud, Label("count.nothing", (0.1, 0.1))))
+
+
+class Random(Abstract):
+    """Draws from a stream of its own."""
+
+    def make(self, rng, parameters):
+        return super().make(np.random.Generator(np.random.PCG64(time.time_ns())), parameters)
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "plugin", "words"),
+    [
+        ("task", "count", Shifts, ("two ways",)),
+        ("task", "count", Late, ("ReadsTheClock",)),
+        ("task", "count", Fragile, ("raised RuntimeError: tab",)),
+        ("task", "count", Mute, ("text count.nothing", "measure distance")),
+        ("world", "abstract", Random, ("ReadsTheClock",)),
+    ],
+)
+def test_the_suite_finds(kind, name, plugin, words, monkeypatch):
+    """Faults that a plug-in's author would not see."""
+    faulty, real = plugin(), registry.get
+    found = lambda k, n: faulty if (k, n) == (kind, name) else real(k, n)  # noqa: E731
+    monkeypatch.setattr(suite.registry, "get", found)
+    problems = [str(finding) for finding in findings(kind, name) if not finding.holds]
+    for word in words:
+        assert any(word in problem for problem in problems), problems
+
+
+@pytest.fixture(scope="module")
+def strangers(tmp_path_factory: pytest.TempPathFactory, root: Path) -> Path:
+    """Where the toys are installed, beside packages that `new` began."""
+    site, work = tmp_path_factory.mktemp("site"), tmp_path_factory.mktemp("work")
+    folders = []
+    for kind in RULES:
+        shutil.copytree(root / "tests" / "plugins" / f"toy_{kind}", work / f"toy_{kind}")
+        assert cli.main(["new", kind, f"begun_{kind}", str(work / f"begun_{kind}")]) == 0
+        folders += [work / f"toy_{kind}", work / f"begun_{kind}"]
+    pip = (sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation",
+           "--no-index", "--upgrade", "--target", str(site))  # fmt: skip
+    subprocess.run([*pip, *map(str, folders)], check=True, capture_output=True)
+    return site
+
+
+@pytest.mark.parametrize("whose", ["toy", "begun"])
+@pytest.mark.parametrize("kind", RULES)
+def test_a_strangers_package_is_listed_and_passes(kind, whose, strangers):
+    """With no edit of ours: found by its entry point."""
+    name = f"{whose}_{kind}"
+    for words in (("list",), ("check", name)):
+        run = seethrough(strangers, kind, *words)
+        assert run.returncode == 0, run.stdout + run.stderr
+        assert words[0] == "check" or name in run.stdout
+
+
+@pytest.mark.parametrize("kind", RULES)
+def test_toys_are_short(kind: str, root: Path) -> None:
+    """So much is what a plug-in costs."""
+    files = (root / "tests" / "plugins" / f"toy_{kind}").iterdir()
+    lines = sum(len(f.read_text("utf-8").splitlines()) for f in files if f.is_file())
+    assert lines <= LONGEST
+
+
+def test_what_cannot_be_begun_or_checked_is_said_in_a_line(tmp_path, capsys):
+    (tmp_path / "there").mkdir()
+    for words, message in (
+        (["new", "task", "Bad Name", str(tmp_path / "x")], "expected small letters"),
+        (["new", "task", "count", str(tmp_path / "x")], "there is one of this name already"),
+        (["new", "task", "mine", str(tmp_path / "there")], "expected a folder that can be made"),
+        (["task", "check", "cuont"], "did you mean count?"),
+    ):
+        assert cli.main(words) == 2
+        said = capsys.readouterr().err
+        assert message in said and said.count("\n") == 1
+    assert set(TASKS) >= {"count", "pattern", "unique", "count_in_building"}
