@@ -28,25 +28,22 @@ def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect | Ran
         study = load_study(folder, source)
     except DataError as error:
         raise DataError(f"--effect = {folder}: {line}" for line in error.lines) from None
-    trials = study.trials
     design, trials = study.design, study.trials
     contrast = next((c for c in design.contrasts() if not c.between), None)
     levels = () if contrast is None else (contrast.baseline, contrast.level)
     if contrast is None or not set(levels) <= set(trials[contrast.factor].astype("str")):
         name = "any factor" if contrast is None else contrast.factor
         raise InputError(f"--effect = {folder}: expected trials of both levels of {name}")
-    effects: list[SampledEffect | RankEffect] = []
-    for measure in sorted(design.measures(), key=lambda m: m.ranked):
-        effects += _effects(study, measure, contrast)
-    effects += _ratings(study, contrast)
-    if any(len(e.people.values if isinstance(e, RankEffect) else e.values) < 2 for e in effects):
+    plain = [m for m in design.measures() if not m.ranked]
+    effects = [e for m in plain for e in _effects(study, m, contrast)]
+    ranked = [e for m in design.measures() if m.ranked for e in _effects(study, m, contrast)]
+    ranked += _ratings(study, contrast)
+    if any(len(effect.values) < 2 for effect in (*effects, *ranked)):
         raise InputError(f"--effect = {folder}: expected at least 2 complete participants")
-    return effects
+    return [*effects, *map(RankEffect, ranked)]
 
 
-def _effects(
-    study: Study, measure: Measured, contrast: Contrast
-) -> Iterator[SampledEffect | RankEffect]:
+def _effects(study: Study, measure: Measured, contrast: Contrast) -> Iterator[SampledEffect]:
     """A measure's effects: over its tasks, for a time, and in each; what a task is not judged by is
     left out."""
     if measure.adds == ABSOLUTE:
@@ -60,13 +57,11 @@ def _effects(
         found = _effect(f"{name} {task}", cells, contrast, task=task)
         own = study.design.task(task)
         price = price_of(own) if own else None
-        if not measure.ranked:
+        if not measure.ranked or (price is not None and price.name == measure.name):
             yield found
-        elif price is not None and price.name == measure.name:
-            yield RankEffect(found)
 
 
-def _ratings(study: Study, contrast: Contrast) -> Iterator[RankEffect]:
+def _ratings(study: Study, contrast: Contrast) -> Iterator[SampledEffect]:
     """The mean of the items that are asked for each level."""
     asked = [i for i in study.design.items or () if contrast.factor in i.each]
     if not asked or not len(study.questionnaire):
@@ -75,7 +70,7 @@ def _ratings(study: Study, contrast: Contrast) -> Iterator[RankEffect]:
     own = [i.name for i in asked if i.each == asked[0].each]
     cells = measures.ratings(study.questionnaire, own, factors)
     if {contrast.baseline, contrast.level} <= set(cells.factors[contrast.factor]):
-        yield RankEffect(_effect("rating, overall", cells, contrast))
+        yield _effect("rating, overall", cells, contrast)
 
 
 def _effect(name: str, cells: Cells, contrast: Contrast, **at: str) -> SampledEffect:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.experiment.pages.depth_test import (
+from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Picture, on_picture
+from seethrough.experiment.questions.depth_test.depth_pairs import (
     APART,
     PAIRS,
     RATIO,
@@ -14,9 +15,7 @@ from seethrough.experiment.pages.depth_test import (
     _depths,
     _pairs,
     depth_test,
-    on_picture,
 )
-from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Picture
 from seethrough.experiment.study.config import load
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.geometry import sphere
@@ -98,7 +97,8 @@ def test_pairs_by_hand():
 
 @pytest.fixture(scope="module")
 def made():
-    return depth_test(load("published"))
+    study = load("published")
+    return depth_test(study.study.seed, "building", study.walkthrough)
 
 
 def test_the_studys_own_test_asks_what_can_be_told(made):

@@ -5,7 +5,7 @@ from numpy.testing import assert_allclose
 from played_tasks import ASPECT
 
 from seethrough.tasks.kit.events import KeyPress, PointerPress
-from seethrough.tasks.kit.plan_mark import PlanMark
+from seethrough.tasks.worlds.building.plan_mark import PlanMark
 
 
 @pytest.mark.parametrize(
