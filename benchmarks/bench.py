@@ -15,6 +15,7 @@ HELP = "measure accuracy against time"
 # Each module has figures(), which gives {figure, scene, value, unit, must, aim, met} one by one.
 BENCHES = (
     "accuracy",
+    "design",
     "effects",
     "ordering",
     "ordering_accuracy",
@@ -22,6 +23,7 @@ BENCHES = (
     "simulate",
     "speed",
     "statistics",
+    "techniques",
 )
 
 

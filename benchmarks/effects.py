@@ -48,7 +48,7 @@ def trials(
         person = SimulatedParticipant(
             generator(SEED, (SIMULATED, slot)), profile, frozenset(without)
         )
-        for task_set in session_for(slot, pool.study.design.factors()):
+        for task_set in session_for(slot, pool.study.plan):
             if task_set.trials[0].task not in tasks:
                 continue
             for trial in (*task_set.training, *task_set.trials):

@@ -91,9 +91,8 @@ class OpenEyes(Pool):
         self.renderer, self.way = renderer, way
         self.picture = (round(way.height * ASPECT), way.height)
 
-    def look(self, view: View, level: str) -> Visibility:
+    def look(self, view: View, technique: Any) -> Visibility:
         """What is seen in the view, drawn anew."""
-        technique = self.study.technique(level)
         scene = simplified(view.scene) if self.way.simple else view.scene
         return self.renderer.look(scene, view.camera, technique, self.picture)
 
@@ -106,8 +105,8 @@ def play(trials: Sequence[Trial], pool: Pool, way: Way, repeats: int) -> Eyes:
     for k, trial in enumerate(trials):
         for repeat in range(repeats):
             person = SimulatedParticipant(generator(1, (SIMULATED, 1 + k, repeat)), profile)
-            text = Paragraph(f"transparency.{trial.transparency}")
-            person.answer(Page("instruction", "", (text,)))
+            levels = tuple(trial.levels.items())
+            person.answer(Page("instruction", "", (Paragraph("ready.text"),), levels=levels))
             record, sent = play_trial(person, pool, trial)
             played.append(record)
             events.append(sent)
@@ -135,7 +134,7 @@ def measure(eyes: Eyes, reference: Eyes) -> dict[str, Any]:
 
 def _looks(eyes: Eyes) -> float:
     """Looks a simulated second in the building, where every frame is looked at."""
-    walks = [t for t in eyes.trials if t.trial.scenario != "abstract"]
+    walks = [t for t in eyes.trials if t.trial.world != "abstract"]
     return sum(t.frames for t in walks) / sum(t.time for t in walks)
 
 
@@ -170,7 +169,7 @@ def _se(differences: NDArray[np.float64]) -> float:
 def run(repeats: int) -> list[dict[str, Any]]:
     """Every way to look, the reference first."""
     study = load("published")
-    trials = [s.trials[0] for s in session_for(1, study.design.factors())]
+    trials = [s.trials[0] for s in session_for(1, study.plan)]
     renderer = Renderer(open_context(), (800, 600))
     seen = []
     for way in WAYS:

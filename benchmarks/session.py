@@ -69,7 +69,7 @@ def figures() -> Iterator[Row]:
 def _first_view(study: Study) -> tuple[Any, View]:
     from seethrough.experiment.study.study_scenes import StudyScenes
 
-    trial = session_for(1, study.design.factors())[0].trials[0]
+    trial = session_for(1, study.plan)[0].trials[0]
     task = TASKS[trial.task]
     return trial, task.view(StudyScenes(study).begin(task, trial, 4 / 3))
 

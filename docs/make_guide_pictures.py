@@ -76,12 +76,12 @@ def main() -> None:
     camera.page(_page("welcome"))
     list(asked(before(study, 1), camera))  # type: ignore[arg-type]
     run = TrialRun(study, SimpleNamespace(scenes=None, display=camera.stage, tasks=TASKS))  # type: ignore[arg-type]
-    task_sets = session_for(1, study.design.factors())
+    task_sets = session_for(1, study.plan)
     shown = set()
     for number, task_set in enumerate(task_sets):
         camera.stage.done = number / len(task_sets)
         trial = task_set.trials[0]
-        if trial.transparency == "dynamic" or trial.task not in shown:
+        if trial.levels["transparency"] == "dynamic" or trial.task not in shown:
             shown.add(trial.task)
             camera.page(_instruction(trial, 8, run), f"instruction-{trial.task}")
             _task(camera, run, trial)

@@ -31,19 +31,18 @@ USUAL = (8, 4)  # more objects or masks than that seldom meet in a block of pixe
 
 
 def warm() -> None:
-    """Draw and look at a trial of each scenario, and sort pixels in every way that a trial may.
+    """Draw and look at a trial of each task set, and sort pixels in every way that a trial may.
 
     Raises RuntimeError without OpenGL.
     """
     study = load("demo")
     scenes, renderer = StudyScenes(study), Renderer(standalone(), SIZE)
-    for task_set in session_for(1, study.design.factors()):
+    for task_set in session_for(1, study.plan):
         trial = task_set.trials[0]
-        if trial.transparency == "dynamic":
-            task = TASKS[trial.task]
-            view = task.view(scenes.begin(task, trial, SIZE[0] / SIZE[1]))
-            renderer.draw(view.scene, view.camera, study.dynamic)
-            renderer.look(view.scene, view.camera, study.dynamic, SIZE)
+        task, technique = TASKS[trial.task], study.part(trial.levels).technique
+        view = task.view(scenes.begin(task, trial, SIZE[0] / SIZE[1]))
+        renderer.draw(view.scene, view.camera, technique)
+        renderer.look(view.scene, view.camera, technique, SIZE)
     counts = SLICES[SLICES <= USUAL[0]].tolist(), MASKS[MASKS <= USUAL[1]].tolist()
     for objects, targets in product(*counts):
         for pierced in (False, True):

@@ -5,14 +5,19 @@ from __future__ import annotations
 import argparse
 import csv
 from collections import Counter
-from dataclasses import fields
+from collections.abc import Sequence
+from dataclasses import fields, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.session.levels import of_blocks
 from seethrough.experiment.study.config import Study, load
-from seethrough.experiment.study.design import order_of, session_for
+from seethrough.experiment.study.design import TaskSet, session_for
+from seethrough.experiment.study.factors import ALONE, WITHIN
+from seethrough.experiment.study.own_model_files import models_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 
 if TYPE_CHECKING:
@@ -22,6 +27,7 @@ if TYPE_CHECKING:
 SECONDS = 10.0  # of the hardest scene
 LEAST_DISK = 1.0  # GiB
 MOST_REDRAWS = 50
+MOST_PLAYED = 5_000  # sessions
 MOST_ORDERS = 64  # more than a square of the conditions that there can be has rows
 SMOOTH, HOPELESS = 0.01, 0.5  # shares of frames missed: above the first a warning, the last fails
 NO_CARD = "no graphics card draws: expected frames to be late in hard scenes"
@@ -34,6 +40,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--certificate", type=Path, metavar="FILE.csv", help="every trial's row")
     parser.add_argument(
         "--redraw", action="store_true", help="find the scenes to draw again, and print them"
+    )
+    parser.add_argument(
+        "--balance", action="store_true", help="count balance from the tables of --slots sessions"
+    )
+    parser.add_argument(
+        "--slots", type=int, metavar="N", help="default: a complete cycle of every group"
     )
     parser.add_argument(
         "--models", type=Path, metavar="FILE.png", help="where a picture of its own models goes"
@@ -51,6 +63,9 @@ def run(arguments: argparse.Namespace) -> int:
     said.say("config", f"{study.study.name}, {study.digest()[:12]}")
     _models(study, said)
     _design(study, said)
+    if arguments.balance:
+        _balance(study, arguments.slots, said)
+        return said.sum_up()
     if arguments.config_only:
         return said.sum_up()
     from seethrough.experiment.display.driver import describe, on_the_processor, open_context
@@ -63,16 +78,17 @@ def run(arguments: argparse.Namespace) -> int:
     measured = _measured(study, context)
     _difficulty(study, measured, context, arguments.redraw, said)
     if arguments.certificate is not None:
-        _write(measured, arguments.certificate)
+        _write(study, measured, arguments.certificate)
     _machine(study, measured, context, arguments.seconds, said)
     return said.sum_up()
 
 
 def _models(study: Study, said: Verdicts) -> None:
     """What the study brings along: read already, or there would be no study."""
-    if study.walkthrough.models:
+    models = models_of(study)
+    if models:
         from seethrough.experiment.study.contact_sheet import described, facts_of
-    for own in study.walkthrough.models:
+    for own in models:
         first, *more = described(own, facts_of(own), study)
         said.say("model", f"{own.name}: {own.file}, {first}, {own.sha256[:12]}")
         for line in more:
@@ -83,7 +99,7 @@ def _contact_sheet(
     study: Study, context: Any, arguments: argparse.Namespace, said: Verdicts
 ) -> None:
     """The study's own models in a picture, where it has any."""
-    if study.walkthrough.models:
+    if models_of(study):
         from seethrough.experiment.study import contact_sheet
 
         path = arguments.models or contact_sheet.default_path(arguments.study)
@@ -92,21 +108,62 @@ def _contact_sheet(
 
 
 def _design(study: Study, said: Verdicts) -> None:
-    factors, count = study.design.factors(), study.study.participants
-    per_session = sum(len(s.trials) for s in session_for(1, factors))
-    rows = Counter(order_of(slot, len(factors.conditions)) for slot in range(1, count + 1))
-    total = count * per_session
-    said.say("design", f"{count} participants × {per_session} trials = {total} trials")
-    for order, number in sorted(rows.items()):
-        way = " → ".join("/".join(factors.conditions[c]) for c in order)
-        said.say("design", f"{number} × {way}")
-    uneven = max(rows.values()) - min(rows.values())
-    orders = {order_of(slot, len(factors.conditions)) for slot in range(1, MOST_ORDERS + 1)}
-    if uneven == 0 and len(rows) == len(orders):
-        said.say("design", "each order equally often")
-    else:
-        why = f"expected a multiple of {len(orders)} participants"
-        said.say("design", "the orders are not equally often", WARNING, why)
+    plan = study.plan
+    for which, group in enumerate(plan.groups):
+        name = "/".join(group.levels.values())
+        sessions = [session_for(plan.slot_of(which, n), plan) for n in range(1, group.people + 1)]
+        per_session = sum(len(s.trials) for s in sessions[0])
+        total, where = group.people * per_session, f"{name}: " if name else ""
+        text = f"{where}{group.people} participants × {per_session} trials = {total} trials"
+        said.say("design", text)
+        rows = Counter(map(partial(_conditions, study), sessions))
+        for order, number in sorted(rows.items())[:MOST_ORDERS]:
+            said.say("design", f"{where}{number} × {' → '.join(order)}")
+        if len(rows) > MOST_ORDERS:
+            said.say("design", f"{where}… and {len(rows) - MOST_ORDERS} orders more")
+        wanted = plan.rows(which)
+        uneven = group.people % wanted
+        if "random" in (study.design.order, *(f.order for f in study.factors)):
+            said.say("design", f"{where}orders are drawn: nothing is promised of them")
+        elif not uneven:
+            said.say("design", f"{where}each order equally often")
+        else:
+            why = f"expected a multiple of {wanted} participants"
+            said.say("design", f"{where}the orders are not equally often", WARNING, why)
+
+
+def _balance(study: Study, count: int | None, said: Verdicts) -> None:
+    """Counted from finished tables: after so many people, and where a fifth of them dropped out."""
+    from seethrough.experiment.session.balance_check import refilled, table_of, verdicts
+    from seethrough.experiment.study.balance import cycle
+
+    plan = study.plan
+    if count is not None and count < 1:
+        raise InputError(f"--slots = {count}: expected at least 1")
+    longest = max(cycle(plan, which) for which in range(len(plan.groups)))
+    cycles = [plan.slot_of(g, n) for g in range(len(plan.groups))
+              for n in range(1, cycle(plan, g) + 1)]  # fmt: skip
+    slots = sorted(cycles) if count is None else plan.slots(count)
+    if len(slots) > MOST_PLAYED:
+        raise InputError(
+            f"--slots: missing, expected at most {MOST_PLAYED}: a complete cycle is {longest} "
+            "people of each group"
+        )
+    again = refilled(plan, len(slots), study.study.seed)
+    for what, played in (("as they come", slots), ("after drop-outs", again)):
+        for found in verdicts(study, table_of(study, played), played):
+            text = f"{found.group}, {what}: {found.people} people, {', '.join(found.kept)}"
+            why = "; ".join(found.broken[:3])
+            said.say("balance", text, *([FAILS, why] if found.broken else []))
+
+
+def _conditions(study: Study, session: Sequence[TaskSet]) -> tuple[str, ...]:
+    """The conditions of a session in its order, as standard/abstract."""
+    blocks = {
+        s.trials[0].block: "/".join(level for _, level in of_blocks(study, s.trials[0].levels))
+        for s in session
+    }
+    return tuple(blocks.values())
 
 
 def _measured(study: Study, context: Any) -> list[Difficulty]:
@@ -129,19 +186,25 @@ def _difficulty(
     from seethrough.experiment.study.certificate import matches, worst
 
     found = matches(study, measured)
-    for task in study.design.tasks:
-        own = [match for match in found if match.task == task]
+    for task, factor in dict.fromkeys((m.task, m.factor) for m in found):
+        own = [match for match in found if (match.task, match.factor) == (task, factor)]
+        along = factor or "sets"
         if any(match.ok for match in own):
-            said.say("difficulty", f"{task}: " + ", ".join(_means(m) for m in own if m.ok))
+            means = ", ".join(_means(m) for m in own if m.ok)
+            said.say("difficulty", f"{task}, {along} {_names(own[0])}: {means}")
         for match in (m for m in own if not m.ok):
             apart = f"apart {_apart(match, match.difference)}"
             why = (
                 f"not matched, expected at most {_apart(match, match.bound)}; farthest off: "
                 f"{worst(match, measured).trial.scene}"
             )
-            said.say("difficulty", f"{task}: {_means(match)}, {apart}", FAILS, why)
+            said.say("difficulty", f"{task}, {along}: {_means(match)}, {apart}", FAILS, why)
     if redraw and not all(match.ok for match in found):
         _redraw(study, measured, context, said)
+
+
+def _names(match: Match) -> str:
+    return " / ".join(name for name, _ in match.levels)
 
 
 def _means(match: Match) -> str:
@@ -170,50 +233,54 @@ def _redraw(study: Study, measured: list[Difficulty], context: Any, said: Verdic
             return
         names.append(worst(bad, measured).trial.scene)
         design = study.design.model_copy(update={"redraw": tuple(names)})
-        study = study.model_copy(update={"design": design})
+        study = replace(study, design=design)
         certifier, again = Certifier(study, context), {d.trial.stream: d for d in measured}
         measured = [again.get(t.stream) or certifier.measure(t) for t in trials_of(study)]
     why = "the levels still do not match"
     said.say("redraw", f"{MOST_REDRAWS} scenes drawn again", FAILS, why)
 
 
-def _write(measured: list[Difficulty], path: Path) -> None:
+def _write(study: Study, measured: list[Difficulty], path: Path) -> None:
     from seethrough.experiment.study.certificate import Difficulty
 
     values = [f.name for f in fields(Difficulty) if f.name != "trial"]
     with open(path, "x", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["scene", "task", "transparency", *values])
+        alone = [f.name for f in study.factors if f.scenes == ALONE and f.kind == WITHIN]
+        table.writerow(["scene", "task", *alone, *values])
         for d in measured:
             cells = [getattr(d, name) for name in values]
-            table.writerow([d.trial.scene, d.trial.task, d.trial.transparency, *cells])
+            levels = [d.trial.levels[name] for name in alone]
+            table.writerow([d.trial.scene, d.trial.task, *levels, *cells])
 
 
 def _machine(
     study: Study, measured: list[Difficulty], context: Any, seconds: float, said: Verdicts
 ) -> None:
-    """Frame times where they are worst: the scenes with most to see through, in each scenario."""
+    """Frame times where they are worst: the scenes with most to see through, of each world with
+    each technique."""
     from seethrough.experiment.session.machine import crossings, frame_times, free_disk
     from seethrough.renderer.polygons.prepared import DENSE_CROSSINGS
 
-    for scenario in study.design.factors().tasks:
-        own = [d for d in measured if d.trial.scenario == scenario]
-        level = study.design.transparency[-1]
-        hardest = max(
-            (d for d in own if d.trial.transparency == level),
-            key=lambda d: (d.occluders, d.targets),
-        )
+    drawn: dict[tuple[str, Any], list[Difficulty]] = {}
+    for d in measured:
+        part = study.part(d.trial.levels)
+        if part.technique_name != "standard" or len(study.parts) == 1:
+            drawn.setdefault((part.world, part.technique), []).append(d)
+    for (world, _), own in drawn.items():
+        hardest = max(own, key=lambda d: (d.occluders, d.targets))
+        part = study.part(hardest.trial.levels)
         times = frame_times(study, hardest.trial, context, seconds)
-        rate = study.display.refresh
+        rate = part.display.refresh
         text = (
-            f"{scenario}, {level}: {times.frames} frames of {hardest.trial.scene}, "
+            f"{world}, {part.technique_name}: {times.frames} frames of {hardest.trial.scene}, "
             f"median {times.median:.1f} ms, 99 % within {times.p99:.1f} ms; "
             f"{100 * times.missed:.1f} % over 1.5 periods of {rate:g} Hz"
         )
         said.say("machine", text, *smooth(times, rate))
         for line in crossings(study, hardest.trial):
             dense = [WARNING, "expected fewer crossings"] if DENSE_CROSSINGS in line else []
-            said.say("machine", f"{scenario}, objects that intersect: {line}", *dense)
+            said.say("machine", f"{world}, objects that intersect: {line}", *dense)
     _refresh(study, said)
     free = free_disk(Path.cwd())
     enough = [] if free > LEAST_DISK else [FAILS, f"expected {LEAST_DISK:g} GiB or more"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, folder_of, next_free, taken
 from seethrough.experiment.files.private import make_folder
 from seethrough.experiment.study.config import Study, find, load, shipped
+from seethrough.experiment.study.factors import is_measured
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +26,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--slot", type=int, metavar="N", help="row of the design; default: the ledger's next"
     )
+    parser.add_argument(
+        "--set", metavar="FACTOR=LEVEL", action="append", default=[], dest="brings",
+        help="what the participant brings along: the level of a measured factor",
+    )  # fmt: skip
     parser.add_argument(
         "--pilot", action="store_true", help="a try: other folder, no slot, never in a report"
     )
@@ -49,6 +54,36 @@ def _run(arguments: argparse.Namespace) -> int:
     participant, status = (_pilot if arguments.pilot else _human)(study, data, arguments)
     print(f"session {status}: {participant} in {data}")
     return 0 if status == "complete" else 1
+
+
+def _brought(study: Study, said: Sequence[str]) -> dict[str, str]:
+    """The level of every measured factor, from the command line or asked on the terminal, before a
+    slot is taken. Raises InputError."""
+    measured = {f.name: f for f in study.factors if is_measured(f)}
+    brings: dict[str, str] = {}
+    for text in said:
+        name, _, level = text.partition("=")
+        if name not in measured or level not in measured[name].names:
+            known = ", ".join(f"{f.name}={level}" for f in measured.values() for level in f.names)
+            raise InputError(f"--set = {text}: expected one of {known or 'no measured factors'}")
+        brings[name] = level
+    for factor in (f for name, f in measured.items() if name not in brings):
+        levels = ", ".join(factor.names)
+        if not sys.stdin.isatty():
+            raise InputError(f"--set: missing, expected {factor.name}=LEVEL, one of {levels}")
+        level = input(f"{factor.text or factor.name} ({levels}): ").strip()
+        if level not in factor.names:
+            raise InputError(f"{factor.name} = {level}: expected one of {levels}")
+        brings[factor.name] = level
+    return brings
+
+
+def _check_brought(study: Study, slot: int, brings: Mapping[str, str]) -> None:
+    """The slot that a participant has or asks for is one of their group. Raises InputError."""
+    group = study.plan.groups[study.plan.group_of(slot)[0]]
+    for name, level in group.measured.items():
+        if brings.get(name, level) != level:
+            raise InputError(f"--set = {name}={brings[name]}: slot {slot} is of {name}={level}")
 
 
 def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str, str]:
@@ -78,6 +113,7 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
     from seethrough.experiment.ledger.ledger_plan import plan_of
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
+    brings = _brought(study, arguments.brings)
     if not place.exists_elsewhere(data, url) and (kind := network_drive(data)):
         print(
             f"{data}: a network drive ({kind}): the ledger's locks may not hold between stations; "
@@ -90,7 +126,8 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
         path = find(arguments.study)
         note_study(data, path, path.stem if path in shipped().values() else "")
         used = taken(data, "human")
-        entry = ledger.reserve(arguments.participant, _now(), arguments.slot, used)
+        entry = ledger.reserve(arguments.participant, _now(), arguments.slot, used, brings)
+        _check_brought(study, entry.slot, brings)
         locks = ledger.locks()
     # The session takes an hour, in which a connection may be lost: the ledger is opened again.
     try:

@@ -87,9 +87,10 @@ def simulate(
     from seethrough.experiment.display.driver import open_context
 
     context = open_context()
-    trials = sum(len(s.trials) for s in session_for(1, study.design.factors())) * count
+    slots = study.plan.slots(count)
+    trials = sum(len(s.trials) for slot in slots for s in session_for(slot, study.plan))
     with Progress("simulating", trials) as progress:
-        for slot in range(1, count + 1):
+        for slot in slots:
             person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
             _one(study, slot, seed, out, context, progress, person, explain)
 
@@ -103,12 +104,16 @@ def _one(  # type: ignore[no-untyped-def]
     from seethrough.experiment.session.session import run_session
     from seethrough.experiment.session.software import provenance
     from seethrough.experiment.session.surroundings import Surroundings
+    from seethrough.experiment.study.described import design_entry
     from seethrough.experiment.study.own_model_files import keep
 
     clock = SimulatedClock()
-    display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
+    screen = study.session_part(slot).display
+    display = OffscreenDisplay(context, (screen.width, screen.height), clock)
     described = provenance(study, display.describe(), **person.about(seed))
-    who = Who(study.study.name, f"S{slot:02d}", "simulated", slot, described)
+    who = Who(
+        study.study.name, f"S{slot:02d}", "simulated", slot, described, design=design_entry(study)
+    )
 
     def ended(record) -> None:  # type: ignore[no-untyped-def]
         progress.step(f"S{slot:02d} {record.trial.task}")
@@ -116,7 +121,7 @@ def _one(  # type: ignore[no-untyped-def]
             _explain(f"S{slot:02d} trial {record.trial.number} {record.trial.task}", person)
 
     session_input = SimulatedInput(person, display, clock)
-    keep(study.walkthrough, out)
+    keep(study, out)
     world = Surroundings(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
     run_session(study, slot, world)
 
@@ -128,7 +133,7 @@ def _watch(
     from seethrough.experiment.display.clock import RealClock
     from seethrough.experiment.session.live import play_in_window
 
-    for slot in range(1, count + 1):
+    for slot in study.plan.slots(count):
         person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
         name = f"S{slot:02d}"
         about = person.about(seed)

@@ -15,7 +15,16 @@ from seethrough.analysis.load.whole import examined
 from seethrough.experiment.commands.withdraw import WITHDRAWN
 from seethrough.experiment.errors import one_line
 from seethrough.experiment.files.folders import folder_of, taken
-from seethrough.experiment.ledger.ledger_slots import COMPLETE, LIVE, SURPLUS, VOID, Entry, row_of
+from seethrough.experiment.ledger.ledger_slots import (
+    COMPLETE,
+    LIVE,
+    SURPLUS,
+    VOID,
+    Entry,
+    Places,
+    place_of,
+    row_of,
+)
 
 if TYPE_CHECKING:
     from seethrough.experiment.ledger.ledger import Ledger
@@ -91,14 +100,19 @@ def describe(ledger: Ledger, now: datetime, study: str) -> list[str]:
     of = {s: [e for e in entries if e.status == s] for s in (COMPLETE, LIVE, VOID, SURPLUS)}
     stale = ledger.stale(now)
     held = {e.slot for e in (*of[COMPLETE], *of[LIVE])}
-    free = sum(slot not in held for slot in range(1, plan.participants + 1))
+    groups = len(plan.groups)
+    free = sum(
+        (number - 1) * groups + which + 1 not in held
+        for which, group in enumerate(plan.groups)
+        for number in range(1, group.people + 1)
+    )
     idle = f" ({len(stale)} stale)" if stale else ""
     return [
         f"study     {plan.study}: {plan.participants} participants wanted, "
-        f"{plan.rows} rows of the design; ledger {ledger.where}",
+        f"{' + '.join(str(g.rows) for g in plan.groups)} rows of the design; ledger {ledger.where}",
         f"slots     {len(of[COMPLETE])} complete, {len(of[LIVE])} open{idle}, "
         f"{free} free, {len(of[VOID])} void entries",
-        *_balance(of[COMPLETE], of[LIVE], plan.rows),
+        *_balance(of[COMPLETE], of[LIVE], plan.groups),
         *_people("open", of[LIVE], {e.participant for e in stale}),
         *_people("void", of[VOID]),
         *_people("surplus", of[SURPLUS]),
@@ -106,15 +120,28 @@ def describe(ledger: Ledger, now: datetime, study: str) -> list[str]:
     ]
 
 
-def _balance(complete: Sequence[Entry], live: Sequence[Entry], rows: int) -> list[str]:
-    done = Counter(row_of(e.slot, rows) for e in complete)
-    open_ = Counter(row_of(e.slot, rows) for e in live)
-    uneven = max(done[r] for r in range(rows)) - min(done[r] for r in range(rows))
-    word = "completed rows are even" if not uneven else f"completed rows differ by {uneven}"
-    return [
-        f"balance   {word}",
-        *(f"          row {r + 1}: {done[r]} complete, {open_[r]} open" for r in range(rows)),
-    ]
+def _balance(
+    complete: Sequence[Entry], live: Sequence[Entry], groups: Sequence[Places]
+) -> list[str]:
+    lines = []
+    for which, group in enumerate(groups):
+        name = "/".join(group.levels.values())
+        done, open_ = (_rows(entries, which, groups) for entries in (complete, live))
+        uneven = max(done[r] for r in range(group.rows)) - min(done[r] for r in range(group.rows))
+        word = "completed rows are even" if not uneven else f"completed rows differ by {uneven}"
+        if name:
+            counts = f"{done.total()} complete, {open_.total()} open of {group.people}"
+            word = f"{name}: {counts}; {word}"
+        lines.append(f"{'balance' if not which else '':<9} {word}")
+        lines += [f"          row {r + 1}: {done[r]} complete, {open_[r]} open"
+                  for r in range(group.rows)]  # fmt: skip
+    return lines
+
+
+def _rows(entries: Sequence[Entry], which: int, groups: Sequence[Places]) -> Counter[int]:
+    """How many of a group's entries each row has."""
+    places = [place_of(entry.slot, len(groups)) for entry in entries]
+    return Counter(row_of(number, groups[which].rows) for group, number in places if group == which)
 
 
 def _people(what: str, entries: Sequence[Entry], stale: Sequence[str] | set[str] = ()) -> list[str]:
@@ -130,6 +157,8 @@ def _next(ledger: Ledger, now: datetime, study: str) -> str:
     slot = ledger.upcoming(now)
     if slot is None:
         return "nobody: every slot is complete or open; wait for the open ones, or withdraw"
-    beyond = " (past the number wanted)" if slot > ledger.plan.participants else ""
-    row = row_of(slot, ledger.plan.rows) + 1
+    groups = ledger.plan.groups
+    which, number = place_of(slot, len(groups))
+    beyond = " (past the number wanted)" if number > groups[which].people else ""
+    row = row_of(number, groups[which].rows) + 1
     return f"seethrough run {study} --next: slot {slot}, row {row}{beyond}"

@@ -23,7 +23,7 @@ class Looking:
     def __init__(self, context: Any, window: tuple[int, int], simple: bool = False) -> None:
         self.simple = simple
         self._renderer = Renderer(context, window)
-        self._seen: tuple[Any, Any, Any, Visibility] | None = None
+        self._seen: tuple[Any, Any, Any, Any, Visibility] | None = None
         self.technique: Any = None
         self.looks = 0
 
@@ -42,10 +42,11 @@ class Looking:
     def look(self, view: View) -> Visibility:
         """What can be seen in `view`, drawn with `technique`."""
         seen, technique = self._seen, self.technique
-        if seen and (seen[0] is view.scene and seen[1] is view.camera and seen[2] is technique):
-            return seen[3]
+        same = seen and (seen[0] is view.scene and seen[1] is view.camera and seen[2] is technique)
+        if seen and same and seen[3] == view.drawn:
+            return seen[4]
         scene = simplified(view.scene) if self.simple else view.scene
-        visibility = self._renderer.look(scene, view.camera, technique, self.size)
-        self._seen = (view.scene, view.camera, technique, visibility)
+        visibility = self._renderer.look(scene, view.camera, technique, self.size, view.drawn)
+        self._seen = (view.scene, view.camera, technique, view.drawn, visibility)
         self.looks += 1
         return visibility

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -53,7 +54,7 @@ class Stage:
     ) -> None:
         """Draw a task's view with its HUD."""
         self.last = (view, technique)
-        self.renderer.draw(view.scene, view.camera, technique, target)
+        self.renderer.draw(view.scene, view.camera, technique, target, view.drawn)
         self.interface.begin(self.size, passed)
         inset = partial(self._inset, scale=self.size[1])
         hud = HudDrawing(self.interface, self.texts, self.size[1], inset)
@@ -92,7 +93,7 @@ class Stage:
         elif self.last is not None:
             (view, technique), middle = self.last, (self.aspect / 2, 0.47)
             word = Label(said, middle, align="center")
-            self.draw_view(View(view.scene, view.camera, (word,)), technique, target, passed)
+            self.draw_view(replace(view, hud=(word,), captured=False), technique, target, passed)
             self.last = (view, technique)
 
     def _inset(self, number: int, inset: Inset, scale: float) -> int:
@@ -134,7 +135,7 @@ class _SmallPicture:
         interface.overlay.adopt_texture(name, self._texture)
 
     def draw(self, view: View, technique: Any) -> int:
-        self._renderer.draw(view.scene, view.camera, technique, self._target)
+        self._renderer.draw(view.scene, view.camera, technique, self._target, view.drawn)
         return self.name
 
     def release(self, interface: Interface) -> None:

@@ -43,7 +43,10 @@ from seethrough.tasks.kit.events import (
     PointerMove,
     PointerPress,
     PointerRelease,
+    SecondPress,
+    SecondRelease,
     Tick,
+    Wheel,
 )
 
 FLIPS = 30  # that measure the refresh rate: half a second at 60 Hz
@@ -303,10 +306,14 @@ class Window(Waits):
 
     def on_mouse_press(self, x: int, y: int, button: int, _: int) -> None:
         """A button went down."""
-        if button == mouse.LEFT and not self._blind():
+        if self._blind():
+            return
+        if button == mouse.LEFT:
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, True)
             self._note(PointerPress, *self._at(x, y))
+        elif button == mouse.RIGHT:
+            self._note(SecondPress, *self._at(x, y))
 
     def on_mouse_release(self, x: int, y: int, button: int, _: int) -> None:
         """A button went up."""
@@ -314,11 +321,14 @@ class Window(Waits):
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, False)
             self._note(PointerRelease, *self._at(x, y))
+        elif button == mouse.RIGHT:
+            self._note(SecondRelease, *self._at(x, y))
 
     def on_mouse_scroll(self, x: int, y: int, _: float, dy: float) -> None:
-        """The wheel turned: pages scroll."""
+        """The wheel turned: pages scroll, and some techniques take it."""
         if not self._blind():
             self.stage.interface.io.add_mouse_wheel_event(0, dy)
+            self._note(Wheel, *self._at(x, y), dy)
 
     def on_key_press(self, symbol: int, _: int) -> bool:
         """A key went down. Handled: pyglet would close the window on Esc."""

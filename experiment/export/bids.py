@@ -13,17 +13,15 @@ from typing import Any
 from seethrough.analysis.load.files import read_json
 from seethrough.experiment.export.dataset import Dataset, Row, as_json, check_labels, harmless, put
 from seethrough.experiment.export.wide import item_name
-from seethrough.experiment.record.columns import TRIALS, Column
+from seethrough.experiment.record.columns import Column
 
 VERSION = "1.10.0"
 TASK = "seethrough"
 IDENTITY = ("row_id", "study", "participant", "session", "source", "events_file", "camera_file")
-KEPT = tuple(c for c in TRIALS if c.name not in (*IDENTITY, "started", "chain")
-             and not c.name.endswith("sha256"))  # fmt: skip
 FIRST = {
     "onset": {"Description": "first frame of the trial, from the session's first", "Units": "s"},
     "duration": {"Description": "completion time", "Units": "s"},
-    "trial_type": {"Description": "transparency_scenario_task"},
+    "trial_type": {"Description": "levels of the factors and the task, with _ between"},
     "response_time": {"Description": "first frame to the answer's confirmation", "Units": "s"},
 }
 README = """{name}
@@ -39,7 +37,8 @@ def bids(data: Dataset, out: Path) -> None:
     about = {"Name": data.name, "BIDSVersion": VERSION, "DatasetType": "raw"}
     put(out / "dataset_description.json", as_json(about))
     put(out / "README", README.format(name=data.name, version=VERSION, task=TASK))
-    columns = {**FIRST, **{c.name: _column(c) for c in KEPT}}
+    kept = _kept(data)
+    columns = {**FIRST, **{c.name: _column(c) for c in kept}}
     put(out / f"task-{TASK}_events.json", as_json({"TaskName": TASK, **columns}))
     _participants(data, out, labels)
     sessions: dict[tuple[str, str], list[Row]] = defaultdict(list)
@@ -49,7 +48,7 @@ def bids(data: Dataset, out: Path) -> None:
         label = labels[participant]
         stem = f"sub-{label}_ses-{session}_task-{TASK}_events"
         folder = out / f"sub-{label}" / f"ses-{session}" / "beh"
-        put(folder / f"{stem}.tsv", _tsv([*FIRST, *(c.name for c in KEPT)], _events(rows)))
+        put(folder / f"{stem}.tsv", _tsv([*FIRST, *(c.name for c in kept)], _events(rows, data)))
         put(folder / f"{stem}.json", as_json(_presentation(data, participant, session)))
     if data.tables["questionnaire"]:
         _phenotype(data, out, labels)
@@ -61,7 +60,15 @@ def _labels(participants: Sequence[str]) -> dict[str, str]:
     return {p: re.sub(r"[^A-Za-z0-9]", "", p) for p in participants}
 
 
-def _events(rows: Sequence[Row]) -> list[dict[str, str]]:
+def _kept(data: Dataset) -> tuple[Column, ...]:
+    """The columns of a trial that are no record's own."""
+    return tuple(
+        c for c in data.columns("trials")
+        if c.name not in (*IDENTITY, "started", "chain") and not c.name.endswith("sha256")
+    )  # fmt: skip
+
+
+def _events(rows: Sequence[Row], data: Dataset) -> list[dict[str, str]]:
     """Trials with their onset from the session's first, in the order of their onsets.
 
     Rows that do not say when they started (data mode's) follow in their order, without an onset.
@@ -70,13 +77,13 @@ def _events(rows: Sequence[Row]) -> list[dict[str, str]]:
     onsets = [_onset(row["started"], starts) for row in rows]
     events = []
     for onset, row in sorted(zip(onsets, rows, strict=True), key=lambda pair: pair[0]):
-        kind = f"{row['transparency']}_{row['scenario']}_{row['task']}"
+        kind = "_".join([*(row[factor] for factor in data.factors), row["task"]])
         first = {
             "onset": "" if onset == inf else repr(onset),
             "duration": row["time"],
             "trial_type": kind,
         }
-        kept = {c.name: row[c.name] for c in KEPT}
+        kept = {c.name: row[c.name] for c in _kept(data)}
         events.append({**first, "response_time": row["time"], **kept})
     return events
 
@@ -109,7 +116,7 @@ def _participants(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
     slots = {row["participant"]: row["slot"] for row in data.tables["trials"]}
     rows = [{"participant_id": f"sub-{labels[p]}", "slot": slots[p]} for p in data.participants]
     put(out / "participants.tsv", _tsv(["participant_id", "slot"], rows))
-    slot = next(c for c in TRIALS if c.name == "slot")
+    slot = next(c for c in data.columns("trials") if c.name == "slot")
     put(out / "participants.json", as_json({"slot": _column(slot)}))
 
 
@@ -119,7 +126,7 @@ def _phenotype(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
         if answer["participant"] in labels:
             label = f"sub-{labels[answer['participant']]}"
             row = rows.setdefault(label, {"participant_id": label})
-            row[item_name(answer)] = answer["value"] or harmless(answer["text"])
+            row[item_name(answer, data.factors)] = answer["value"] or harmless(answer["text"])
     items = sorted({name for row in rows.values() for name in row} - {"participant_id"})
     path = out / "phenotype"
     put(path / "questionnaire.tsv", _tsv(["participant_id", *items], list(rows.values())))

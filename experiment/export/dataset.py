@@ -19,7 +19,7 @@ from seethrough.analysis.load.whole import verified
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, plain
 from seethrough.experiment.files.private import make_folder, write_new
-from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.columns import TABLES, Column, columns_in, versions
 from seethrough.experiment.record.record_files import csv_line
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "'")
@@ -37,6 +37,17 @@ class Dataset:
     source: str
     tables: Mapping[str, Sequence[Row]]
     files: Mapping[str, Sequence[Path]]
+
+    def columns(self, table: str) -> tuple[Column, ...]:
+        """A table's columns, factors among them."""
+        rows = self.tables[table]
+        return columns_in(table, list(rows[0])) if rows else TABLES[table]
+
+    @property
+    def factors(self) -> tuple[str, ...]:
+        """The factors' columns."""
+        known = {column.name for column in TABLES["trials"]}
+        return tuple(c.name for c in self.columns("trials") if c.name not in known)
 
     @property
     def participants(self) -> tuple[str, ...]:
@@ -63,7 +74,7 @@ def read(data: Path, source: str | None = None) -> Dataset:
             for table, held in found.items():
                 if held is not None:
                     paths[table].append(data / held.name)
-                    rows[table] += _rows(data / held.name, held.data, TABLES[table])
+                    rows[table] += _rows(data / held.name, held.data, table)
     if not rows["trials"]:
         raise InputError(f"{data}: no trial tables: expected data/SOURCE/PARTICIPANT/*.csv")
     return Dataset(data, str(whole.about.get("name", data.name)), whole.source, rows, paths)
@@ -125,15 +136,15 @@ def latest_attempts(rows: Sequence[Row]) -> list[Row]:
     return [last[key] for key in sorted(last)]
 
 
-def _rows(path: Path, data: bytes, columns: tuple[Column, ...]) -> list[Row]:
+def _rows(path: Path, data: bytes, table: str) -> list[Row]:
     """A table's rows, every cell of its column's type."""
     try:
         header, *lines = read_rows(data.decode("utf-8")) or [[]]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: not readable as a table: {error}") from None
+    columns = columns_in(table, header)
     empty = dict.fromkeys((column.name for column in columns), "")
-    if header == [column.name for column in columns if not column.added]:
-        columns = tuple(column for column in columns if not column.added)
+    columns = next((v for v in versions(columns) if [c.name for c in v] == header), columns)
     names = [column.name for column in columns]
     if header != names:
         odd = sorted(set(header) ^ set(names))

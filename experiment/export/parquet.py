@@ -11,7 +11,7 @@ from pathlib import Path
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.dataset import Dataset
 from seethrough.experiment.files.private import FILE, make_folder
-from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.columns import Column, columns_in
 
 TYPES = {"text": "VARCHAR", "integer": "BIGINT", "number": "DOUBLE", "boolean": "BOOLEAN"}
 INSTALL = "pip install 'seethrough[parquet]'"
@@ -52,9 +52,11 @@ class ParquetWriter:
     def write(self, table: str, paths: Sequence[Path], target: Path) -> None:
         """One file of all rows of these files of a table. Raises InputError."""
         # Those from before a column was added (record/columns.py) lie in a run of their own.
+        headers = [(path, _header(path)) for path in paths]
+        columns = columns_in(table, headers[-1][1])
         runs = [
-            _read(TABLES[table], [path for path, _ in run], old)
-            for old, run in groupby(((p, _is_old(TABLES[table], p)) for p in paths), itemgetter(1))
+            _read(columns, [path for path, _ in run], names)
+            for names, run in groupby(headers, itemgetter(1))
         ]
         query = COPY.format(rows=" UNION ALL ".join(runs), out=_text(str(target)))
         try:
@@ -64,16 +66,15 @@ class ParquetWriter:
         os.chmod(target, FILE)
 
 
-def _is_old(columns: Sequence[Column], path: Path) -> bool:
-    """Whether a file's table was recorded before a column was added."""
+def _header(path: Path) -> list[str]:
+    """The names of a file's columns."""
     with open(path, encoding="utf-8") as file:
-        header = file.readline().rstrip("\n")
-    return header == ",".join(c.name for c in columns if not c.added)
+        return file.readline().rstrip("\n").split(",")
 
 
-def _read(columns: Sequence[Column], paths: Sequence[Path], old: bool) -> str:
-    """A query for the rows of files that have the same columns."""
-    there = [c for c in columns if not (old and c.added)]
+def _read(columns: Sequence[Column], paths: Sequence[Path], names: Sequence[str]) -> str:
+    """A query for the rows of files that have the columns of these names."""
+    there = [c for c in columns if c.name in names]
     typed = ", ".join(f"{_text(c.name)}: {_text(TYPES[c.type])}" for c in there)
     selected = ", ".join(
         f'"{c.name}"' if c in there else f'CAST(NULL AS {TYPES[c.type]}) AS "{c.name}"'

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from seethrough.experiment.export.dataset import (
@@ -15,7 +15,6 @@ from seethrough.experiment.export.dataset import (
     latest_attempts,
     put,
 )
-from seethrough.experiment.record.columns import QUESTIONNAIRE, TRIALS
 
 MEASURES = ("time", "time_clean", "timed_out", "correct", "count_error", "distance")
 NUMBERS = {"true": "1", "false": "0"}
@@ -23,18 +22,22 @@ NUMBERS = {"true": "1", "false": "0"}
 
 def wide(data: Dataset, out: Path) -> None:
     """wide.csv, and wide.json that says what each column is."""
-    said = {c.name: c.description for c in (*TRIALS, *QUESTIONNAIRE)}
+    tables = ("trials", "questionnaire")
+    said = {c.name: c.description for table in tables for c in data.columns(table)}
+    naming = _naming(data)
     meaning = {"participant": said["participant"], "slot": said["slot"]}
     rows: dict[str, dict[str, str]] = {p: {"participant": p} for p in data.participants}
     for trial in latest_attempts(data.tables["trials"]):
         rows[trial["participant"]]["slot"] = trial["slot"]
         for measure in MEASURES:
             if trial[measure] != "":
-                name = f"{measure}_{trial['transparency']}_{trial['task']}_{trial['trial_in_set']}"
+                levels = [trial[factor] for factor in naming]
+                name = "_".join([measure, *levels, trial["task"], trial["trial_in_set"]])
                 rows[trial["participant"]][name] = _number(trial[measure])
-                meaning[name] = f"{said[measure]}; {trial['transparency']}, {trial['scenario']}"
+                where = ", ".join(trial[factor] for factor in data.factors)
+                meaning[name] = f"{said[measure]}; {where}" if where else said[measure]
     for answer in data.tables["questionnaire"]:
-        name = item_name(answer)
+        name = item_name(answer, data.factors)
         if answer["participant"] in rows:
             rows[answer["participant"]][name] = answer["value"] or harmless(answer["text"])
             meaning[name] = said["item"]
@@ -44,9 +47,30 @@ def wide(data: Dataset, out: Path) -> None:
     put(out / "wide.json", as_json(_codebook(meaning)))
 
 
-def item_name(answer: Row) -> str:
+def _naming(data: Dataset) -> list[str]:
+    """The factors that name a column: not those that the task alone tells, nor what is one level
+    for each person."""
+    trials = data.tables["trials"]
+    named = []
+    for factor in data.factors:
+        of_task, of_person = _groups(trials, "task", factor), _groups(trials, "participant", factor)
+        if any(len(levels) > 1 for levels in of_task.values()) and any(
+            len(levels) > 1 for levels in of_person.values()
+        ):
+            named.append(factor)
+    return named
+
+
+def _groups(rows: Sequence[Row], by: str, factor: str) -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for row in rows:
+        found.setdefault(row[by], set()).add(row[factor])
+    return found
+
+
+def item_name(answer: Row, factors: Sequence[str]) -> str:
     """A column for an item of the questionnaire, in its condition where it has one."""
-    parts = (answer["item"], answer["transparency"], answer["scenario"])
+    parts = (answer["item"], *(answer.get(factor, "") for factor in factors))
     return "_".join(part for part in parts if part)
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.experiment.gallery import gallery_hard
+from seethrough.experiment.gallery import gallery_hard, gallery_techniques
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, LARGE, Plate, Section
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
@@ -30,6 +30,7 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
         "Standard rendering beside dynamic transparency.",
         tuple(_scenes(aspect, seed)),
     )
+    yield from gallery_techniques.sections(stage(), aspect, seed)
     yield from _options()
     yield from gallery_hard.sections()
 

@@ -10,7 +10,7 @@ decided in ledger_slots.py.
 from __future__ import annotations
 
 import json
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -120,11 +120,13 @@ class Ledger:
         now: datetime,
         slot: int | None = None,
         taken: Collection[str] = (),
+        brings: Mapping[str, str] | None = None,
     ) -> Entry:
         """A slot for the participant: the next one, or the one they have already (`new` False).
 
         Without a participant, the lowest P01, P02, … that is neither in the ledger nor in `taken`
-        gets it. `slot` asks for one by number.
+        gets it. `slot` asks for one by number. `brings` are the levels of measured factors that the
+        participant brings along.
         """
         with store.exclusive(self._engine) as at:
             if slot is not None and slot < 1:
@@ -135,7 +137,7 @@ class Ledger:
             mine = self._find(at, check_participant(name))
             if mine is not None:
                 return self._go_on(at, mine, now, slot)
-            chosen = self._choose(at, held, now) if slot is None else slot
+            chosen = self._choose(at, held, now, brings) if slot is None else slot
             if chosen in held.slots:
                 self._free(at, chosen, now, name)
             entry = Entry(chosen, name, LIVE, stamp(now), stamp(now), new=True)
@@ -219,19 +221,29 @@ class Ledger:
         found = self._select(at, c.slot == slot, c.status.in_((LIVE, COMPLETE)))
         return found[0] if found else None
 
-    def _next(self, held: Held, now: datetime) -> int | None:
+    def _next(
+        self, held: Held, now: datetime, brings: Mapping[str, str] | None = None
+    ) -> int | None:
         plan = self.plan
         live = held.live(stale_before(now, plan.stale_after))
-        return next_slot(live, held.complete(), plan.rows, plan.participants)
+        return next_slot(live, held.complete(), plan.groups, brings)
 
     def _free_name(self, at: Connection, taken: Collection[str]) -> str:
         c = store.ENTRIES.c
         names = at.execute(sql.select(c.participant).where(c.study == self.plan.study)).scalars()
         return free_name({*names, *taken})
 
-    def _choose(self, at: Connection, held: Held, now: datetime) -> int:
-        chosen = self._next(held, now)
+    def _choose(
+        self, at: Connection, held: Held, now: datetime, brings: Mapping[str, str] | None
+    ) -> int:
+        chosen = self._next(held, now, brings)
         if chosen is None:
+            if brings and self._next(held, now) is not None:
+                said = ", ".join(f"{name} = {level}" for name, level in brings.items())
+                raise InputError(
+                    f"{self.where}: {said}: every slot of that group is complete or live: expected "
+                    "somebody of another one"
+                )
             live = [e.participant for e in self._select(at, store.ENTRIES.c.status == LIVE)]
             names = ", ".join(live[:5]) + (" …" if len(live) > 5 else "")
             raise InputError(

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from seethrough.experiment.ledger.ledger_slots import Places
+
 if TYPE_CHECKING:
     from seethrough.experiment.study.config import Study
 
@@ -22,16 +24,30 @@ class Plan:
     stale_after: float
     resolved: Mapping[str, Any]
 
+    @property
+    def groups(self) -> tuple[Places, ...]:
+        """The groups of the study; one where nobody is grouped."""
+        said = self.resolved.get("groups")
+        if not said:
+            return (Places(self.rows, self.participants),)
+        return tuple(
+            Places(g["rows"], g["people"], dict(g["levels"]), dict(g["measured"])) for g in said
+        )
+
 
 def plan_of(study: Study) -> Plan:
     """The plan of a study's config."""
-    # Not above: a station that has its plan needs neither numpy nor the config.
-    from seethrough.experiment.study.design import williams_rows
-
-    rows = len(williams_rows(len(study.design.factors().conditions)))
-    table, stale_after = study.study, study.session.stale_after
+    table, stale_after, design = study.study, study.session.stale_after, study.plan
     digest, resolved = study.digest(), study.resolved()
-    return Plan(table.name, digest, rows, table.participants, stale_after, resolved)
+    if len(design.groups) > 1:
+        resolved["groups"] = [
+            {
+                "rows": design.rows(which), "people": group.people,
+                "levels": dict(group.levels), "measured": dict(group.measured),
+            }
+            for which, group in enumerate(design.groups)
+        ]  # fmt: skip
+    return Plan(table.name, digest, design.rows(0), table.participants, stale_after, resolved)
 
 
 def difference(known: Plan, plan: Plan) -> str:

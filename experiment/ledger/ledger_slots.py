@@ -1,16 +1,18 @@
 """Which slot comes next: pure, so that a model can be tested against it.
 
-A slot is a number from 1; its row of the counterbalanced design is (slot − 1) mod rows. A slot is
-held by at most one participant who is live or complete. Slots beyond the target number are handed
-out only when every slot up to it is complete, and then by whole rounds of the rows: so completed
-rows differ by at most one from the target number on, whoever dropped out on the way.
+A slot is a number from 1. Where there are groups they take turns: slot s is number
+⌊(s − 1) / groups⌋ + 1 of group (s − 1) mod groups; the number's row of the counterbalanced design
+is (number − 1) mod rows. A slot is held by at most one participant who is live or complete. Slots
+beyond the target number are handed out only when every slot up to it is complete, and then by whole
+rounds of the rows: so completed rows differ by at most one from the target number on, whoever
+dropped out on the way.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
 
 LIVE, COMPLETE, VOID, SURPLUS = "live", "complete", "void", "surplus"
@@ -55,9 +57,25 @@ class Held:
         return {slot for slot, status, heard in columns if status == LIVE and heard >= stale}
 
 
-def row_of(slot: int, rows: int) -> int:
-    """The slot's row of the design, from 0."""
-    return (slot - 1) % rows
+@dataclass(frozen=True, slots=True)
+class Places:
+    """A group's part of the design: its rows, how many people are wanted, the levels that they have
+    or get, and those of them that they bring along."""
+
+    rows: int
+    people: int
+    levels: Mapping[str, str] = field(default_factory=dict)
+    measured: Mapping[str, str] = field(default_factory=dict)
+
+
+def place_of(slot: int, groups: int) -> tuple[int, int]:
+    """(group from 0, number in it from 1) of a slot."""
+    return (slot - 1) % groups, (slot - 1) // groups + 1
+
+
+def row_of(number: int, rows: int) -> int:
+    """A number's row of the design, from 0."""
+    return (number - 1) % rows
 
 
 def last_open(complete: Collection[int], rows: int, participants: int) -> int:
@@ -70,14 +88,38 @@ def last_open(complete: Collection[int], rows: int, participants: int) -> int:
 
 
 def next_slot(
-    live: Collection[int], complete: Collection[int], rows: int, participants: int
+    live: Collection[int],
+    complete: Collection[int],
+    groups: Sequence[Places],
+    brings: Mapping[str, str] | None = None,
 ) -> int | None:
-    """The lowest free slot of the row with the fewest completed and live slots.
+    """The slot of the next person: of the group that has least of its places taken, its next.
 
-    None where every slot that may be handed out is live or complete.
+    `brings` are the levels that the person brings along. Beyond its quota a group has places only
+    once every group has all that it needs. None where every slot that may be handed out is live or
+    complete.
     """
-    held = frozenset(live) | frozenset(complete)
-    end = last_open(complete, rows, participants) + 1
+    taken: list[tuple[set[int], set[int]]] = [(set(), set()) for _ in groups]
+    for kind, slots in enumerate((live, complete)):
+        for slot in slots:
+            group, number = place_of(slot, len(groups))
+            taken[group][kind].add(number)
+    whole = all(done.issuperset(range(1, g.people + 1))
+                for (_, done), g in zip(taken, groups, strict=True))  # fmt: skip
+    found = []
+    for which, (group, (here, done)) in enumerate(zip(groups, taken, strict=True)):
+        if any(group.measured[k] != v for k, v in (brings or {}).items() if k in group.measured):
+            continue
+        end = last_open(done, group.rows, group.people) if whole else group.people
+        number = _next_number(here | done, group.rows, end + 1)
+        if number is not None:
+            share = len(here | done) / max(group.people, 1)
+            found.append((share, which, (number - 1) * len(groups) + which + 1))
+    return min(found)[2] if found else None
+
+
+def _next_number(held: Collection[int], rows: int, end: int) -> int | None:
+    """The lowest free number of the row with the fewest held ones."""
     counts = Counter([row_of(slot, rows) for slot in held])
     free = (
         next((slot for slot in range(row + 1, end, rows) if slot not in held), None)

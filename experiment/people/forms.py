@@ -23,16 +23,12 @@ from seethrough.experiment.pages.pages import (
     on_picture,
 )
 from seethrough.experiment.people.persons.person import Person
-from seethrough.tasks.catalog import TASKS, world_of
 
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]
 MIDDLE, STEEPNESS, WOBBLE = 0.57, 0.28, 0.15  # ratings, 0–1, against log2 of relative time [ours]
 
-
-def scenario_of(task: str) -> str:
-    """What tables call the world that a task is set in."""
-    return world_of(TASKS[task]).scenario
+Levels = tuple[tuple[str, str], ...]  # factor and level
 
 
 class Opinions:
@@ -40,24 +36,24 @@ class Opinions:
 
     def __init__(self, person: Person) -> None:
         self.person = person
-        self._level = ""
-        self._times: dict[tuple[str, str], list[float]] = {}
+        self._levels: Levels = ()
+        self._times: dict[tuple[Levels, str], list[float]] = {}
 
     def begin(self, task: str) -> None:
         """A trial of `task` begins, under the instruction read last."""
-        self._times.setdefault((self._level, task), []).append(0.0)
+        self._times.setdefault((self._levels, task), []).append(0.0)
 
     def spent(self, task: str, seconds: float) -> None:
         """The running trial has taken so long by now."""
-        self._times[self._level, task][-1] = seconds
+        self._times[self._levels, task][-1] = seconds
 
     def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Answers by name ("button": which one), and the seconds that took."""
         seconds = 1.0
+        if page.name == "instruction":
+            self._levels = page.about
         for block in page.blocks:
             if isinstance(block, Paragraph):
-                if block.text.startswith("transparency."):
-                    self._level = block.text.removeprefix("transparency.")
                 seconds += READ
             elif isinstance(block, Scale | Choice | Several | Ranking):
                 needed = isinstance(block, Scale) or not block.optional
@@ -90,25 +86,30 @@ class Opinions:
     def _ranks(self, block: Ranking) -> list[int]:
         """What was quick comes first, where options are levels; by chance otherwise."""
         levels = block.prefer or ("",) * len(block.options)
-        dislike = np.array([log2(max(self._relative(level, ""), 1e-6)) for level in levels])
+        known = [self._met(level) for level in levels]
+        dislike = np.array([log2(max(self._relative(at), 1e-6)) for at in known])
         dislike += WOBBLE / STEEPNESS * self.rng.standard_normal(len(levels))
         return [int(rank) for rank in 1 + np.argsort(np.argsort(dislike))]
 
     def _rating(self, page: Page, block: Scale) -> int:
         """Liking what was quick; what speaks `against` it is the other way round."""
-        about = dict(page.about)
-        level, scenario = about.get("transparency", ""), about.get("scenario", "")
-        liking = MIDDLE - STEEPNESS * log2(max(self._relative(level, scenario), 1e-6))
+        liking = MIDDLE - STEEPNESS * log2(max(self._relative(page.about), 1e-6))
         liking += WOBBLE * self.person.rng.standard_normal()
         share = min(1.0, max(0.0, 1 - liking if block.against else liking))
         return round(share * (block.steps - 1))
 
-    def _relative(self, level: str, scenario: str) -> float:
-        """Time with this level over time with any, within the scenario; 1 where unknown."""
-        times = [(lv, fmean(t)) for (lv, k), t in self._times.items()
-                 if not scenario or scenario_of(k) == scenario]  # fmt: skip
-        own = [t for lv, t in times if lv == level]
-        return fmean(own) / fmean(t for _, t in times) if own else 1.0
+    def _relative(self, levels: Levels) -> float:
+        """Time at these levels over time at any, of the same tasks; 1 where unknown."""
+        own = {task for met, task in self._times if set(levels) <= set(met)}
+        times = [(met, fmean(t)) for (met, task), t in self._times.items() if task in own]
+        here = [t for met, t in times if set(levels) <= set(met)]
+        usual = fmean(t for _, t in times) if here else 0.0
+        return fmean(here) / usual if usual else 1.0  # nothing has taken any time yet
+
+    def _met(self, level: str) -> Levels:
+        """The factor and level of this name that were met."""
+        every = (pair for levels, _ in self._times for pair in levels)
+        return next(((pair,) for pair in every if pair[1] == level), ())
 
     def _choice(self, page: Page, block: Choice) -> int:
         if block.prefer:
@@ -140,7 +141,7 @@ class Opinions:
     def _preference(self, options: tuple[str, ...]) -> int:
         """The first level or the last: by the times taken, and by chance."""
         first, last = (
-            [fmean(t) for (lv, _), t in self._times.items() if lv == level]
+            [fmean(t) for (met, _), t in self._times.items() if level in dict(met).values()]
             for level in (options[0], options[-1])
         )
         if not first or not last:

@@ -1,16 +1,24 @@
-"""Every column of every table the recorder writes: the data dictionary is made from this file."""
+"""Every column of every table the recorder writes: the data dictionary is made from this file.
+
+Every study has the columns of TABLES; its factors are columns besides, in the order of its file,
+after the column that FACTORS_AFTER says.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
+from typing import Any
 
 
 @dataclass(frozen=True)
 class Column:
     """A column: its type ("text", "integer", "number" or "boolean"), unit, meaning and levels.
 
-    In the file, booleans are `true` and `false`, and what does not apply is empty. Tables that
-    were recorded before a column was `added` lack it, and are read with empty cells.
+    In the file, booleans are `true` and `false`, and what does not apply is empty. Columns that
+    came later say with which version of the tables they were `added`; tables of an earlier one lack
+    them all, and are read with empty cells.
     """
 
     name: str
@@ -18,7 +26,7 @@ class Column:
     description: str
     unit: str = ""
     levels: tuple[str, ...] = ()
-    added: bool = False
+    added: int = 0
 
 
 _WHO = (
@@ -27,11 +35,6 @@ _WHO = (
     Column("participant", "text", "participant's id; no names"),
     Column("session", "integer", "1 for the participant's first session"),
     Column("source", "text", "who answered", levels=("human", "simulated", "pilot")),
-)
-
-_CELL = (
-    Column("transparency", "text", "technique factor", levels=("standard", "dynamic")),
-    Column("scenario", "text", "scenario factor", levels=("abstract", "walkthrough")),
 )
 
 _TRIAL = Column("trial", "integer", "position of the trial in the session, from 1")
@@ -45,13 +48,8 @@ TRIALS = (
     Column("task_set", "integer", "position of the task set in the session, from 1"),
     Column("trial_in_set", "integer", "position of the trial in its task set, from 1"),
     Column("attempt", "integer", "1, and one more each time the trial was repeated"),
-    *_CELL,
-    Column(
-        "task",
-        "text",
-        "T1 count, T2 pattern, T3 unique, T4 count_in_building",
-        levels=("count", "pattern", "unique", "count_in_building"),
-    ),
+    Column("world", "text", "the world that the task was done in", added=2),
+    Column("task", "text", "what was to be done: a task's name, as T1 count"),
     Column("scene", "text", "which scene: a name of the study's set, or the stream it came from"),
     Column("targets", "integer", "number of targets in the scene"),
     Column("answer", "text", "the participant's answer, as given"),
@@ -71,7 +69,7 @@ TRIALS = (
         "how much longer than `time` it may have been: the first frame's flip and the last event "
         "are known no better",
         "s",
-        added=True,
+        added=1,
     ),
     Column("time_clean", "number", "time, less what passed while the window had no focus", "s"),
     Column("timed_out", "boolean", "whether the trial ended at its time limit"),
@@ -79,7 +77,7 @@ TRIALS = (
         "early",
         "integer",
         "keys and buttons pressed before a frame could answer them: not taken",
-        added=True,
+        added=1,
     ),
     Column("frames", "integer", "frames shown", "frames"),
     Column(
@@ -104,13 +102,12 @@ QUESTIONNAIRE = (
     Column(
         "item",
         "text",
-        "efficiency, ease, enjoy (0–4, per condition), preference (1 dynamic, 0 not; "
-        "text: dynamic, neutral or standard), "
+        "efficiency, ease, enjoy (0–4, for each of some levels), preference (of two levels 1 the "
+        "second, 0 not; text: the level or neutral), "
         "depth_self_report (0–4), depth_pair_1 … 3 (1: right), depth_test (right of 3), consent, "
         "age (years), gender, "
         "color_plate_1 … 4 (1: read), tlx_… (0–20), sus_1 … sus_10 (0–4), sus (0–100), remarks",
     ),
-    *_CELL,
     Column("value", "number", "the answer as a number"),
     _TEXT,
 )
@@ -123,3 +120,43 @@ NOTES = (
 )
 
 TABLES = {"trials": TRIALS, "questionnaire": QUESTIONNAIRE, "notes": NOTES}
+FACTORS_AFTER = {"trials": "attempt", "questionnaire": "item", "notes": ""}
+RESERVED = tuple(dict.fromkeys(column.name for table in TABLES.values() for column in table))
+
+
+def factor_column(name: str, levels: Sequence[str] = ()) -> Column:
+    """The column of a factor."""
+    return Column(name, "text", "factor of the study", levels=tuple(levels))
+
+
+def with_factors(factors: Iterable[Mapping[str, Any]]) -> dict[str, tuple[Column, ...]]:
+    """Every table's columns in a study with these factors, as a sidecar describes them.
+
+    Answers on a page say the levels that they are about: those that everybody meets.
+    """
+    own = [(f["kind"], factor_column(f["name"], f["levels"])) for f in factors]
+    everybodys = tuple(column for kind, column in own if kind == "within")
+    every = tuple(column for _, column in own)
+    return {t: _inserted(t, every if t == "trials" else everybodys) for t in TABLES}
+
+
+def _inserted(table: str, factors: tuple[Column, ...]) -> tuple[Column, ...]:
+    columns = TABLES[table]
+    at = next((i for i, c in enumerate(columns, start=1) if c.name == FACTORS_AFTER[table]), None)
+    return columns if at is None else (*columns[:at], *factors, *columns[at:])
+
+
+def columns_in(table: str, header: Sequence[str]) -> tuple[Column, ...]:
+    """The columns of a file of a table by its header: those that stand where factors do are its
+    study's factors."""
+    known = {column.name for column in TABLES[table]}
+    after = FACTORS_AFTER[table]
+    rest = header[list(header).index(after) + 1 :] if after in header else []
+    names = takewhile(lambda name: name not in known, rest)
+    return _inserted(table, tuple(factor_column(name) for name in names))
+
+
+def versions(columns: Sequence[Column]) -> list[tuple[Column, ...]]:
+    """The columns as each version of the tables had them, this one last."""
+    last = max(column.added for column in columns)
+    return [tuple(c for c in columns if c.added <= version) for version in range(last + 1)]

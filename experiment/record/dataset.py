@@ -9,15 +9,15 @@ from typing import Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import make_folder, write_new
-from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.columns import Column
 
 FILE = "dataset_description.json"
 
 
-def describe_dataset(data: Path, study: str) -> None:
+def describe_dataset(data: Path, study: str, tables: Mapping[str, tuple[Column, ...]]) -> None:
     """Make the folder and its description, or check that it is this study's. Raises InputError."""
     path = data / FILE
-    columns = {c.name: c for table in TABLES.values() for c in table}
+    columns = {c.name: c for table in tables.values() for c in table}
     content = description(
         study, f"Trials and questionnaires of the study {study}, recorded by Seethrough.", columns
     )

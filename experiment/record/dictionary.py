@@ -5,13 +5,14 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.columns import FACTORS_AFTER, TABLES, Column
 
 README = Path(__file__).resolve().parents[2] / "data" / "README.md"
 BEGIN = (
     "<!-- made by `python -m seethrough.experiment.record.dictionary`: "
     "change experiment/record/columns.py, not this -->"
 )
+FACTORS = "| *each factor* | text |  | its level, by the name that the study gives it |"
 END = "<!-- end of what is made -->"
 
 
@@ -26,7 +27,11 @@ def dictionary() -> str:
     parts = []
     for name, columns in TABLES.items():
         head = [f"## `…_{name}_data.csv`", "", "| column | type | unit | meaning |"]
-        parts.append("\n".join([*head, "| --- | --- | --- | --- |", *map(_row, columns)]))
+        rows = list(map(_row, columns))
+        at = [i for i, column in enumerate(columns, start=1) if column.name == FACTORS_AFTER[name]]
+        for place in at:
+            rows.insert(place, FACTORS)
+        parts.append("\n".join([*head, "| --- | --- | --- | --- |", *rows]))
     return "\n\n".join(parts)
 
 

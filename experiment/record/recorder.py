@@ -11,7 +11,7 @@ import json
 import os
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,7 @@ from seethrough.experiment.record.chain import (
     seal_of,
     start_of,
 )
-from seethrough.experiment.record.columns import NOTES, QUESTIONNAIRE, TRIALS, Column
+from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import Table, Traces, ask_again, header_of, mend
 from seethrough.experiment.record.trial_record import TrialRecord
@@ -48,6 +48,7 @@ class Who:
     slot: int
     provenance: Mapping[str, Any]
     session: int = 1  # one more each time an interrupted session is gone on with
+    design: Mapping[str, Any] = field(default_factory=dict)  # factors and tasks, for the analysis
 
 
 def utc_now() -> str:
@@ -74,8 +75,9 @@ class FileRecorder:
         self._now = now
         self.folder = folder_of(data, who.source, who.participant)
         self.stem = stem_of(who.study, who.participant, who.session)
+        self._columns = with_factors(who.design.get("factors", ()))
         _check_alike(data, who)
-        describe_dataset(data, who.study)
+        describe_dataset(data, who.study, self._columns)
         try:
             self._trials = self._begin(data)
         except FileExistsError:
@@ -109,11 +111,11 @@ class FileRecorder:
             if not before.with_name(before.name.replace(TRIALS_TABLE, END)).exists():
                 # It was killed: nothing else holds them.
                 content["chain"]["holds"] = loose_files(before, killed=True)
-        start = start_of(content, header_of(TRIALS))
+        start = start_of(content, header_of(self._columns["trials"]))
         content["chain"]["start"] = start
         write_new(sidecar, _json(content))
         try:
-            return Table(table, TRIALS, start, self._guard)
+            return Table(table, self._columns["trials"], start, self._guard)
         except OSError:
             sidecar.unlink()  # no session began
             raise
@@ -169,7 +171,7 @@ class FileRecorder:
         if not rows:
             return
         if self._questions is None:
-            self._questions = self._another("questionnaire", QUESTIONNAIRE)
+            self._questions = self._another("questionnaire", self._columns["questionnaire"])
         first = self._asked + 1
         self._asked += len(rows)
         self._questions.append(
@@ -182,7 +184,7 @@ class FileRecorder:
     def note(self, trial: Trial | None, text: str) -> None:
         """Append a note of the experimenter's; it is on disk when this returns."""
         if self._notes is None:
-            self._notes = self._another("notes", NOTES)
+            self._notes = self._another("notes", self._columns["notes"])
         self._noted += 1
         number = trial.number if trial and not trial.training else None
         row = {"trial": number, "written": self._now(), "text": text}
@@ -259,8 +261,8 @@ def trial_row(record: TrialRecord) -> dict[str, Any]:
         "block": trial.block,
         "task_set": trial.task_set,
         "trial_in_set": trial.in_set,
-        "transparency": trial.transparency,
-        "scenario": trial.scenario,
+        **trial.levels,
+        "world": trial.world,
         "task": trial.task,
         "scene": trial.scene,
         "targets": record.targets,

@@ -20,6 +20,7 @@ from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, folder_of
+from seethrough.experiment.session.hand import Hand
 from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
@@ -28,7 +29,9 @@ from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
 
-KINDS = {c.__name__: c for c in (ev.PointerMove, ev.PointerPress, ev.PointerRelease)}
+KINDS = {
+    c.__name__: c for c in (ev.PointerPress, ev.PointerRelease, ev.SecondPress, ev.SecondRelease)
+}
 CAMERA = ("eye_x", "eye_y", "eye_z", "forward_x", "forward_y", "forward_z")
 KEYS = {c.__name__: c for c in (ev.KeyPress, ev.KeyRelease)}
 
@@ -49,7 +52,7 @@ class Recorded:
     @property
     def technique(self) -> Any:
         """What the trial was drawn with."""
-        return self.study.technique(self.trial.transparency)
+        return self.study.part(self.trial.levels).technique
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,11 +118,11 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
         display = provenance["display"]
         width, height = (int(v) for v in display["size"].split("x"))
         samples = int(display.get("samples", 0))
-        study = parse(provenance["study"], str(sidecar))
+        study = parse(provenance["study"], str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
-    study = study.with_walkthrough(kept(study.walkthrough, data))
-    task_sets = session_for(int(row["slot"]), study.design.factors())
+    study = study.with_places(lambda place: kept(place, data))
+    task_sets = session_for(int(row["slot"]), study.plan)
     number = int(row["trial"])
     trial = next((t for s in task_sets for t in s.trials if t.number == number), None)
     if trial is None:
@@ -146,16 +149,18 @@ def replay(recorded: Recorded) -> Iterator[Frame]:
     state = StudyScenes(recorded.study).begin(task, recorded.trial, aspect)
     *shown, last = _frames(recorded.camera)
     rest = iter(shown)
-    view = task.view(state)
+    hand = Hand(recorded.technique, aspect)
+    view = hand.shown(task.view(state))
     time, digest, camera = next(rest)
     yield Frame(time, view, digest, camera)
     for event in _events(recorded.events):
-        state = task.on_event(state, event)
+        if not hand.on_event(event, view):
+            state = task.on_event(state, event)
         if isinstance(event, ev.Tick) and task.outcome(state) is None:
             following = next(rest, None)
             if following is None:
                 break  # the trial ended at a limit: what came after its last frame was not shown
-            view = task.view(state)
+            view = hand.shown(task.view(state))
             yield Frame(following[0], view, *following[1:])
     time, digest, camera = last
     yield Frame(time, view, digest, camera, task.outcome(state))
@@ -187,6 +192,8 @@ def _events(path: Path) -> Iterator[ev.Event]:
             elif kind == "PointerMove":
                 place = (float(row[n]) for n in ("x", "y", "dx", "dy"))
                 yield ev.PointerMove(time, *place, row["dragging"] == "true")
+            elif kind == "Wheel":
+                yield ev.Wheel(time, *(float(row[n]) for n in ("x", "y", "dy")))
             elif kind in KINDS:
                 yield KINDS[kind](time, float(row["x"]), float(row["y"]))
             elif kind in KEYS:

@@ -20,6 +20,7 @@ from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import changed_since, provenance
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.own_model_files import keep
 from seethrough.tasks.catalog import TASKS
 
@@ -49,8 +50,9 @@ def play_in_window(
     start = starting_point(study, data, source, participant, slot)
     if start.session > 1:
         print(going_on(study, start), file=sys.stderr, flush=True)
-    texts = Texts(study.study.language, study.texts)
-    window = Window(study.display, texts, clock, study.study.title)
+    part = study.session_part(start.slot)
+    texts = Texts(part.study.language, study.texts)
+    window = Window(part.display, texts, clock, study.study.title)
     window.stage.pilot = source == "pilot"
     if not refresh.fits(window.measured, window.declared):
         print(f"display: {refresh.said(window.measured, window.declared)}", file=sys.stderr)
@@ -62,9 +64,12 @@ def play_in_window(
             described["changed_since"] = changed_since(start.made, described)
             for line in described["changed_since"]:
                 print(f"since the session before: {line}", file=sys.stderr, flush=True)
-        who = Who(study.study.name, participant, source, start.slot, described, start.session)
+        who = Who(
+            study.study.name, participant, source, start.slot, described, start.session,
+            design_entry(study),
+        )  # fmt: skip
         person: Input = window if watched is None else _simulated(watched, window)
-        keep(study.walkthrough, data)  # first: a model that can't be kept begins no session
+        keep(study, data)  # first: a model that can't be kept begins no session
         recorder = FileRecorder(data, who, attempts=start.attempts, guard=guard)
         world = Surroundings(
             window,
@@ -95,7 +100,7 @@ def say(record: TrialRecord) -> None:
     trial, outcome = record.trial, record.outcome
     answer = outcome.answer if outcome else "timed out"
     print(
-        f"trial {trial.number:3d} {trial.transparency:9s}{trial.task:18s}{answer:>6s} "
+        f"trial {trial.number:3d} {' '.join(trial.levels.values())} {trial.task:18s}{answer:>6s} "
         f"{record.time:6.1f} s, {record.frames_missed}/{record.frames} frames missed",
         file=sys.stderr,
         flush=True,

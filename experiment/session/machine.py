@@ -40,7 +40,7 @@ def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> Fra
     size = (study.display.width, study.display.height)
     task = TASKS[trial.task]
     view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
-    technique = study.technique(trial.transparency)
+    technique = study.part(trial.levels).technique
     renderer = Renderer(context, size, samples_for(study.display.samples, context))
     renderer.draw(view.scene, view.camera, technique)
     context.finish()
@@ -62,7 +62,7 @@ def crossings(study: Study, trial: Trial) -> list[str]:
     size = (study.display.width, study.display.height)
     task = TASKS[trial.task]
     view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
-    frame = plan(view.scene, view.camera, study.technique(trial.transparency), size)
+    frame = plan(view.scene, view.camera, study.part(trial.levels).technique, size)
     return [of_cluster(view.scene, members) for members in frame.clusters]
 
 

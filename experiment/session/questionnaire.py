@@ -13,17 +13,23 @@ from typing import Any
 from zlib import crc32
 
 from seethrough.experiment.display.display import Input
+from seethrough.experiment.questions.choice.choice_question import ChoiceParameters
 from seethrough.experiment.questions.kit import Asking, Row
+from seethrough.experiment.questions.ranking.ranking_question import RankingParameters
 from seethrough.experiment.questions.ready import question
-from seethrough.experiment.study.config import Study
+from seethrough.experiment.record.columns import RESERVED
+from seethrough.experiment.session import levels as words
+from seethrough.experiment.session.levels import Pairs
 from seethrough.experiment.study.design import PARTICIPANT, generator
+from seethrough.experiment.study.factors import ALONE, Levels
+from seethrough.experiment.study.reading import Question
+from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import WORLDS
 
-Item = tuple[str, str, str]  # item, transparency, scenario; the last two empty where none applies
+Item = tuple[str, Pairs]  # item, and factor and level of what it is about
 Given = Mapping[Item, str]  # values of the items that were answered
 QUESTION_STREAM = 999_999  # in the names of questions' streams: no trial has it
 COLOR_CHECK = "color_check"  # its stream has no further word
-FACTORS = ("transparency", "scenario")
 
 
 @dataclass(frozen=True)
@@ -37,13 +43,16 @@ class Step:
 @dataclass(frozen=True)
 class Planned:
     """A question that a study asks: `name` is its table's, `use` its kind or ready-made question,
-    `about` the levels that it is asked for, by factor, `of` those that it compares."""
+    `about` the levels that it is asked for, by factor, `of` those that it compares, of a `factor`;
+    `cells` are those that it is meant for."""
 
     name: str
     use: str
     about: Mapping[str, str] = field(default_factory=dict)
     of: tuple[str, ...] = ()
     parameters: Any = None
+    factor: str = ""
+    cells: tuple[Levels, ...] = ()
 
 
 def asked(steps: Iterator[Step], person: Input, given: Given | None = None) -> Iterator[list[Row]]:
@@ -60,66 +69,109 @@ def asked(steps: Iterator[Step], person: Input, given: Given | None = None) -> I
 
 def item_of(row: Row) -> Item:
     """What tells a participant's answers apart."""
-    return row["item"], row.get("transparency", ""), row.get("scenario", "")
+    about = ((k, v) for k, v in row.items() if v and k not in RESERVED)
+    return row["item"], tuple(sorted(about))
 
 
 def before(study: Study, slot: int) -> Iterator[Step]:
-    """Consent, age and gender, colour check."""
-    if "consent.text" in study.texts:
-        yield from steps(Planned("consent", "consent"), study, slot)
-    if study.session.demographics:
-        yield from steps(Planned("demographics", "demographics"), study, slot)
-    if study.session.color_check:
-        yield from steps(Planned(COLOR_CHECK, COLOR_CHECK), study, slot)
+    """Every page that the study asks for at the start, in its order."""
+    yield from _at("start", study, slot)
 
 
 def after(study: Study, slot: int = 1) -> Iterator[Step]:
-    """Every block the study asks for, in the order of its config."""
-    for block in study.session.questionnaire:
-        for planned in _after(block, study):
-            yield from steps(planned, study, slot)
+    """Every page that the study asks for at the end, in its order."""
+    yield from _at("end", study, slot)
 
 
-def _after(block: str, study: Study) -> Iterator[Planned]:
-    levels = study.design.transparency
-    if block == "ratings":
-        for cell in study.design.factors().conditions:
-            yield Planned(block, block, dict(zip(FACTORS, cell, strict=True)))
-    elif block in ("tlx", "sus"):
-        for level in levels:
-            yield Planned(block, block, {FACTORS[0]: level})
-    elif block != "comparison":
-        yield Planned(block, block)
-    elif len(levels) > 1:
-        yield Planned(block, block, of=tuple(sorted(levels, key=lambda lv: lv != "standard")))
+def of_condition(study: Study, slot: int, at: Levels) -> Iterator[Step]:
+    """Every page that is asked after a condition: the levels of a trial of it."""
+    for name, asked_ in study.part(at).questions.items():
+        if asked_.when_asked == "condition" and asked_.meant_for(at):
+            about = dict(words.of_blocks(study, at))
+            yield from steps(_planned(study, name, asked_, about, (at,)), study, slot)
+
+
+def _at(when: str, study: Study, slot: int) -> Iterator[Step]:
+    plan = study.plan
+    cells = [plan.levels(c) for c in plan.groups[plan.group_of(slot)[0]].cells]
+    for name, question_ in study.questions.items():
+        if question_.when_asked != when:
+            continue
+        meant = tuple(at for at in cells if study.part(at).questions[name].meant_for(at))
+        each = _each(study, question_)
+        for about in dict.fromkeys(tuple((f, at[f]) for f in each) for at in meant):
+            there = tuple(at for at in meant if set(about) <= set(at.items()))
+            yield from steps(_planned(study, name, question_, dict(about), there), study, slot)
+
+
+def _each(study: Study, asked_: Question) -> tuple[str, ...]:
+    """The factors for each of whose levels a question is asked once."""
+    if asked_.table.each is not None:
+        return asked_.table.each
+    if asked_.use == "ratings":
+        return tuple(f.name for f in study.factors if f.block)
+    if asked_.use in ("tlx", "sus"):
+        return tuple(f.name for f in study.factors if f.block and f.scenes == ALONE)
+    return ()
+
+
+def _planned(
+    study: Study, name: str, asked_: Question, about: Mapping[str, str], cells: tuple[Levels, ...]
+) -> Planned:
+    """The question as it is asked about these levels."""
+    use, parameters, factor, of = asked_.use, asked_.parameters, "", ()
+    compared = [f for f in study.factors if f.name == asked_.table.of]
+    if use == "comparison" and not compared:
+        compared = [f for f in study.factors if f.block][:1]
+    if compared:
+        factor, first = compared[0].name, compared[0].baseline
+        of = (first, *(level for level in compared[0].names if level != first))
+    if use == "comparison" and len(of) > 2:
+        use, parameters = "ranking", RankingParameters(text="comparison.ranking")
+    elif use == "comparison" and not (of and words.known(study, f"{factor}.{of[1]}")):
+        use, parameters, name = "choice", _preference(of), "preference"
+    return Planned(name, use, about, of, parameters, factor, cells)
+
+
+def _preference(of: tuple[str, ...]) -> ChoiceParameters:
+    """Which of two levels one would rather work with, 1 for the second."""
+    first, second = of
+    return ChoiceParameters(
+        text="comparison.preference",
+        options=(f"name.{second}", "name.neutral", f"name.{first}"),
+        names=(second, "neutral", first),
+        right=second,
+        title="comparison.any",
+    )
 
 
 def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
     """The pages of a question."""
     kind = question(planned.use)
     parameters = kind.Parameters() if planned.parameters is None else planned.parameters
-    words = () if planned.use == COLOR_CHECK else (crc32(planned.name.encode()),)
-    stream = (PARTICIPANT, slot, QUESTION_STREAM, *words)
+    further = () if planned.use == COLOR_CHECK else (crc32(planned.name.encode()),)
+    stream = (PARTICIPANT, slot, QUESTION_STREAM, *further)
     asking = Asking(
         planned.name,
         planned.about,
         planned.of,
         stream=partial(generator, study.study.seed, stream),
-        study=StudyPlaces(study),
+        study=StudyPlaces(study, planned.cells),
     )
-    cell = tuple(planned.about.get(factor, "") for factor in FACTORS)
+    cell = tuple(sorted(planned.about.items()))
+    pairs = [*planned.about.items(), *((planned.factor, level) for level in planned.of)]
 
     def step(number: int) -> Step:
         def ask(person: Input, given: Given) -> list[Row]:
-            known = {item: value for (item, *at), value in given.items() if tuple(at) == cell}
+            known = {item: value for (item, at), value in given.items() if at == cell}
             now = replace(asking, given=known)
-            page = kind.pages(parameters, now)[number]
+            page = words.named(study, kind.pages(parameters, now)[number], pairs)
             page = replace(page, simulate=partial(kind.simulate, parameters, page))
             rows = kind.rows(parameters, now, number, person.ask(page))
             return [{**row, **planned.about} for row in rows]
 
         last = kind.last(parameters, asking, number)
-        return Step(tuple((item, *cell) for item in last), ask)
+        return Step(tuple((item, cell) for item in last), ask)
 
     for number in range(kind.count(parameters)):
         yield step(number)
@@ -127,9 +179,10 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
 
 @dataclass(frozen=True)
 class StudyPlaces:
-    """What questions may know of a study."""
+    """What questions may know of a study, asked for some of its cells."""
 
     study: Study
+    cells: tuple[Levels, ...]
 
     @property
     def seed(self) -> int:
@@ -137,9 +190,11 @@ class StudyPlaces:
         return self.study.study.seed
 
     def place(self, world: str) -> Any:
-        """The study's parameters of a world."""
-        return getattr(self.study, WORLDS[world].scenario)
+        """The study's parameters of a world, or its defaults."""
+        kind = WORLDS[world].Parameters
+        own = (place for place in self.study.places() if isinstance(place, kind))
+        return next(own, None) or self.study.parameters("world", world) or kind()
 
     def technique(self, about: Mapping[str, str]) -> Any:
-        """What frames are drawn with at these levels; the last one's, where none is named."""
-        return self.study.dynamic
+        """What frames are drawn with at these levels."""
+        return self.study.part(self.cells[-1]).technique

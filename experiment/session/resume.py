@@ -92,14 +92,14 @@ def starting_point(study: Study, data: Path, source: str, participant: str, slot
             f"{folder}: participant {participant} began another version of this study "
             f"({before.digest[:12]}, now {study.digest()[:12]}); expected the same"
         )
-    task_sets = session_for(before.slot, study.design.factors())
+    task_sets = session_for(before.slot, study.plan)
     done = already_done(task_sets, before, study.session.resume)
     return Start(before.sessions + 1, before.slot, done, before.attempts, before.given, before.made)
 
 
 def going_on(study: Study, start: Start) -> str:
     """A line for the experimenter: where an interrupted session goes on."""
-    sets = session_for(start.slot, study.design.factors())
+    sets = session_for(start.slot, study.plan)
     coming = [t for s in sets for t in s.trials if t.number not in start.done]
     where = f"trial {coming[0].number}, part {coming[0].task_set} of {len(sets)}" if coming else ""
     again = sum(t.number in start.attempts for t in coming)
@@ -134,7 +134,7 @@ def _given(folder: Path) -> Given:
     """What was answered in the sessions so far, the first answer to each item."""
     given: dict[Item, str] = {}
     for table in sorted(folder.glob(f"*{ANSWERS_TABLE}")):
-        for row in _rows(table, ("item", "transparency", "scenario", "value")):
+        for row in _rows(table, ("item", "value")):
             given.setdefault(item_of(row), row["value"])
     return given
 

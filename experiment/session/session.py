@@ -13,7 +13,7 @@ from functools import partial
 from seethrough.experiment.display.display import DisplayLost, Leave
 from seethrough.experiment.pages.pages import Page, Paragraph, Picture, PlanPicture, Values
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.session import questionnaire
+from seethrough.experiment.session import levels, questionnaire
 from seethrough.experiment.session.questionnaire import Given, Step
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
@@ -56,7 +56,7 @@ def run_session(
 
 def _run(study: Study, slot: int, world: Surroundings, done: frozenset[int], given: Given) -> None:
     start = world.clock.now()
-    task_sets = session_for(slot, study.design.factors())
+    task_sets = session_for(slot, study.plan)
     total = sum(len(s.trials) for s in task_sets)
     world.display.progress(len(done) / total)
     world.input.ask(_page("welcome"))
@@ -72,10 +72,12 @@ def _run(study: Study, slot: int, world: Surroundings, done: frozenset[int], giv
             world.input.ask(_page("pause"))
         block = remaining[0].block
         _run_task_set(study, TaskSet(task_set.training, remaining), task_sets, run)
-        if _over(world.clock.now() - start, study.session.session_limit):
+        if _ends_block(task_set, task_sets):
+            _ask(questionnaire.of_condition(study, slot, task_set.trials[0].levels), world, given)
+        if _over(world.clock.now() - start, study.session.limit):
             world.input.ask(_page("time"))
             raise TimeIsUp
-    _ask(questionnaire.after(study), world, given)
+    _ask(questionnaire.after(study, slot), world, given)
     world.input.ask(_page("thanks"))
 
 
@@ -94,12 +96,12 @@ def _run_task_set(
 ) -> None:
     world = run.world
     total = sum(len(s.trials) for s in task_sets)
-    world.input.ask(_instruction(task_set.trials[0], len(task_sets), run))
+    world.input.ask(_instruction(study, task_set.trials[0], len(task_sets), run))
     _train(study, task_set, run)
     for trial in task_set.trials:
         again = True
         while again:
-            record = run.play(trial, study.session.trial_limit)
+            record = run.play(trial, study.part(trial.levels).limits.of(trial.task))
             world.recorder.trial_ends(record)
             world.progress(record)
             again = record.repeat
@@ -107,33 +109,42 @@ def _run_task_set(
 
 
 def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
-    """The training trials, each with feedback, until the study's limit."""
-    world, limit = run.world, study.session.training_limit
+    """The training trials, each with feedback, until the study's limit or criterion."""
+    world, practice = run.world, study.part(task_set.trials[0].levels).practice
+    limit, right = practice.limit, []
     began = world.clock.now()
     for trial in task_set.training:
+        if practice.until is not None and sum(right[-practice.until[1] :]) >= practice.until[0]:
+            break
         left = limit - (world.clock.now() - began)
         if limit and left <= 0:
             break
         record = run.play(trial, left if limit else 0.0)
+        right.append(record.outcome is not None and record.outcome.correct)
         world.input.ask(_feedback(record))
     if task_set.training:
         world.input.ask(_page("ready"))
 
 
-def _instruction(trial: Trial, total: int, run: TrialRun) -> Page:
-    task = run.world.tasks[trial.task]
+def _ends_block(task_set: TaskSet, task_sets: tuple[TaskSet, ...]) -> bool:
+    block = task_set.trials[0].block
+    return [s for s in task_sets if s.trials[0].block == block][-1] is task_set
+
+
+def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
     values = (("set", str(trial.task_set)), ("sets", str(total)))
     return Page(
         "instruction",
-        task.title,
+        run.world.tasks[trial.task].title,
         (
-            Paragraph(task.instruction),
-            Paragraph(run.study.setting(trial).world.controls),
-            Paragraph(f"transparency.{trial.transparency}"),
+            Paragraph(run.world.tasks[trial.task].instruction),
+            Paragraph(study.setting(trial).world.controls),
+            *levels.instructions(study, trial.levels),
             Picture(partial(run.preview, trial), run.technique(trial)),
             Paragraph("progress", values),
         ),
         ("begin",),
+        about=levels.of_blocks(study, trial.levels),
     )
 
 

@@ -6,7 +6,7 @@ numbers say something about the scene and nothing about a participant.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial, session_for
+from seethrough.experiment.study.factors import ALONE
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
@@ -51,7 +52,9 @@ class Difficulty:
 
 @dataclass(frozen=True)
 class Match:
-    """One measure of a task's scenes, level by level: its means, and how far they are apart.
+    """One measure of a task's scenes, level by level of a factor: its means, and how far they are
+    apart. Where the factor changes scenes they may be, and `bound` is None; the factor "" stands
+    for the sets of scenes.
 
     `difference` is in the measure's own unit for shares (visible, hidden), else a share of the
     mean over all levels.
@@ -61,22 +64,22 @@ class Match:
     measure: str
     levels: tuple[tuple[str, float], ...]
     difference: float
-    bound: float
+    bound: float | None
+    factor: str = ""
 
     @property
     def ok(self) -> bool:
         """Whether the levels are alike enough."""
-        return self.difference <= self.bound
+        return self.bound is None or self.difference <= self.bound
 
 
 def trials_of(study: Study, participants: int | None = None) -> list[Trial]:
     """Every trial of the study, with its level; walkthrough scenes occur once a participant."""
-    count = study.study.participants if participants is None else participants
-    factors = study.design.factors()
+    slots = study.plan.slots(participants or study.study.participants)
     return [
         trial
-        for slot in range(1, count + 1)
-        for task_set in session_for(slot, factors)
+        for slot in slots
+        for task_set in session_for(slot, study.plan)
         for trial in task_set.trials
     ]
 
@@ -89,13 +92,14 @@ class Certifier:
         self.aspect = study.display.width / study.display.height
         self._scenes = StudyScenes(study)
         self._looking = Looking(context, (study.display.width, study.display.height))
-        self._known: dict[tuple[int, ...], Difficulty] = {}
+        self._known: dict[Any, Difficulty] = {}
 
     def measure(self, trial: Trial) -> Difficulty:
         """The difficulty of a trial's scene."""
-        if trial.stream not in self._known:
-            self._known[trial.stream] = self._measured(trial)
-        return replace(self._known[trial.stream], trial=trial)
+        key = (self.study.part(trial.levels).place, trial.task, trial.stream)
+        if key not in self._known:
+            self._known[key] = self._measured(trial)
+        return replace(self._known[key], trial=trial)
 
     def _measured(self, trial: Trial) -> Difficulty:
         task = TASKS[trial.task]
@@ -148,26 +152,61 @@ SHARES = ("visible", "hidden")
 
 
 def matches(study: Study, measured: Sequence[Difficulty]) -> list[Match]:
-    """Whether, task by task and measure by measure, the transparency levels are equally hard."""
+    """How hard the scenes are, task by task and measure by measure: along every factor, and set by
+    set where scenes are shared. Levels that leave scenes alone have to be alike, and so have sets.
+    """
+    found = []
+    for task in dict.fromkeys(d.trial.task for d in measured):
+        own = [d for d in measured if d.trial.task == task]
+        for factor in study.factors:
+            by: dict[str, list[Difficulty]] = {
+                level: [d for d in own if d.trial.levels[factor.name] == level]
+                for level in factor.names
+            }
+            there = {level: of for level, of in by.items() if of}
+            matched = factor.scenes == ALONE
+            if len(there) > 1:
+                found += [_match(study, there, m, factor.name, matched) for m in MEASURES]
+        found += _sets(study, own)
+    return found
+
+
+def _sets(study: Study, own: Sequence[Difficulty]) -> list[Match]:
+    """The sets of a task's shared scenes against each other, each scene once.
+
+    Over a whole cycle every level meets every set, so that levels are alike whatever the sets are.
+    """
+    scenes = {d.trial.scene: d for d in own if study.part(d.trial.levels).plan.shared}
+    places: dict[tuple[str, ...], dict[str, list[Difficulty]]] = {}
+    for d in scenes.values():
+        changed = tuple(d.trial.levels[f.name] for f in study.factors if f.scenes != ALONE)
+        places.setdefault(changed, {}).setdefault(set_of(d.trial.scene, d.trial.task), []).append(d)
     return [
-        _match(study, [d for d in measured if d.trial.task == task], measure)
-        for task in study.design.tasks
+        _match(study, dict(sorted(sets.items())), measure, "", True)
+        for sets in places.values()
+        if len(sets) > 1
         for measure in MEASURES
     ]
 
 
-def _match(study: Study, own: Sequence[Difficulty], measure: str) -> Match:
+def set_of(scene: str, task: str) -> str:
+    """The set of a shared scene, from its name: A."""
+    return scene.rpartition(f"-{task}-")[0].rpartition("-")[2]
+
+
+def _match(
+    study: Study, by: Mapping[str, Sequence[Difficulty]], measure: str, factor: str, matched: bool
+) -> Match:
     levels = tuple(
-        (level, float(np.mean(values)))
-        for level in study.design.transparency
-        if (values := [MEASURES[measure](d) for d in own if d.trial.transparency == level])
+        (level, float(np.mean([MEASURES[measure](d) for d in own]))) for level, own in by.items()
     )
+    task = next(iter(by.values()))[0].trial.task
     means = [mean for _, mean in levels]
     apart = max(means) - min(means)
-    if measure in SHARES:
-        return Match(own[0].trial.task, measure, levels, apart, study.design.tolerance)
-    share = apart / float(np.mean(means)) if apart > 0 else 0.0
-    return Match(own[0].trial.task, measure, levels, share, study.design.imbalance)
+    if measure not in SHARES:
+        apart = apart / float(np.mean(means)) if apart > 0 else 0.0
+    bound = study.design.tolerance if measure in SHARES else study.design.imbalance
+    return Match(task, measure, levels, apart, bound if matched else None, factor)
 
 
 def worst(match: Match, measured: Iterable[Difficulty]) -> Difficulty:
@@ -175,9 +214,14 @@ def worst(match: Match, measured: Iterable[Difficulty]) -> Difficulty:
     means = dict(match.levels)
     middle = float(np.mean(list(means.values())))
 
+    def of(d: Difficulty) -> str:
+        if match.factor:
+            return d.trial.levels[match.factor]
+        return set_of(d.trial.scene, d.trial.task)
+
     def pull(d: Difficulty) -> float:
-        side = 1.0 if means[d.trial.transparency] > middle else -1.0
+        side = 1.0 if means[of(d)] > middle else -1.0
         return side * (MEASURES[match.measure](d) - middle)
 
-    own = [d for d in measured if d.trial.task == match.task and d.trial.transparency in means]
+    own = [d for d in measured if d.trial.task == match.task and of(d) in means]
     return max(own, key=pull)

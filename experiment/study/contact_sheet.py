@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.own_model_files import models_of, own_models
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.user import Facts
 from seethrough.renderer.scene.camera import look_at
@@ -33,10 +34,15 @@ def facts_of(own: OwnModel) -> Facts:
     return read(own)[1]
 
 
+def _place(own: OwnModel, study: Study) -> Any:
+    """The parameters of the first world that has the model."""
+    return next(place for place in study.places() if own in own_models(place))
+
+
 def described(own: OwnModel, facts: Facts, study: Study) -> list[str]:
     """What there is to say about a model, a line each."""
     mesh = mesh_of(own)
-    scale = shown_size(mesh, study.walkthrough)[0] / METRE
+    scale = shown_size(mesh, _place(own, study))[0] / METRE
     x, y, z = (side * scale for side in facts.size)
     lines = [f"{len(mesh.triangles)} triangles, {facts.in_file} in the file"]
     lines.append(f"{x:.2f} × {y:.2f} × {z:.2f} m (wide, high, deep) in the building")
@@ -90,7 +96,7 @@ def write(study: Study, context: Any, path: Path) -> None:
 
     if path.exists() and not _is_sheet(path):
         raise InputError(f"{path}: exists already and is no contact sheet; expected a new file")
-    models = study.walkthrough.models
+    models = models_of(study)
     width = MARGIN + (len(VIEWS) + 1) * (TILE + MARGIN) + TEXT + MARGIN
     sheet = Image.new("RGB", (width, MARGIN + len(models) * (TILE + MARGIN + 20)), "white")
     draw = ImageDraw.Draw(sheet)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -15,45 +15,59 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 from pydantic import BaseModel
 
 from seethrough.experiment.errors import shown
+from seethrough.experiment.study import plugins
+from seethrough.experiment.study.factor_tables import FACTOR_KEYS
 from seethrough.experiment.study.study_tables import (
-    AnalysisTable,
-    DesignTable,
-    DisplayTable,
+    TABLES,
     MarginsTable,
-    SessionTable,
-    StudyTable,
+    PredictionTable,
+    QuestionTable,
+    TaskTable,
 )
 from seethrough.renderer.declared import Key, allowed, declared
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.tasks.kit.own_models import OwnModel
-from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
-from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "keys.md"
 REQUIRED = object()
 
-# Table of a study file → what declares its keys, and what the reference says above them.
-TABLES: dict[str, tuple[Any, str]] = {
-    "study": (StudyTable, "What the study is."),
-    "design": (DesignTable, "What is crossed, and how often."),
-    "abstract": (AbstractParameters, "The world of T1 and T2, and the orbit about it."),
-    "walkthrough": (
-        BuildingParameters,
-        "The building of T3 and T4, and the walk through it. One world unit is half a metre.",
-    ),
-    "walkthrough.models": (
-        OwnModel,
-        "A model of the study's own, a table `[[walkthrough.models]]` each.",
-    ),
-    "dynamic": (DynamicTransparency, 'The technique of transparency level "dynamic".'),
-    "display": (DisplayTable, "The window, and what it promises."),
-    "session": (SessionTable, "Limits, pages, and what becomes of a broken-off session."),
-    "analysis": (AnalysisTable, "What is decided before anybody is invited."),
-    "analysis.margins": (
-        MarginsTable,
-        "Differences that would not matter; a measure without one has none.",
-    ),
+ABOUT = {
+    "study": "What the study is.",
+    "factors.NAME": "What the study varies: a table each, whose name becomes a column.",
+    "design": "Orders, and what happens in each condition.",
+    "practice": "Before the trials of each task set.",
+    "display": "The window, and what it promises.",
+    "session": "Its limit, and what becomes of a broken-off session.",
+    "analysis": "What is decided before anybody is invited.",
+    "analysis.margins": "Differences that would not matter; a measure without one has none.",
+    "analysis.predictions": "What is expected, a table `[[analysis.predictions]]` each.",
+    "task": "What holds for each task.",
+    "task.NAME": "What holds for one task.",
+    "questions.NAME": "A named table each, asked in this order.",
+    "world.building.models": "A model of the study's own, `[[world.building.models]]` each.",
 }
+
+
+@cache
+def tables() -> dict[str, Any]:
+    """Table of a study file → what declares its keys."""
+    found: dict[str, Any] = {"study": TABLES["study"], "factors.NAME": FACTOR_KEYS}
+    found |= {name: TABLES[name] for name in ("design", "practice")}
+    for kind in ("technique", "world"):
+        for name in plugins.names(kind):
+            cls = plugins.parameters(kind, name)
+            found[f"{kind}.{name}"] = cls
+            found |= {f"{kind}.{name}.{n}": c for n, c in plugins.inner_tables(cls).items()}
+    found |= {"task": TaskTable, "task.NAME": TaskTable, "questions.NAME": QuestionTable}
+    found |= {name: TABLES[name] for name in ("display", "session", "analysis")}
+    return found | {"analysis.margins": MarginsTable, "analysis.predictions": PredictionTable}
+
+
+def about(table: str) -> str:
+    """What the reference says above a table's keys."""
+    kind, _, name = table.partition(".")
+    said = {"technique": "The technique", "world": "The world"}
+    return ABOUT.get(
+        table, f'{said.get(kind, "")} `{name}`: parameters of [{kind}] use = "{name}".'
+    )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -72,7 +86,9 @@ class StudyKey:
 @cache
 def keys_of(table: str) -> dict[str, StudyKey]:
     """Name → key of a table."""
-    declares = TABLES[table][0]
+    declares = tables()[table]
+    if isinstance(declares, Mapping):
+        return {n: StudyKey(table, n, may, "", "", said) for n, (may, said) in declares.items()}
     parameters = dataclasses.is_dataclass(declares)
     found = _of_parameters(table, declares) if parameters else _of_model(table, declares)
     return {key.name: key for key in found}
@@ -90,7 +106,7 @@ def _of_model(table: str, model: Any) -> Iterator[StudyKey]:
     for name, field in model.model_fields.items():
         more = field.json_schema_extra or {"unit": "", "said": ""}
         inner = f"{table}.{name}"
-        may = f"a table, [{inner}]" if inner in TABLES else more["said"] or _allowed(field)
+        may = f"a table, [{inner}]" if inner in tables() else more["said"] or _allowed(field)
         default = REQUIRED if field.is_required() else field.default
         yield StudyKey(table, name, may, default, more["unit"], field.description or "")
 
@@ -125,17 +141,20 @@ def _choices(hint: Any) -> str:
 def reference() -> str:
     """docs/keys.md."""
     parts = [_HEAD]
-    for table, (_, about) in TABLES.items():
-        double = table == "walkthrough.models"
+    for table in tables():
+        if not keys_of(table):
+            continue
+        double = table.endswith((".models", ".predictions"))
         head = f"## `[[{table}]]`" if double else f"## `[{table}]`"
         columns = ("| key | may be | default | unit | meaning |", "| --- | --- | --- | --- | --- |")
         rows = map(_row, keys_of(table).values())
-        parts.append("\n".join([head, "", about, "", *columns, *rows]))
+        parts.append("\n".join([head, "", about(table), "", *columns, *rows]))
     return "\n\n".join([*parts, _TAIL])
 
 
 def _row(key: StudyKey) -> str:
     default = "required" if key.default is REQUIRED else _default(key.default)
+    default = "none" if default == '`""`' and key.table == "factors.NAME" else default
     return f"| `{key.name}` | {key.allowed} | {default} | {key.unit} | {key.meaning} |"
 
 
@@ -160,9 +179,9 @@ study."""
 
 _TAIL = """## `[texts]`
 
-Any text that participants read, by its name in `experiment/pages/languages/en.toml` or in the
-`texts/en.toml` of a task or world, table and key with a dot between: `"welcome.text" = "Hello."`
-An unknown name is refused.
+Any text that participants read, by its name in `experiment/pages/languages/en.toml`,
+table and key with
+a dot between: `"welcome.text" = "Hello."` An unknown name is refused.
 
 ## When is an answer right?
 

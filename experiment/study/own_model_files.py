@@ -4,19 +4,34 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.model_files import check_files
-from seethrough.tasks.kit.own_models import READER, kept_as, mesh_of, packed, read
-from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+from seethrough.tasks.kit.own_models import READER, OwnModel, kept_as, mesh_of, packed, read
+
+if TYPE_CHECKING:
+    from seethrough.experiment.study.study import Study
 
 FOLDER = "models"
 
 
-def beside(parameters: BuildingParameters, path: Path) -> BuildingParameters:
-    """The [walkthrough] of the study file at `path`, its models read, with their files' hashes.
+def own_models(place: Any) -> tuple[OwnModel, ...]:
+    """The models that a world's parameters bring along."""
+    return tuple(getattr(place, "models", ()))
+
+
+def models_of(study: Study) -> tuple[OwnModel, ...]:
+    """Every model that the study brings along, each once."""
+    return tuple(dict.fromkeys(m for place in study.places() for m in own_models(place)))
+
+
+def beside(parameters: Any, path: Path) -> Any:
+    """A world's parameters of the study file at `path`, its models read, with their files' hashes.
     Raises InputError."""
+    if not own_models(parameters):
+        return parameters
     found = []
     for number, model in enumerate(parameters.models):
         try:
@@ -27,14 +42,14 @@ def beside(parameters: BuildingParameters, path: Path) -> BuildingParameters:
         except (ValueError, OSError) as error:
             reason = str(error).removeprefix(f"{path.parent / model.file}: ")
             raise InputError(
-                f"{path}: walkthrough.models[{number}].file = {model.file!r}: {reason}"
+                f"{path}: world.building.models[{number}].file = {model.file!r}: {reason}"
             ) from None
     return replace(parameters, models=tuple(found))
 
 
-def keep(parameters: BuildingParameters, data: Path) -> None:
+def keep(study: Study, data: Path) -> None:
     """Put the meshes into the data folder, for replays on any machine. Raises InputError."""
-    for model in parameters.models:
+    for model in models_of(study):
         path = kept_as(replace(model, folder=str(data / FOLDER)))
         try:
             make_folder(path.parent)
@@ -46,9 +61,11 @@ def keep(parameters: BuildingParameters, data: Path) -> None:
             raise InputError(f"{path}: cannot be written: {error.strerror}") from None
 
 
-def kept(parameters: BuildingParameters, data: Path) -> BuildingParameters:
-    """The [walkthrough] of a sidecar, its models as the data folder kept them.
+def kept(parameters: Any, data: Path) -> Any:
+    """A world's parameters of a sidecar, its models as the data folder kept them.
     Raises InputError."""
+    if not own_models(parameters):
+        return parameters
     found = [replace(model, folder=str(data / FOLDER)) for model in parameters.models]
     for model in found:
         if not kept_as(model).is_file():

@@ -7,8 +7,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
-from pydantic import BeforeValidator, TypeAdapter, ValidationError
-from pydantic_core import PydanticCustomError
+from pydantic import TypeAdapter, ValidationError
 
 from seethrough.renderer.declared import Key, allowed, declared, problems
 
@@ -34,26 +33,8 @@ class Faults(ValueError):
         super().__init__(f"{len(found)} faults")
 
 
-def from_table(cls: type) -> BeforeValidator:
-    """A validator that makes a `cls` of a table. Its errors have `found`, the table's Faults."""
-
-    def build(table: Any) -> Any:
-        if not isinstance(table, Mapping):
-            return table  # pydantic says of anything else that it is not a table
-        try:
-            return _built(cls, table)
-        except Faults as faults:
-            raise faulty(faults.found) from None
-
-    return BeforeValidator(build)
-
-
-def faulty(found: list[Fault]) -> PydanticCustomError:
-    """The error by which pydantic passes on what is wrong with a table."""
-    return PydanticCustomError("faults", "several faults", {"found": found})
-
-
-def _built(cls: Any, table: Mapping[str, Any]) -> Any:
+def built(cls: Any, table: Mapping[str, Any]) -> Any:
+    """A `cls` of a table. Raises Faults, all that is wrong with it."""
     types, keys = get_type_hints(cls), declared(cls)
     values = {f.name: f.default for f in dataclasses.fields(cls)}
     found: list[Fault] = []
@@ -98,7 +79,7 @@ def _items(name: str, items: tuple[Any, ...], cls: Any) -> tuple[Any, ...]:
             found.append(Fault(where, item, "a table"))
             continue
         try:
-            made.append(_built(cls, item))
+            made.append(built(cls, item))
         except Faults as faults:
             found += [fault._replace(key=f"{where}.{fault.key}") for fault in faults.found]
     if found:

@@ -10,18 +10,15 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from seethrough.experiment.errors import MOST, InputError, gathered, short, shown, unknown
-from seethrough.experiment.study.keys import TABLES, keys_of
+from seethrough.experiment.study.keys import keys_of, tables
 from seethrough.experiment.study.parameter_tables import MISSING, Fault
 
-SECTIONS = (*(t for t in TABLES if "." not in t), "texts")
 
-
-def study_error(error: ValidationError, table: Mapping[str, Any], file: str) -> InputError:
-    """All that pydantic found in a study's table, as lines: file: key = value: what was expected.
+def study_error(faults: Sequence[Fault], file: str) -> InputError:
+    """All that is wrong with a study, as lines: file: key = value: what was expected.
 
     Of very many faults the words are made for the first ones only.
     """
-    faults = list(_faults(error.errors(include_url=False), table))
     lines = [f"{file}: {_line(fault)}" for fault in islice(faults, MOST)]
     return gathered(lines, len(faults) - len(lines))
 
@@ -40,39 +37,42 @@ def _name(where: str, name: str) -> str:
     return f"{where}.{short(name)}" if where else short(name)
 
 
-def _faults(errors: Sequence[ErrorDetails], table: Mapping[str, Any]) -> Iterator[Fault]:
-    items = {error["loc"][:2] for error in errors if len(error["loc"]) > 2}
+def faults_of(error: ValidationError, section: str, table: Mapping[str, Any]) -> list[Fault]:
+    """What pydantic found in a table, as faults of its keys."""
+    return list(_faults(error.errors(include_url=False), section))
+
+
+def _faults(errors: Sequence[ErrorDetails], section: str) -> Iterator[Fault]:
+    items = {error["loc"][:1] for error in errors if len(error["loc"]) > 1}
     for error in errors:
-        if error["loc"] in items:
-            continue  # too short an array, of which the wrong items do not count
-        where, *rest = error["loc"]
-        section = str(where)
-        if error["type"] == "faults":
-            for fault in error["ctx"]["found"]:
-                yield fault._replace(key=f"{section}.{fault.key}")
-        elif section not in SECTIONS:
-            yield Fault(section, error["input"], known=SECTIONS)
-        elif not rest or not isinstance(table.get(section), Mapping):
-            missing = error["type"] == "missing"
-            yield Fault(section, MISSING if missing else table[section], f"a table, [{section}]")
-        elif section == "texts":
-            yield Fault(f"texts.{rest[0]}", error["input"], "text")
-        else:
-            yield _of_key(section, rest, error)
+        if error["loc"] not in items:  # else too short an array, of which wrong items do not count
+            yield _of_key(section, error["loc"], error)
 
 
 def _of_key(section: str, rest: Sequence[int | str], error: ErrorDetails) -> Fault:
     """A fault of a key of one of the session's own tables, or of an item of its array."""
-    if len(rest) > 1 and f"{section}.{rest[0]}" in TABLES:
-        return _of_key(f"{section}.{rest[0]}", rest[1:], error)
+    if len(rest) > 1 and f"{section}.{rest[0]}" in tables():
+        if not isinstance(rest[1], int):
+            return _of_key(f"{section}.{rest[0]}", rest[1:], error)
+        where = f"{section}.{rest[0]}[{rest[1]}]"
+        if len(rest) == 2:
+            return Fault(where, error["input"], "a table")
+        fault = _of_key(f"{section}.{rest[0]}", rest[2:], error)
+        return fault._replace(key=fault.key.replace(f"{section}.{rest[0]}", where, 1))
     name, item = str(rest[0]), next((n for n in rest[1:] if isinstance(n, int)), None)
-    keys = keys_of(section)
+    keys = keys_of(_declared(section))
     if name not in keys:
         return Fault(f"{section}.{name}", error["input"], known=tuple(keys))
     where = f"{section}.{name}" + ("" if item is None else f"[{item}]")
     if error["type"] == "missing":
         return Fault(where, MISSING, keys[name].allowed)
     return Fault(where, error["input"], _expected(error, keys[name].allowed, item is not None))
+
+
+def _declared(section: str) -> str:
+    """The table that declares a section's keys: that of all questions, of every task's limit."""
+    table = section.partition(".")[0]
+    return f"{table}.NAME" if table in ("questions", "task") and "." in section else section
 
 
 def _expected(error: ErrorDetails, allowed: str, item: bool) -> str:

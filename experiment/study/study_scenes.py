@@ -16,7 +16,7 @@ class StudyScenes:
 
     def __init__(self, study: Study) -> None:
         self.study = study
-        self._shared: dict[tuple[int, ...], Any] = {}
+        self._shared: dict[tuple[Any, str, tuple[int, ...]], Any] = {}
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""
@@ -27,9 +27,10 @@ class StudyScenes:
         rng = generator(self.study.study.seed, trial.stream)
         if setting.place.scenes == OWN:
             return task.make_scene(rng, setting)
-        if trial.stream not in self._shared:
-            self._shared[trial.stream] = task.make_scene(rng, setting)
-        return self._shared[trial.stream]
+        key = (setting.place, trial.task, trial.stream)
+        if key not in self._shared:
+            self._shared[key] = task.make_scene(rng, setting)
+        return self._shared[key]
 
     def example(self, trial: Trial) -> Trial:
         """A trial like this one whose scene no trial of the study uses: for instructions."""

@@ -1,36 +1,37 @@
-"""The tables of a study file that are the session's own: what each key means and may be.
+"""The tables of a study file that are the session's own: what each key means, may be, and when it
+can change (experiment/study/scopes.py).
 
-Those of worlds and of the technique are declared where they are used (tasks/worlds/,
-renderer/techniques/). All of them make docs/keys.md (experiment/study/keys.py).
+Those of worlds, tasks, techniques and questions are declared where those are. All of them make
+docs/keys.md (experiment/study/keys.py).
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator
 
+from seethrough import registry
 from seethrough.experiment.errors import shown
 from seethrough.experiment.files.folders import PARTICIPANT
 from seethrough.experiment.pages.texts import languages
-from seethrough.experiment.study.design import Factors
-from seethrough.tasks.catalog import TASKS, WORLDS, world_of
-from seethrough.tasks.kit.world import SHARED
-
-QuestionnaireBlock = Literal["ratings", "comparison", "tlx", "sus", "depth_test", "remarks"]
+from seethrough.experiment.study.scopes import BLOCK, FIXED, SESSION
 
 # What `analysis` knows by these names; a contract test holds both to each other.
 AnalysisTest = Literal["time", "accuracy", "ratings", "tradeoff", "validity", "mixed"]
 EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
-TASKS_SAID = f"an array of some of {', '.join(map(shown, TASKS))}, each once"
+TASKS_SAID = f"an array of some of {', '.join(map(shown, registry.names('task')))}, each once"
 NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
 
-def key(meaning: str, unit: str = "", said: str = "", **limits: Any) -> Any:
-    """What is declared of a key: `said` says what is allowed where the limits do not."""
-    return Field(description=meaning, json_schema_extra={"unit": unit, "said": said}, **limits)
+def key(meaning: str, unit: str = "", said: str = "", scope: str = FIXED, **limits: Any) -> Any:
+    """What is declared of a key: `said` says what is allowed where the limits do not, `scope` when
+    it can change."""
+    more = {"unit": unit, "said": said, "scope": scope}
+    return Field(description=meaning, json_schema_extra=more, **limits)
 
 
 def _plain(value: str) -> str:
@@ -62,8 +63,8 @@ def _exclusion(value: str) -> str:
 
 
 def _task(value: str) -> str:
-    if value not in TASKS:
-        raise ValueError(f"one of {', '.join(map(shown, TASKS))}")
+    if value not in registry.names("task"):
+        raise ValueError(f"one of {', '.join(map(shown, registry.names('task')))}")
     return value
 
 
@@ -102,27 +103,34 @@ class StudyTable(Table):
     ]  # fmt: skip
     language: Annotated[
         str, AfterValidator(_language),
-        key("of all that participants read", said=f"one of {', '.join(languages())}"),
+        key("of all that participants read", scope=SESSION,
+            said=f"one of {', '.join(languages())}"),
     ] = "en"  # fmt: skip
 
 
 class DesignTable(Table):
-    """[design]: what is crossed, and how often.
+    """[design]: orders, and what happens in each condition.
 
-    Transparency levels are to be equally hard: `check` compares their scenes by `tolerance` and
-    `imbalance`; scenes named in `redraw` are drawn again (experiment/study/certificate.py).
+    Levels that leave scenes alone are to be equally hard: `check` compares their scenes by
+    `tolerance` and `imbalance`; scenes named in `redraw` are drawn again
+    (experiment/study/certificate.py).
     """
 
-    transparency: Annotated[
-        tuple[Literal["standard", "dynamic"], ...],
-        key("levels of transparency, each participant meets all", min_length=1, max_length=2),
-    ] = ("standard", "dynamic")
+    order: Annotated[
+        Literal["williams", "latin", "fixed", "random"],
+        key("square over the conditions of all factors that have no order of their own"),
+    ] = "williams"
     tasks: Annotated[
         tuple[Annotated[str, AfterValidator(_task)], ...],
-        key("what is asked, in the order of the worlds", min_length=1, said=TASKS_SAID),
-    ] = ("count", "pattern", "unique", "count_in_building")
-    trials: Annotated[int, key("trials of each task in each condition", ge=1, le=100)] = 3
-    training: Annotated[int, key("trials to practise on before those", ge=0, le=20)] = 1
+        key("what people do in each condition, in this order in the first slot", scope=BLOCK,
+            said=TASKS_SAID, min_length=1),
+    ] = ()  # fmt: skip
+    trials: Annotated[int, key("trials of each task in each cell", scope=BLOCK, ge=1, le=100)] = 3
+    exclude: Annotated[
+        tuple[Mapping[str, str | int | float | bool], ...],
+        key("cells to leave out, each by levels of some factors",
+            said="an array of tables, as { view = \"plain\", clutter = 380 }"),
+    ] = ()  # fmt: skip
     redraw: Annotated[
         tuple[str, ...],
         key("scenes to draw again, so that the levels match: `check --redraw` prints the line"),
@@ -138,62 +146,82 @@ class DesignTable(Table):
             "to walk may be apart, as a share of their mean", gt=0, le=2),
     ] = 0.2  # fmt: skip
 
-    _arrays = field_validator("transparency", "tasks", "redraw", mode="before")(_as_tuple)
-    _unique = field_validator("transparency", "tasks")(_once)
+    _arrays = field_validator("tasks", "redraw", "exclude", mode="before")(_as_tuple)
+    _unique = field_validator("tasks")(_once)
 
-    def factors(self) -> Factors:
-        """The design's factors, tasks grouped by world in the order of the worlds."""
-        worlds = {t: world_of(TASKS[t]) for t in self.tasks}
-        present = {
-            world.scenario: tuple(t for t in self.tasks if worlds[t] is world)
-            for world in WORLDS.values()
-            if world in worlds.values()
-        }
-        shared = tuple(w.scenario for w in worlds.values() if w.Parameters().scenes == SHARED)
-        return Factors(
-            self.transparency, present, self.trials, self.training, shared, redraw=self.redraw
-        )
+
+class PracticeTable(Table):
+    """[practice]: before the trials of each task set."""
+
+    trials: Annotated[
+        int, key("trials to practise on before those of a task set", scope=BLOCK, ge=0, le=20)
+    ] = 1
+    limit: Annotated[
+        float,
+        key("most time for the practice trials of a task set; 0: no limit", "s", scope=BLOCK,
+            ge=0, le=1e9),
+    ] = 300.0  # fmt: skip
+    until: Annotated[
+        tuple[int, int] | None,
+        key("practise until so many of the last so many are right, as [3, 4]; none: `trials`",
+            scope=BLOCK, said="two whole numbers from 1 to 20, the first at most the second"),
+    ] = None  # fmt: skip
+    most: Annotated[
+        int, key("practice trials at most, with `until`", scope=BLOCK, ge=1, le=100)
+    ] = 20
+
+    _arrays = field_validator("until", mode="before")(_as_tuple)
+
+    @field_validator("until")
+    @classmethod
+    def _some_of_the_last(cls, value: tuple[int, int] | None) -> tuple[int, int] | None:
+        if value is not None and not 1 <= value[0] <= value[1] <= 20:
+            raise ValueError("two whole numbers from 1 to 20, the first at most the second")
+        return value
+
+    @property
+    def count(self) -> int:
+        """Practice trials that there may be."""
+        return self.trials if self.until is None else self.most
+
+
+class TaskTable(Table):
+    """[task]: what holds for each; a [task.NAME] may have a limit of its own."""
+
+    limit: Annotated[
+        float,
+        key("most time for a trial, then it counts as timed out; 0: no limit", "s", scope=BLOCK,
+            ge=0, le=1e9),
+    ] = 0.0  # fmt: skip
 
 
 class DisplayTable(Table):
     """[display]: the window, and what it promises."""
 
-    width: Annotated[int, key("width of the window", "pixels", ge=1, le=8192)] = 800
-    height: Annotated[int, key("height of the window", "pixels", ge=1, le=8192)] = 600
-    fullscreen: Annotated[bool, key("fill the screen, whatever `width` and `height` say")] = False
+    width: Annotated[int, key("width of the window", "pixels", scope=SESSION, ge=1, le=8192)] = 800
+    height: Annotated[int, key("height of the window", "pixels", scope=SESSION, ge=1, le=8192)] = (
+        600
+    )
+    fullscreen: Annotated[
+        bool, key("fill the screen, whatever `width` and `height` say", scope=SESSION)
+    ] = False
     refresh: Annotated[
         float, key("refresh rate of the display; a frame of over 1.5 periods is missed", "Hz",
-                   ge=10, le=1000),
+                   scope=SESSION, ge=10, le=1000),
     ] = 60.0  # fmt: skip
     samples: Annotated[
         Literal["auto", 0, 2, 4, 8],
         key("samples a pixel, against jagged edges; auto: 4 on a graphics card, none without, "
-            "where they would miss 60 Hz"),
+            "where they would miss 60 Hz", scope=SESSION),
     ] = "auto"  # fmt: skip
 
 
 class SessionTable(Table):
-    """[session]: limits, pages before and after, and what becomes of a broken-off session."""
+    """[session]: its limit, and what becomes of a broken-off session."""
 
-    training_limit: Annotated[
-        float,
-        key("most time for the practice trials of a task set; 0: no limit", "s", ge=0, le=1e9),
-    ] = 300.0
-    trial_limit: Annotated[
-        float,
-        key("most time for a trial, then it counts as timed out; 0: no limit", "s", ge=0, le=1e9),
-    ] = 0.0
-    session_limit: Annotated[
+    limit: Annotated[
         float, key("most time for the session, then it ends; 0: no limit", "s", ge=0, le=1e9)
     ] = 4800.0
-    consent: Annotated[
-        str, key("text file beside the study's, shown first and to be agreed to; empty: none")
-    ] = ""
-    demographics: Annotated[bool, key("ask for age and gender before the first trial")] = False
-    color_check: Annotated[bool, key("show plates that tell who confuses red and green")] = False
-    questionnaire: Annotated[
-        tuple[QuestionnaireBlock, ...], key("pages after the last trial, in this order")
-    ] = ("ratings", "comparison", "remarks")
     resume: Annotated[
         Literal["block", "trial"],
         key("where a broken-off session goes on: at the start of the block, or at the trial"),
@@ -210,9 +238,6 @@ class SessionTable(Table):
             "PostgreSQL's own password file); empty: a file in the data folder", said=LEDGER,
             exclude=True),
     ] = ""  # fmt: skip
-
-    _arrays = field_validator("questionnaire", mode="before")(_as_tuple)
-    _unique = field_validator("questionnaire")(_once)
 
 
 class MarginsTable(Table):
@@ -232,6 +257,32 @@ class MarginsTable(Table):
     ] = None
 
 
+class PredictionTable(Table):
+    """[[analysis.predictions]]: what is expected, stated before there are data."""
+
+    name: Annotated[str, key("what the report calls it, as P1", min_length=1, max_length=32)]
+    measure: Annotated[
+        str | tuple[str, ...], key("the measure, or several", said="a measure's name, or an array")
+    ]
+    contrast: Annotated[str, key("the factor whose levels are compared with its baseline")] = ""
+    expect: Annotated[
+        Literal["less", "more", "different", "not worse", "equal", "at least", "at most"],
+        key("how the levels differ from the baseline, or what the mean is"),
+    ]
+    level: Annotated[str, key("the level that is compared; empty: each")] = ""
+    value: Annotated[float | None, key("what the mean is compared with")] = None
+    margin: Annotated[
+        Mapping[str, float] | float | None,
+        key("the largest difference that would not matter, in the measure's unit",
+            said="a number, or one for each measure, as { time = 2.0 }"),
+    ] = None  # fmt: skip
+    ratio: Annotated[float | None, key("the same as a ratio, for ratio scales", gt=1)] = None
+    combine: Annotated[Literal["all", "any"], key("of several measures")] = "all"
+    reason: Annotated[str, key("why it is expected, for the report")] = ""
+
+    _arrays = field_validator("measure", mode="before")(_as_tuple)
+
+
 class AnalysisTable(Table):
     """[analysis]: what is decided before anybody is invited; the report lists deviations."""
 
@@ -247,6 +298,55 @@ class AnalysisTable(Table):
                    "name", "s", gt=0, le=1e9),
     ] = 0.2  # fmt: skip
     margins: Annotated[MarginsTable, key("differences that would not matter")] = MarginsTable()
+    predictions: Annotated[
+        tuple[PredictionTable, ...],
+        key("what is expected, a table `[[analysis.predictions]]` each",
+            said="an array of tables, [[analysis.predictions]]"),
+    ] = ()  # fmt: skip
 
-    _arrays = field_validator("tests", "exclude", mode="before")(_as_tuple)
+    _arrays = field_validator("tests", "exclude", "predictions", mode="before")(_as_tuple)
     _unique = field_validator("tests", "exclude")(_once)
+
+
+class QuestionTable(Table):
+    """[questions]: a named table each, asked in this order; the name is the kind or block to use,
+    unless `use` says another. A kind's own keys stand beside these."""
+
+    use: Annotated[str, key("the kind of question, or ready block; empty: its own name")] = ""
+    when: Annotated[
+        Literal["", "start", "condition", "end"],
+        key("when it is asked; empty: when such a block usually is", scope=BLOCK),
+    ] = ""
+    each: Annotated[
+        tuple[str, ...] | None,
+        key("once for each level of these factors; none: as such a block usually is",
+            said="an array of factors' names", scope=BLOCK),
+    ] = None  # fmt: skip
+    only: Annotated[
+        Mapping[str, str | tuple[str, ...]],
+        key("only for these levels", said="a table of factor and level, or levels", scope=BLOCK,
+            default_factory=dict),
+    ]  # fmt: skip
+    of: Annotated[str, key("the factor whose levels are compared")] = ""
+    off: Annotated[bool, key("not asked: a level may switch a question off", scope=BLOCK)] = False
+    file: Annotated[str, key("text file beside the study's, of a page to be agreed to")] = ""
+
+    _arrays = field_validator("each", mode="before")(_as_tuple)
+
+    @field_validator("only", mode="before")
+    @classmethod
+    def _levels(cls, value: Any) -> Any:
+        if not isinstance(value, Mapping):
+            return value
+        return {k: tuple(v) if isinstance(v, list) else v for k, v in value.items()}
+
+
+# The tables that are checked here, by their names; `factors` and those of plug-ins beside them.
+TABLES: dict[str, type[Table]] = {
+    "study": StudyTable,
+    "design": DesignTable,
+    "practice": PracticeTable,
+    "display": DisplayTable,
+    "session": SessionTable,
+    "analysis": AnalysisTable,
+}

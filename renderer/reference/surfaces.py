@@ -44,6 +44,7 @@ def surfaces(shot: Shot) -> tuple[Surfaces, NDArray[np.bool_]]:
         starts=np.searchsorted(pixel, np.arange(width * height + 1)),
         outlines=tuple(outlines),
         edge=near_edge[0].ravel(),
+        edges=near_edge.any(axis=0).ravel(),
     ), near_edge
 
 

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import get_args
 
 import pytest
+from published_design import columns, published
 
 from seethrough.analysis import exclude, plan
 from seethrough.analysis.load import schema
 from seethrough.analysis.load.chain import link, seal_of, start_of
 from seethrough.experiment.record import chain
-from seethrough.experiment.record.columns import TABLES
 from seethrough.experiment.study import study_tables
 
 
@@ -21,13 +21,14 @@ from seethrough.experiment.study import study_tables
 )
 def test_every_column_read_is_written_with_the_same_type(table: str, read: dict[str, str]) -> None:
     """Names and types agree; the recorder may write more than the analysis reads."""
-    written = {c.name: c.type for c in TABLES[table]}
+    written = {c.name: c.type for c in columns()[table]}
     assert {name: written.get(name) for name in read} == dict(read)
 
 
 def test_levels_are_the_same() -> None:
     """A level that the recorder may write is one that the analysis knows."""
-    written = {c.name: c.levels for c in TABLES["trials"] if c.levels}
+    written = {c.name: c.levels for c in columns()["trials"] if c.levels}
+    written["task"] = tuple(task["name"] for task in published()["tasks"])
     assert {name: tuple(levels) for name, levels in schema.LEVELS.items()} == written
 
 

@@ -53,7 +53,7 @@ if largest:  # no file may grow past this: what a full disk does, for users who 
 view = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
 
 def play(recorder, number):
-    trial = Trial(number, 1, 1, number, "dynamic", "abstract", "count", "stream-1", (1, 1))
+    trial = Trial(number, 1, 1, number, {}, "count", "stream-1", (1, 1))
     recorder.trial_begins(trial)
     for frame in range(100):
         recorder.event(PointerMove(frame / 60, 0.5, 0.25, 0.125, 0.0, True))
@@ -184,7 +184,7 @@ def test_a_clock_set_back_changes_no_duration_and_breaks_no_chain(tmp_path):
     times = iter(["2026-03-29T03:00:00.000Z", "2026-03-29T02:00:00.000Z", *["1970-01-01"] * 9])
     who = Who("test", "P01", "human", 1, {})
     recorder = FileRecorder(tmp_path, who, now=lambda: next(times))
-    trial = Trial(1, 1, 1, 1, "dynamic", "abstract", "count", "stream-1", (1, 1))
+    trial = Trial(1, 1, 1, 1, {}, "count", "stream-1", (1, 1))
     for _ in range(2):
         recorder.trial_begins(trial)
         outcome = Outcome("12", "14", False, count_error=-2)

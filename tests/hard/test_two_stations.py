@@ -31,6 +31,7 @@ from pathlib import Path
 from seethrough.experiment import cli
 from seethrough.experiment.ledger import ledger_lock
 from seethrough.experiment.commands import run
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.record.recorder import FileRecorder, Who
@@ -52,7 +53,7 @@ def play(study, participant, slot, source, data, guard):
 
     start = starting_point(study, data, source, participant, slot)
     made = {{"study_sha256": study.digest()}}
-    who = Who(study.study.name, participant, source, slot, made, start.session)
+    who = Who(study.study.name, participant, source, slot, made, start.session, design_entry(study))
     recorder = FileRecorder(data, who, attempts=start.attempts, guard=asks)
     number, status = max(start.done, default=0), "left"
     try:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -33,7 +35,7 @@ TECHNIQUES = {
 def views() -> list[View]:
     """The first view of a trial of each task."""
     scenes, found = StudyScenes(STUDY), {}
-    for task_set in session_for(1, STUDY.design.factors()):
+    for task_set in session_for(1, STUDY.plan):
         trial = task_set.trials[0]
         task = TASKS[trial.task]
         found[trial.task] = task.view(scenes.begin(task, trial, 4 / 3))
@@ -100,9 +102,9 @@ def test_a_window_of_another_size_is_looked_at_anew(context, views):
 def test_tables_hold_what_the_eyes_see(context, views):
     """Data mode draws for its tables what visual mode looks at, in the study's own window."""
     display = STUDY.display.model_copy(update={"width": 1024, "height": 768})
-    study = STUDY.model_copy(update={"display": display})
+    study = replace(STUDY, display=display)
     eyes, draws = Looking(context, (1024, 768), simple=True), LazyDraw(study)
-    for level, technique in (("standard", Standard()), ("dynamic", study.dynamic)):
+    for level, technique in (("standard", Standard()), ("dynamic", DynamicTransparency())):
         eyes.technique = technique
         for view in views:
             drawn, seen = draws(level)(view.scene, view.camera), eyes.look(view)

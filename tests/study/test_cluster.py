@@ -91,7 +91,7 @@ def test_a_killed_worker_costs_nothing_and_the_numbers_are_those_of_one_process(
     monkeypatch.setattr(cluster, "_work", held_back(gates))
     study = load(job.study)
     with Results(tmp_path / "many", study, job.about(study)) as results:
-        chunks = results.missing(PEOPLE)
+        chunks = results.missing(range(1, PEOPLE + 1))
         played = cluster.play(job, chunks, dask.scheduler_address)
         results.add(next(played))
         while not busy(gates):

@@ -24,15 +24,20 @@ description = "Four short trials."
 participants = 1
 seed = 5
 [design]
-trials = 1
-training = 0
 tasks = ["count", "pattern"]
-[abstract]
+trials = 1
+[factors.transparency]
+levels.standard = {{ technique.use = "standard" }}
+levels.dynamic = {{ technique.use = "dynamic" }}
+[world.abstract]
 side = 50.0
 objects = 60
 target_share = [0.3, 0.4]
-[session]
-questionnaire = []
+[world]
+use = "abstract"
+[practice]
+trials = 0
+[questions] # in this order
 """
 PERIOD = 1 / 60  # s: "right to one frame"
 STAMP = 0.002  # s: X11 counts whole milliseconds, and ours is rounded to one

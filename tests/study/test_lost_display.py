@@ -19,16 +19,20 @@ description = "A few trials."
 participants = 1
 seed = 5
 [design]
-transparency = ["standard"]
 tasks = ["count"]
 trials = 9
-training = 0
-[abstract]
+[world.abstract]
 objects = 60
 target_share = [0.3, 0.4]
 [session]
-questionnaire = []
 resume = "trial"
+[technique]
+use = "standard"
+[world]
+use = "abstract"
+[practice]
+trials = 0
+[questions] # in this order
 """
 
 # `seethrough`, whose driver fails in one of the ways that drivers have once the first file exists.

@@ -23,16 +23,27 @@ participants = 4
 seed = 5
 [design]
 trials = 1
-training = 0
-[abstract]
+[factors.transparency]
+levels.standard = {{ technique.use = "standard" }}
+levels.dynamic = {{ technique.use = "dynamic" }}
+[factors.scenario]
+levels.abstract = {{ world.use = "abstract", design.tasks = ["count", "pattern"] }}
+levels.walkthrough = {{ world.use = "building", design.tasks = ["unique", "count_in_building"] }}
+[world.abstract]
 side = 50.0
 objects = 60
 target_share = [0.3, 0.4]
-[walkthrough]
+[world.building]
 grid = 6
 objects = 8
 count = [1, 3]
 types = ["chair", "table", "cat"]
+[practice]
+trials = 0
+[questions] # in this order
+ratings = {{ when = "end", each = ["transparency", "scenario"] }}
+comparison = {{ when = "end", of = "transparency" }}
+remarks = {{ when = "end" }}
 """
 
 
@@ -99,7 +110,7 @@ def test_a_whole_short_session_by_keyboard_and_mouse(desktop, study_file, tmp_pa
     data = tmp_path / "data"
     with open_session(desktop, study_file, data, TITLE) as program:
         for number, trial in enumerate(trials_of(study_file), start=1):
-            if trial.scenario == "abstract":
+            if trial.world == "abstract":
                 drag(desktop)
             answer(desktop, program, trial.task, number)
             desktop.screenshot(ARTEFACTS / f"window-after-trial-{number}.png")
@@ -108,7 +119,7 @@ def test_a_whole_short_session_by_keyboard_and_mouse(desktop, study_file, tmp_pa
         assert program.process.returncode == 0, program.said()
     table = rows(data)
     played = [(r["transparency"], r["task"]) for r in table]
-    assert played == [(t.transparency, t.task) for t in trials_of(study_file)]
+    assert played == [(t.levels["transparency"], t.task) for t in trials_of(study_file)]
     assert all(float(r["time"]) > 0 and r["answer"] for r in table)
     assert {r["source"] for r in table} == {"human"}
     (questions,) = Path(data).glob("data/human/P01/*_questionnaire_data.csv")

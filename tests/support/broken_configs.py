@@ -18,11 +18,13 @@ from typing import Any
 import numpy as np
 
 from seethrough.experiment.study.config import find
-from seethrough.experiment.study.keys import TABLES, keys_of
+from seethrough.experiment.study.keys import keys_of
+from seethrough.experiment.study.study_tables import TABLES
 
 Table = dict[str, Any]
 BASE = tomllib.loads(find("published").read_text("utf-8"))
-BASE["session"] = {**BASE["session"], "consent": ""}
+BASE["questions"]["consent"]["file"] = ""
+PLAIN = ("study", "design", "display", "session", "analysis", "practice")  # no table in a table
 BASE["texts"] = {"welcome.text": "Hello."}
 NASTY = (
     "\n", "\r\n", "\x1b[2J", "\0", "\u2028", "\x85", "é", "𝔘", "a\nTraceback", "=1+1", "..", "",
@@ -63,12 +65,22 @@ def _pick(rng: np.random.Generator, options: Any) -> Any:
     return options[int(rng.integers(len(options)))]
 
 
+def _tables(study: Table) -> list[tuple[str, Table]]:
+    """The tables whose keys each have a type of their own, by their names."""
+    plugins = [
+        (f"{kind}.{name}", own)
+        for kind in ("technique", "world")
+        for name, own in study[kind].items()
+        if isinstance(own, dict)
+    ]
+    return [*((name, study[name]) for name in PLAIN if name in study), *plugins]
+
+
 def _place(rng: np.random.Generator, study: Table, kind: type | None = None) -> tuple[Table, str]:
     """A random key that holds a value (of a type, if given), and its table."""
     places = [
         (table, key)
-        for name, table in study.items()
-        if name != "texts"
+        for name, table in _tables(study)
         for key, value in table.items()
         if kind is None or type(value) is kind
     ]
@@ -81,7 +93,7 @@ def _done(kind: str, what: str, study: Table) -> Case:
 
 def _unknown_key(kind: str, rng: np.random.Generator) -> Case:
     study = copy.deepcopy(BASE)
-    table = _pick(rng, [study, *(t for name, t in study.items() if name != "texts")])
+    table = _pick(rng, [study, *(table for _, table in _tables(study))])
     known = _pick(rng, list(table))
     key = _pick(rng, [*NASTY, known + "s", known.upper() + "_", known[1:] + "x", "__class__"])
     table[key] = _pick(rng, [1, "x", [], {}, {"a": {"b": 1}}, True, float("nan"), *NASTY])
@@ -129,7 +141,7 @@ def _wrong_text(kind: str, rng: np.random.Generator) -> Case:
         study["session"]["ledger"] = _pick(rng, ["mysql://x", "u:secret@h", "file:/x", nasty + "/"])
     elif rule == "consent":
         wrong = [p for p in (*NASTY, "nothing.txt", "/", "/dev/null/x", "x/" * 3000) if p]
-        study["session"]["consent"] = _pick(rng, wrong)
+        study["questions"]["consent"]["file"] = _pick(rng, wrong)
     else:
         study["texts"][_pick(rng, [n for n in NASTY if n] + ["welcome", "x.y"])] = "Hello."
     return _done(kind, rule, study)
@@ -199,14 +211,14 @@ def _several(kind: str, rng: np.random.Generator) -> Case:
     study = copy.deepcopy(BASE)
     faults: dict[str, Any] = {}
     for _ in range(int(rng.integers(2, 7))):
-        name = _pick(rng, [n for n in study if n != "texts"])
-        key = _pick(rng, list(BASE[name]))
+        name, table = _pick(rng, _tables(study))
+        key = _pick(rng, list(dict(_tables(BASE))[name]))
         if rng.random() < 0.3:
             key = f"{key}x"
-            study[name][key] = 1
+            table[key] = 1
         else:
-            study[name][key] = _pick(rng, OTHERS[type(BASE[name][key])])
-        faults[f"{name}.{key}"] = study[name][key]
+            table[key] = _pick(rng, OTHERS[type(dict(_tables(BASE))[name][key])])
+        faults[f"{name}.{key}"] = table[key]
     if rng.random() < 0.3:
         study["texts"]["welcome.txt"] = "Hello."
         faults["texts.welcome.txt"] = "Hello."
@@ -222,11 +234,66 @@ def _by_item(value: Any) -> bool:
 def _every_key(kind: str, rng: np.random.Generator) -> Case:
     """Any key that is declared, set or not: a value of a type that it never has."""
     study = copy.deepcopy(BASE)
-    table = _pick(rng, [t for t in TABLES if "." not in t])
+    table = _pick(rng, list(TABLES))
     key = _pick(rng, list(keys_of(table)))
     wrong = _pick(rng, [datetime.date(2026, 1, 2), {"x": 1}, [[1]], [{}], [None, 1, 2]])
     study.setdefault(table, {})[key] = wrong
     return _done(kind, f"{table}.{key} = {wrong!r}", study)
+
+
+def _factor(kind: str, rng: np.random.Generator) -> Case:
+    """Every way to write a factor wrongly; what is named is the factor."""
+    study = copy.deepcopy(BASE)
+    factors = study["factors"]
+    own = factors["transparency"]
+    values = {"set": "world.abstract.side", "values": [80.0, 100.0]}
+    wrong: dict[str, Callable[[], None]] = {
+        "unknown key": lambda: own.update(level=3),
+        "no levels": lambda: own.clear(),
+        "one level": lambda: own["levels"].pop("dynamic"),
+        "a level that is no table": lambda: own["levels"].update(dynamic=_pick(rng, [3, "x", []])),
+        "unknown table": lambda: own["levels"].update(dynamic={"techniqe": {"use": "dynamic"}}),
+        "unknown technique": lambda: own["levels"].update(dynamic={"technique": {"use": "xray"}}),
+        "out of range": lambda: own["levels"]["dynamic"]["technique"].update(
+            dynamic={"alpha_target": 7.0}),
+        "a quoted key": lambda: own["levels"].update(dynamic={"technique.use": "dynamic"}),
+        "a fixed key": lambda: own["levels"].update(dynamic={"study": {"seed": 3}}),
+        "a session's key": lambda: own["levels"].update(dynamic={"display": {"width": 640}}),
+        "a block's key, mixed": lambda: factors["scenario"].update(order="mixed"),
+        "one key of two": lambda: factors.update(
+            other={"levels": {"a": {"technique": {"use": "dynamic"}}, "b": {}}}),
+        "set beside levels": lambda: own.update(set="technique.use"),
+        "values beside levels": lambda: own.update(values=[1, 2]),
+        "set of nothing": lambda: factors.update(side={"set": "side", "values": [1, 2]}),
+        "a value twice": lambda: factors.update(side={**values, "values": [80.0, 80.0]}),
+        "one value": lambda: factors.update(side={**values, "values": [80.0]}),
+        "mixed types": lambda: factors.update(side={**values, "values": [80.0, "a"]}),
+        "a value out of range": lambda: factors.update(side={**values, "values": [80.0, -1.0]}),
+        "no order": lambda: own.update(order="random2"),
+        "a group's order": lambda: own.update(vary="between", order="latin"),
+        "another way": lambda: own.update(vary="across"),
+        "people within": lambda: own.update(people=8),
+        "people who are not all": lambda: own.update(vary="between", people=3),
+        "people of another level": lambda: own.update(vary="between", people={"x": 8}),
+        "measured levels": lambda: own.update(vary="measured"),
+        "measured set": lambda: factors.update(side={**values, "vary": "measured"}),
+        "a baseline that is none": lambda: own.update(baseline="xray"),
+        "a label of nothing": lambda: own.update(labels={"xray": "X"}),
+        "a column's name": lambda: factors.update(task=own),
+        "no name": lambda: factors.update({_pick(rng, ["A", "a b", "9", "é", "x" * 40]): own}),
+        "no cell": lambda: study["design"].update(exclude=[{"transparency": "dynamic"}]),
+        "no such cell": lambda: study["design"].update(exclude=[{"transparency": "xray"}]),
+        "a cell of nothing": lambda: study["design"].update(exclude=[{"view": "xray"}]),
+        "too many cells": lambda: factors.update(
+            {f"f{n}": {"set": f"world.abstract.{key}", "values": list(range(1, 101))}
+             for n, key in enumerate(("objects", "distractors"))}, transparency=own,
+        ),
+        "fewer people than groups": lambda: (own.update(vary="between"),
+            study["study"].update(participants=1)),
+    }  # fmt: skip
+    what = _pick(rng, list(wrong))
+    wrong[what]()
+    return _done(kind, what, study)
 
 
 def _as_saved(kind: str, rng: np.random.Generator) -> Case:
@@ -271,6 +338,7 @@ KINDS: dict[str, Callable[[str, np.random.Generator], Case]] = {
     "bytes": _bytes,
     "several": _several,
     "every key": _every_key,
+    "factor": _factor,
     "as saved": _as_saved,
     "twice": _twice,
 }

@@ -35,15 +35,15 @@ def pages(aspect):
     list(asked(before(study, 1), person))
     display = SimpleNamespace(aspect=aspect)
     run = TrialRun(study, SimpleNamespace(scenes=None, display=display, tasks=TASKS))
-    for task_set in session_for(1, study.design.factors()):
-        person.pages.append(_instruction(task_set.trials[0], 8, run))
+    for task_set in session_for(1, study.plan):
+        person.pages.append(_instruction(study, task_set.trials[0], 8, run))
     names = ("welcome", "ready", "pause", "time", "thanks")
     person.pages += [*map(_page, names), LEAVE, MENU]
     person.pages += [
         one_page("tlx", transparency="dynamic"),
         one_page("sus", transparency="standard"),
     ]
-    trial = session_for(1, study.design.factors())[0].training[0]
+    trial = session_for(1, study.plan)[0].training[0]
     for outcome in (None, Outcome("12", "14", False, count_error=-2), Outcome("K", "K", True)):
         person.pages.append(_feedback(ended(trial, outcome)))
     for keys in ("right", "up"), ("left", "down"):
@@ -64,9 +64,7 @@ def ended(trial, outcome, solution=None):
 def begun(task, aspect):
     """The first state of a published trial of the task."""
     study = load("published")
-    trial = next(
-        t.trials[0] for t in session_for(1, study.design.factors()) if t.trials[0].task == task
-    )
+    trial = next(t.trials[0] for t in session_for(1, study.plan) if t.trials[0].task == task)
     return StudyScenes(study).begin(TASKS[task], trial, aspect)
 
 

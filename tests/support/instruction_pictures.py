@@ -8,7 +8,7 @@ picture was taken once, nothing of it would be seen.
 
 import sys
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 from seethrough.experiment.pages.pages import PICTURE_ASPECT
@@ -37,10 +37,10 @@ class Sight:
 def sights(renderer, seed):
     """((task, level), sight) of each instruction of a slot of the published study with a seed."""
     study = load("published")
-    study = study.model_copy(update={"study": study.study.model_copy(update={"seed": seed})})
+    study = replace(study, study=study.study.model_copy(update={"seed": seed}))
     display = SimpleNamespace(aspect=PICTURE_ASPECT)
     run = TrialRun(study, SimpleNamespace(scenes=None, display=display, tasks=TASKS))
-    for task_set in session_for(1 + seed % 16, study.design.factors()):
+    for task_set in session_for(1 + seed % 16, study.plan):
         trial = task_set.trials[0]
         task, view = TASKS[trial.task], run.preview(trial)
         state = run.begin(run.scenes.example(trial))
@@ -51,7 +51,7 @@ def sights(renderer, seed):
         )
         whole, seen = SIZE[0] * SIZE[1], int((pixels >= SEEN).sum())
         sight = Sight(pixels.max() / whole, seen, len(asked), start.max() / whole)
-        yield (trial.task, trial.transparency), sight
+        yield (trial.task, trial.levels["transparency"]), sight
 
 
 def main(seeds):

@@ -24,23 +24,32 @@ from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
+from seethrough.experiment.study.described import design_entry
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
+VIEWS = {
+    "standard": {"technique": {"use": "standard"}},
+    "dynamic": {"technique": {"use": "dynamic"}},
+}
 STUDY = parse(
     {
         "study": {"name": "k", "title": "k", "description": "k", "participants": 1, "seed": 1},
-        "design": {"trials": 6, "training": 0, "tasks": ["count", "pattern"]},
-        "abstract": {"side": 50.0, "objects": 60, "target_share": [0.3, 0.4]},
-        "session": {
-            "demographics": True,
-            "color_check": True,
-            "questionnaire": ["ratings", "comparison", "tlx", "sus", "depth_test", "remarks"],
-            "resume": "trial",
+        "factors": {"transparency": {"levels": VIEWS}},
+        "design": {"trials": 6, "tasks": ["count", "pattern"]},
+        "practice": {"trials": 0},
+        "world": {
+            "use": "abstract",
+            "abstract": {"side": 50.0, "objects": 60, "target_share": [0.3, 0.4]},
+        },
+        "session": {"resume": "trial"},
+        "questions": {
+            "demographics": {}, "color_check": {}, "ratings": {}, "comparison": {}, "tlx": {},
+            "sus": {}, "depth_test": {}, "remarks": {},
         },
     },
     "killed sessions",
-)
+)  # fmt: skip
 TRIALS = 24
 DELAY = 0.02  # s after what was said last: a page takes 5 ms, a trial about 8
 REMARKS = 'two lines,\nof which the second "ends"\n'
@@ -97,7 +106,8 @@ class Telling(FileRecorder):
 def play(folder, told):
     """Play on until killed; a byte into the pipe for a page shown, a trial or answer on disk."""
     clock, start = SimulatedClock(), starting_point(STUDY, folder, "human", "P01", 1)
-    who = Who("k", "P01", "human", 1, {"study_sha256": STUDY.digest()}, start.session)
+    who = Who("k", "P01", "human", 1, {"study_sha256": STUDY.digest()}, start.session,
+              design_entry(STUDY))  # fmt: skip
     script, recorder = Script(clock, told), Telling(folder, who, attempts=start.attempts)
     recorder.told = told
     world = Surroundings(script, script, clock, recorder, TASKS, lambda _: os.write(told, b"."))
@@ -163,7 +173,7 @@ def go_on(folder, whole):
 def everything(folder):
     """Trials and answers in their order, in all sessions."""
     trials = [int(r["trial"]) for r in rows_of(folder, "trials")]
-    names = ("item", "transparency", "scenario", "value", "text")
+    names = ("item", "transparency", "value", "text")
     return trials, [tuple(r[n] for n in names) for r in rows_of(folder, "questionnaire")]
 
 

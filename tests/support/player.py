@@ -28,7 +28,7 @@ PAGE = [*["Down", "space"] * 3, "Tab", "Return"]
 
 def trials_of(study_file, slot=1):
     """The slot's trials, training left out."""
-    factors = load(str(study_file)).design.factors()
+    factors = load(str(study_file)).plan
     return [t for task_set in session_for(slot, factors) for t in task_set.trials]
 
 

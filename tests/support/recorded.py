@@ -10,6 +10,7 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.software import provenance
 from seethrough.experiment.study.config import load
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import session_for
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
@@ -33,14 +34,16 @@ def record(
     """A whole session of the demo study, its first trial repeated, one trial timed out."""
     clock = iter(range(10_000))
     display = {"renderer": "none", "size": "800x600", "refresh_declared": "60"}
-    who = Who("demo", participant, source, slot, provenance(STUDY, display))
+    who = Who(
+        "demo", participant, source, slot, provenance(STUDY, display), design=design_entry(STUDY)
+    )
 
     def now() -> str:
         second = next(clock)
         return f"2026-01-02T03:{second // 60:02d}:{second % 60:02d}.500Z"
 
     recorder = FileRecorder(data, who, now)
-    trials = [t for s in session_for(slot, STUDY.design.factors()) for t in s.trials]
+    trials = [t for s in session_for(slot, STUDY.plan) for t in s.trials]
     for trial in [trials[0], *trials]:
         recorder.trial_begins(trial)
         recorder.frame(1.0, VIEW)
@@ -52,8 +55,7 @@ def record(
         outcome = None if timed_out else OUTCOMES[trial.task]
         times = (1.0, end, 0.25, timed_out)
         recorder.trial_ends(TrialRecord(trial, outcome, 14, *times, 60, 1, 0.05, 12.5, 3.25))
-    for number, (transparency, scenario) in enumerate(STUDY.design.factors().conditions):
-        cell = {"transparency": transparency, "scenario": scenario}
+    for number, cell in enumerate(STUDY.plan.conditions()):
         recorder.answers([{"item": "ease", "value": str(number), **cell}])
     recorder.answers([{"item": "remarks", "text": remark}])
     recorder.note(trials[0], "the phone\trang")

@@ -22,6 +22,8 @@ LETTERS = "CKRXY"
 LIMIT = 90.0  # seconds, of the folder with timed-out trials
 RUSHED = 0.05  # share of a trial's frames above which it is missed frames that exclude it
 
+VIEW = "transparency"
+
 
 class Draws:
     """Random numbers of one stream, by raw words: numpy never changes what those are."""
@@ -99,7 +101,7 @@ def plain_plays(person: int, trials: Sequence[Trial]) -> Plays:
     plays = []
     for trial in trials:
         log = math.log(SECONDS[trial.task]) + habit + 0.35 * draws.bell()
-        log += gain if trial.transparency == "dynamic" else 0.0
+        log += gain if trial.levels[VIEW] == "dynamic" else 0.0
         log -= 0.03 * trial.in_set
         time = round(math.exp(log), 3)
         outcome, targets = _outcome(trial, draws)
@@ -113,7 +115,7 @@ def plain_plays(person: int, trials: Sequence[Trial]) -> Plays:
 
 def _outcome(trial: Trial, draws: Draws) -> tuple[Outcome, int]:
     """An answer with its score, and how many targets there were."""
-    dynamic = trial.transparency == "dynamic"
+    dynamic = trial.levels[VIEW] == "dynamic"
     if trial.task == "pattern":
         truth = draws.pick(LETTERS)
         right = draws.below(100) < (92 if dynamic else 85)
@@ -157,7 +159,7 @@ _EQUAL_MARKS = ((0.1, 0.2, 0.3), (0.3, 0.2, 0.1))
 def _thirds(person: int, plays: Plays) -> Plays:
     found = []
     for play in plays:
-        level, k = int(play.trial.transparency == "dynamic"), play.trial.in_set - 1
+        level, k = int(play.trial.levels[VIEW] == "dynamic"), play.trial.in_set - 1
         if play.trial.task in ("count", "pattern") and person % 3 == 0:
             play = replace(play, time=_EQUAL_TIMES[level][k])
         if play.trial.task == "count" and person % 3 == 1:
@@ -224,7 +226,7 @@ def _missing_answers(person: int, answers: Answers) -> Answers:
 
 def _outlier(person: int, plays: Plays) -> Plays:
     """Somebody left the room for eleven days."""
-    first = next(p for p in plays if p.trial.task == "count" and p.trial.transparency == "dynamic")
+    first = next(p for p in plays if p.trial.task == "count" and p.trial.levels[VIEW] == "dynamic")
     return [replace(p, time=1e6) if person == 5 and p is first else p for p in plays]
 
 
@@ -257,7 +259,7 @@ def _offset(person: int, plays: Plays) -> Plays:
 
 def _identical(person: int, plays: Plays) -> Plays:
     """Under both levels the same times, answers and faults; people and tasks differ."""
-    first = {(p.trial.task, p.trial.in_set): p for p in plays if p.trial.transparency == "standard"}
+    first = {(p.trial.task, p.trial.in_set): p for p in plays if p.trial.levels[VIEW] == "standard"}
     return [replace(first[p.trial.task, p.trial.in_set], trial=p.trial) for p in plays]
 
 
@@ -276,7 +278,7 @@ CASES = (
         study={"analysis": {"exclude": ["too_fast", "focus_lost", "frames_missed"]}},
         change=_repeated,
     ),
-    Case("timed_out", study={"session": {"trial_limit": LIMIT}}, change=_timed_out),
+    Case("timed_out", study={"task": {"limit": LIMIT}}, change=_timed_out),
     Case("three", people=3),
     Case("two_hundred", people=200, source="simulated"),
     Case("one_level", study={"design": {"transparency": ["standard"]}}),

@@ -25,6 +25,7 @@ from seethrough.experiment.people.runs.data_mode import Played
 from seethrough.experiment.record.recorder import FileRecorder, Who, trial_row
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.config import Study, find, parse
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import session_for
 
 NOW = "2026-01-02T03:04:05.000Z"
@@ -73,10 +74,12 @@ def _no_waiting() -> Iterator[None]:
 
 def played(case: Case, study: Study, person: int) -> tuple[list[Play], list[Answer]]:
     """What one participant did and answered."""
-    factors = study.design.factors()
+    factors = study.plan
     trials = [t for s in session_for(person, factors) for t in s.trials]
     plays = case.change(person, plain_plays(person, trials))
-    return plays, case.change_answers(person, plain_answers(person, factors.conditions))
+    return plays, case.change_answers(
+        person, plain_answers(person, [tuple(c.values()) for c in factors.conditions()])
+    )
 
 
 def _record(play: Play) -> TrialRecord:
@@ -105,7 +108,13 @@ def _person(case: Case, study: Study, folder: Path, person: int) -> None:
     last = plays[-1].session
     for session in range(1, last + 1):
         who = Who(
-            study.study.name, f"P{person:02d}", case.source, person, provenance, session=session
+            study.study.name,
+            f"P{person:02d}",
+            case.source,
+            person,
+            provenance,
+            session,
+            design_entry(study),
         )
         recorder = FileRecorder(folder, who, lambda: NOW, attempts)
         for play in (p for p in plays if p.session == session):

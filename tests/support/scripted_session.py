@@ -11,6 +11,10 @@ from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import KeyPress, Tick
 
 FRAME = 0.25  # s between the frames of the fake display: a binary fraction, so sums are exact
+VIEWS = {
+    "standard": {"technique": {"use": "standard"}},
+    "dynamic": {"technique": {"use": "dynamic"}},
+}
 
 
 def study(**tables):
@@ -19,9 +23,9 @@ def study(**tables):
             "study": {
                 "name": "t", "title": "t", "description": "t", "participants": 4, "seed": 1,
             },
-            "design": {"trials": 2, "training": 1, "tasks": ["count", "pattern"]},
-            "abstract": {"objects": 100, "target_share": [0.2, 0.3]},
-            "session": {"questionnaire": []},
+            "factors": {"transparency": {"levels": VIEWS}},
+            "design": {"trials": 2, "tasks": ["count", "pattern"]},
+            "world": {"use": "abstract", "abstract": {"objects": 100, "target_share": [0.2, 0.3]}},
             **tables,
         },
         "test",

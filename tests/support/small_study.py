@@ -10,11 +10,17 @@ seed = 5
 [design]
 tasks = ["pattern"]
 trials = 1
-training = 0
-[abstract]
+[factors.transparency]
+levels.standard = { technique.use = "standard" }
+levels.dynamic = { technique.use = "dynamic" }
+[world.abstract]
 side = 50.0
 objects = 60
 target_share = [0.3, 0.4]
-[session]
-questionnaire = ["comparison"]
+[world]
+use = "abstract"
+[practice]
+trials = 0
+[questions] # in this order
+comparison = { when = "end", of = "transparency" }
 """

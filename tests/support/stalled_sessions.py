@@ -43,15 +43,20 @@ description = "Short trials, stopped again and again."
 participants = 1
 seed = 5
 [design]
-trials = TRIALS
-training = 1
 tasks = ["count", "pattern"]
-[abstract]
+trials = TRIALS
+[factors.transparency]
+levels.standard = {{ technique.use = "standard" }}
+levels.dynamic = {{ technique.use = "dynamic" }}
+[world.abstract]
 side = 50.0
 objects = 60
 target_share = [0.3, 0.4]
-[session]
-questionnaire = []
+[world]
+use = "abstract"
+[practice]
+trials = 1
+[questions] # in this order
 """
 SLACK = 0.003  # s: X11 counts whole milliseconds, and two processes read two clocks after another
 PART = (300, 3, 200, 240)  # pixels of the view that no text is drawn on: x, y, width, height

@@ -80,7 +80,7 @@ class Crowd:
             person = SimulatedParticipant(
                 generator(self.seed, (SIMULATED, slot)), profile, traits=self.traits[slot - 1]
             )
-            for task_set in session_for(slot, self.study.design.factors()):
+            for task_set in session_for(slot, self.study.plan):
                 if task_set.trials[0].task not in tasks:
                     continue
                 for trial in task_set.training:
@@ -89,7 +89,7 @@ class Crowd:
                     time = play_trial(person, self.pool, trial)[0].time
                     rows.append(
                         {"participant": slot, "task": trial.task,
-                         "transparency": trial.transparency, "time": time}
+                         "transparency": trial.levels["transparency"], "time": time}
                     )  # fmt: skip
             self.pool.looks.flush()
         return rows

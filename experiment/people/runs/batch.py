@@ -15,11 +15,11 @@ from seethrough.experiment.people.runs.look_tables import views_of
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.workers import ordered_map
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
-from seethrough.tasks.kit.world import OWN
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,7 @@ class Batch:
         return {
             "mode": "data: decisions from visibility tables; a tool for planning, never evidence",
             "source": "simulated",
+            "design": design_entry(study),
             "provenance": {
                 "study": study.resolved(),
                 "study_sha256": study.digest(),
@@ -118,12 +119,12 @@ def fill(batch: Batch, progress: Any = None) -> None:
         for which in range(batch.pool):
             task = TASKS[trial.task]
             view = task.view(pool.world(trial, which, aspect))
-            eyes = pool.eyes(view.scene, trial.transparency)
+            eyes = pool.eyes(view.scene, study.part(trial.levels).technique)
             for camera in views_of(task.simulate.heights, view.camera):
                 eyes.look(view.scene, camera)
             pool.looks.flush()
             if progress is not None:
-                progress.step(f"{trial.task} {trial.transparency}")
+                progress.step(f"{trial.task} {' '.join(trial.levels.values())}")
 
 
 def make_worlds() -> None:
@@ -136,10 +137,13 @@ def make_worlds() -> None:
 
 
 def pooled_trials(study: Study) -> list[Trial]:
-    """One trial at each transparency level of each task whose scenes are everybody's own."""
-    trials = {}
-    for task_set in session_for(1, study.design.factors()):
-        trial = task_set.trials[0]
-        if study.setting(trial).place.scenes == OWN:
-            trials[trial.task, trial.transparency] = trial
+    """One trial of each task whose scenes are everybody's own, with each technique, in each
+    place."""
+    trials: dict[Any, Trial] = {}
+    for slot in range(1, len(study.plan.groups) + 1):
+        for task_set in session_for(slot, study.plan):
+            for trial in task_set.trials:
+                part = study.part(trial.levels)
+                if not part.plan.shared:
+                    trials.setdefault((trial.task, part.technique, part.place), trial)
     return list(trials.values())

@@ -24,7 +24,7 @@ from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.people.runs.data_mode import Played
 from seethrough.experiment.people.runs.looks import Rows
 from seethrough.experiment.record.chain import link, seal_of, start_of
-from seethrough.experiment.record.columns import QUESTIONNAIRE, TRIALS, Column
+from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import cell, csv_line, header_of
 from seethrough.experiment.study.config import Study
@@ -53,9 +53,10 @@ def chunk_name(slots: Slots) -> str:
 def render(about: Mapping[str, Any], study: Study, slots: Slots, played: Sequence[Played]) -> Chunk:
     """A chunk's files: `about` is its sidecar, the same for every chunk of a run."""
     stem = stem_of(study.study.name, chunk_name(slots).replace("-", "to"))
-    start = start_of({**about, "chain": {}}, header_of(TRIALS))
-    trials, last = _chained([row for p in played for row in p.trials], start)
-    questions = _plain([row for p in played for row in p.questions], QUESTIONNAIRE)
+    columns = columns_of(study)
+    start = start_of({**about, "chain": {}}, header_of(columns["trials"]))
+    trials, last = _chained([row for p in played for row in p.trials], columns["trials"], start)
+    questions = _plain([row for p in played for row in p.questions], columns["questionnaire"])
     sidecar = {**about, "chain": {"start": start}}
     texts = {f"{stem}_trials_data.csv": trials, f"{stem}_trials_data.json": _json(sidecar)}
     if any(p.questions for p in played):
@@ -81,10 +82,17 @@ def _plain(rows: Sequence[Mapping[str, Any]], columns: tuple[Column, ...]) -> st
     return "\n".join([header_of(columns), *lines]) + "\n"
 
 
-def _chained(rows: Sequence[Mapping[str, Any]], chain: str) -> tuple[str, str]:
+def columns_of(study: Study) -> dict[str, tuple[Column, ...]]:
+    """Every table's columns in a study."""
+    return with_factors(factor.described() for factor in study.factors)
+
+
+def _chained(
+    rows: Sequence[Mapping[str, Any]], columns: tuple[Column, ...], chain: str
+) -> tuple[str, str]:
     """The trial table's text, and its chain's end."""
-    names = [c.name for c in TRIALS[:-1]]
-    lines = [header_of(TRIALS)]
+    names = [c.name for c in columns[:-1]]
+    lines = [header_of(columns)]
     for row in rows:
         text = csv_line([cell(row.get(name)) for name in names])
         chain = link(chain, text)
@@ -103,7 +111,7 @@ class Results(AbstractContextManager["Results"]):
         self.out = out
         self._folder = out / "data" / "simulated"
         self._check(study, about)
-        describe_dataset(out, study.study.name)
+        describe_dataset(out, study.study.name, columns_of(study))
         try:
             self._parquet: ParquetWriter | nullcontext[None] = ParquetWriter()
             self.note = ""
@@ -119,11 +127,11 @@ class Results(AbstractContextManager["Results"]):
         self._parquet.__exit__(None, None, None)
         shutil.rmtree(self.out / DRAFTS, ignore_errors=True)
 
-    def missing(self, count: int) -> list[tuple[int, ...]]:
-        """Slots 1 … count that are not there yet, in chunks."""
+    def missing(self, slots: Slots) -> list[tuple[int, ...]]:
+        """Those slots that are not there yet, in chunks."""
         there = {slot for a, b in self._there() for slot in range(a, b + 1)}
         chunks: dict[int, list[int]] = {}
-        for slot in range(1, count + 1):
+        for slot in sorted(slots):
             if slot not in there:
                 chunks.setdefault((slot - 1) // CHUNK, []).append(slot)
         return [run for chunk in chunks.values() for run in _runs(chunk)]

@@ -37,7 +37,7 @@ class TableDisplay:
         self.pool, self.clock = pool, clock
         self._aspect = aspect
         self._shown: View | None = None
-        self._level = ""
+        self._technique: Any = None
 
     @property
     def aspect(self) -> float:
@@ -47,7 +47,7 @@ class TableDisplay:
     def show(self, view: View, technique: Any) -> float:
         """Keep the view; the time now."""
         self._shown = view
-        self._level = technique.technique.name
+        self._technique = technique
         return self.clock.now()
 
     def digest(self) -> str:
@@ -65,7 +65,7 @@ class TableDisplay:
         """What is seen in the view shown last. Raises RuntimeError before the first."""
         if self._shown is None:
             raise RuntimeError("nothing has been shown yet")
-        return self.pool.look(self._shown, self._level)
+        return self.pool.look(self._shown, self._technique)
 
 
 @dataclass

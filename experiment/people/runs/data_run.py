@@ -13,6 +13,7 @@ from seethrough.experiment.people.runs.batch_files import Chunk, Results, Slots
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, find, load
+from seethrough.experiment.study.own_model_files import models_of
 from seethrough.experiment.workers import ordered_map
 
 
@@ -31,7 +32,7 @@ def run(
     if job.tables.exists():
         KeptLooks(job.tables).close()  # a file that holds something else is refused before anything
     with Results(out, study, job.about(study)) as results:
-        chunks = results.missing(count)
+        chunks = results.missing(study.plan.slots(count))
         if results.note:
             print(results.note, file=sys.stderr)
         if not chunks:
@@ -50,16 +51,17 @@ def run(
 
 def _check_models(job: b.Batch, study: Study) -> None:
     """Workers of a cluster share no disk with this machine, where a study's own models lie."""
-    own = [model.name for model in study.walkthrough.models]
+    own = [model.name for model in models_of(study)]
     if own:
         raise InputError(
-            f"{find(job.study)}: walkthrough.models = {own}: expected none with --scheduler, whose "
-            "workers have no files of this machine: use --workers"
+            f"{find(job.study)}: world.building.models = {own}: expected none with --scheduler, "
+            "whose workers have no files of this machine: use --workers"
         )
 
 
 def make_tables(job: b.Batch, walkers: int) -> bool:
-    """Draw every abstract viewpoint, and of the buildings those that so many people look from.
+    """Draw every viewpoint of the pool's scenes, and of shared ones those that so many people look
+    from.
 
     False where the tables' file says that this was done before. A building has too many viewpoints
     to draw them all beforehand.
@@ -72,7 +74,7 @@ def make_tables(job: b.Batch, walkers: int) -> bool:
         worlds = len(b.pooled_trials(study)) * job.pool
         with Progress("making tables", worlds + walkers) as progress:
             b.fill(job, progress)
-            for slot in range(1, walkers + 1):
+            for slot in study.plan.slots(walkers):
                 b.play_chunk([slot])
                 b.keep_tables()
                 progress.step(f"buildings, S{slot:02d}")

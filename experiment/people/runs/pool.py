@@ -28,9 +28,9 @@ POOL = 100  # second word of the pool's streams: no scene set of a study has suc
 
 
 class Pool(StudyScenes):
-    """Scenes by name, and their visibility tables by scene and transparency level, in `looks`.
+    """Scenes by name, and their visibility tables by scene and technique, in `looks`.
 
-    `draw(level)` makes the function that draws for a level; without it only what the tables hold
+    `draw(technique)` makes the function that draws with it; without it only what the tables hold
     can be looked at. A pool of no worlds plays every trial in its own, as the real session does.
     """
 
@@ -42,10 +42,10 @@ class Pool(StudyScenes):
         super().__init__(study)
         self.size, self._draw = size, draw
         self.looks = looks or KeptLooks()
-        self._scenes: dict[str, Any] = {}
+        self._scenes: dict[tuple[str, Any], Any] = {}
         self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, moving
-        self._draws: dict[str, Draw | None] = {}
-        self._eyes: dict[tuple[int, str], TableEyes] = {}
+        self._draws: dict[Any, Draw | None] = {}
+        self._eyes: dict[tuple[int, Any], TableEyes] = {}
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""
@@ -56,40 +56,40 @@ class Pool(StudyScenes):
         return self._begun(task, trial, aspect, stream)
 
     def world(self, trial: Trial, which: int, aspect: float) -> Any:
-        """As `begin`, in scene number `which` of the pool's for the task."""
+        """As `begin`, in the pool's world number `which` of an abstract task."""
         stream = self._stream(trial.task, which)
         return self._begun(TASKS[trial.task], trial, aspect, stream)
 
-    def look(self, view: View, level: str) -> Visibility:
-        """What is seen in a view of one of the pool's scenes, at a transparency level."""
-        return self.eyes(view.scene, level).look(view.scene, view.camera)
+    def look(self, view: View, technique: Any) -> Visibility:
+        """What is seen in a view of one of the pool's scenes, with a technique."""
+        return self.eyes(view.scene, technique).look(view.scene, view.camera)
 
-    def eyes(self, scene: Scene, level: str) -> TableEyes:
-        """Eyes for one of the pool's scenes at a transparency level."""
-        key = (id(scene), level)
+    def eyes(self, scene: Scene, technique: Any) -> TableEyes:
+        """Eyes for one of the pool's scenes with a technique."""
+        key = (id(scene), technique)
         if key not in self._eyes:
-            self._eyes[key] = self._open(scene, level)
+            self._eyes[key] = self._open(scene, technique)
         return self._eyes[key]
 
     def _stream(self, task: str, which: int) -> tuple[int, ...]:
-        return (STUDY_SCENES, POOL, sorted(self.study.design.tasks).index(task), which)
+        return (STUDY_SCENES, POOL, sorted(self.study.tasks()).index(task), which)
 
     def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> Any:
         setting = self.study.setting(trial)
         name = f"{trial.task}-" + "-".join(map(str, stream))
-        if name not in self._scenes:
+        if (name, setting.place) not in self._scenes:
             made = task.make_scene(generator(self.study.study.seed, stream), setting)
-            self._scenes[name] = made
+            self._scenes[name, setting.place] = made
             self._names[id(made.scene)] = (name, setting.world.moving)
-        return task.begin(self._scenes[name], setting, aspect)
+        return task.begin(self._scenes[name, setting.place], setting, aspect)
 
-    def _open(self, scene: Scene, level: str) -> TableEyes:
+    def _open(self, scene: Scene, technique: Any) -> TableEyes:
         name, moving = self._names[id(scene)]
-        technique = self.study.technique(level)
-        table = f"{name}-{fingerprint(scene, technique, window_of(self.study))}/{level}"
-        if level not in self._draws:
-            self._draws[level] = None if self._draw is None else self._draw(level)
-        return TableEyes(self.looks, table, len(scene.objects), moving, self._draws[level])
+        own = fingerprint(scene, technique, window_of(self.study))
+        table = f"{name}-{own}/{technique.technique.name}"
+        if technique not in self._draws:
+            self._draws[technique] = None if self._draw is None else self._draw(technique)
+        return TableEyes(self.looks, table, len(scene.objects), moving, self._draws[technique])
 
 
 def drawing(study: Study, size: int, looks: KeptLooks | None = None) -> Pool:
@@ -122,9 +122,8 @@ class LazyDraw:
         self.study = study
         self._looking: Any = None
 
-    def __call__(self, level: str) -> Draw:
-        """What draws for a transparency level."""
-        technique = self.study.technique(level)
+    def __call__(self, technique: Any) -> Draw:
+        """What draws with a technique."""
         return lambda scene, camera: self._look(scene, camera, technique)
 
     def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:

@@ -32,8 +32,8 @@ class AdaptiveParameters(removal.Removing):
     """How wide the cones are."""
 
     angle: float = key(
-        0.35, "between a cone's side and its axis, the line of sight", "radians",
-        low=0.001, high=1.5,
+        20.0, "between a cone's side and its axis, the line of sight", "degrees",
+        low=0.1, high=85,
     )  # fmt: skip
     exact: bool = key(False, "find the hole at every pixel: slower, no approximation")
 
@@ -54,7 +54,7 @@ class AdaptiveCutaway(removal.Removal):
     name = "adaptive_cutaway"
     title = "Adaptive cut-away"
     instruction = "Whatever stands before a target is cut away in a funnel that opens towards you."
-    source = "burns2008"
+    source = "Burns2008"
     Parameters = AdaptiveParameters
     removes = removal.CLIPPED
     needs = frozenset({"target_depth"})
@@ -99,7 +99,7 @@ class AdaptiveCutaway(removal.Removal):
 
         depth = np.ascontiguousarray(needed["target_depth"], dtype=np.float32)
         find = cones.of_pixels if p.exact else cones.of_blocks
-        return {"clip": find(depth, _lens(shot), float(np.tan(p.angle)))}
+        return {"clip": find(depth, _lens(shot), float(np.tan(np.radians(p.angle))))}
 
     def exactly(self, p: AdaptiveParameters) -> AdaptiveParameters:
         """At every pixel."""
@@ -116,7 +116,7 @@ def _hole(p: AdaptiveParameters, depth: Floats, shot: Shot) -> Floats:
     height, width = depth.shape
     pixels = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1).reshape(-1, 2)
     points = np.nonzero(depth.ravel() > 0)[0]
-    wide = np.tan(p.angle) * _lens(shot)  # slopes in pixels
+    wide = np.tan(np.radians(p.angle)) * _lens(shot)  # slopes in pixels
     found = np.zeros(height * width)
     for q in points:
         away = np.hypot(*(pixels - pixels[q]).T)

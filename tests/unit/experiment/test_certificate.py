@@ -2,6 +2,7 @@
 
 import csv
 import re
+import tomllib
 from dataclasses import replace
 
 import numpy as np
@@ -33,13 +34,16 @@ description = "x"
 participants = 2
 seed = 5
 [design]
-trials = 1
 tasks = ["count"]
-[abstract]
+trials = 1
+[factors.transparency]
+levels.standard = { technique.use = "standard" }
+levels.dynamic = { technique.use = "dynamic" }
+[world.abstract]
 side = 50.0
 objects = 60
 target_share = [0.3, 0.4]
-[walkthrough]
+[world.building]
 grid = 6
 objects = 8
 count = [1, 3]
@@ -47,6 +51,12 @@ types = ["chair", "table", "cat"]
 [display]
 width = 320
 height = 240
+[world]
+use = "abstract"
+[questions] # in this order
+ratings = { when = "end", each = ["transparency"] }
+comparison = { when = "end", of = "transparency" }
+remarks = { when = "end" }
 """
 
 
@@ -73,8 +83,7 @@ def test_a_half_hidden_target_is_half_visible_and_its_occluder_counted():
             Object(cube, at(-6, 4, 0), (0, 1, 0)),  # hides nothing
         )
     )
-    study = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
-                             "seed": 1}}, "x")  # fmt: skip
+    study = parse(tomllib.loads(STUDY), "x")
     certifier = Certifier(study, standalone())
     camera = look_at(np.array([0.0, 0.0, 30.0]), np.zeros(3))
     fraction, occluders, clutter = certifier._both(scene, camera)
@@ -86,8 +95,7 @@ def test_a_half_hidden_target_is_half_visible_and_its_occluder_counted():
 def test_targets_out_of_view_have_no_fraction():
     cube = geometry.box(2.0, 2.0, 2.0)
     scene = Scene((Object(cube, at(0, 0, 60), target=True), Object(cube, at(0, 0, 0))))
-    study = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
-                             "seed": 1}}, "x")  # fmt: skip
+    study = parse(tomllib.loads(STUDY), "x")
     certifier = Certifier(study, standalone())
     camera = look_at(np.array([0.0, 0.0, 30.0]), np.zeros(3))
     fraction, _, _ = certifier._both(scene, camera)
@@ -101,19 +109,18 @@ def test_the_walking_path_goes_to_the_nearest_next():
     assert WORLDS["abstract"].path(start, asked) == 0.0
 
 
+def with_design(design):
+    table = tomllib.loads(STUDY)
+    return parse(table | {"design": table["design"] | design}, "x")
+
+
 def difficulty(task, level, visible, scene="s", **others):
-    trial = Trial(1, 1, 1, 1, level, "abstract", task, scene, (1,))
+    trial = Trial(1, 1, 1, 1, {"transparency": level}, task, scene, (1,), world="abstract")
     return replace(Difficulty(trial, 10, visible, 0, 1.0, 5.0, 0.0), **others)
 
 
 def test_levels_match_within_the_tolerance_and_the_farthest_trial_is_named():
-    study = parse(
-        {
-            "study": {"name": "a", "title": "a", "description": "a", "participants": 1, "seed": 1},
-            "design": {"tasks": ["count", "pattern"], "tolerance": 0.05},
-        },
-        "x",
-    )
+    study = with_design({"tasks": ["count", "pattern"], "tolerance": 0.05})
     measured = [
         difficulty("count", "standard", 0.50),
         difficulty("count", "dynamic", 0.54),
@@ -130,13 +137,7 @@ def test_levels_match_within_the_tolerance_and_the_farthest_trial_is_named():
 
 
 def test_every_measure_is_matched_and_the_trial_that_adds_most_is_named():
-    study = parse(
-        {
-            "study": {"name": "a", "title": "a", "description": "a", "participants": 1, "seed": 1},
-            "design": {"tasks": ["pattern"], "imbalance": 0.2},
-        },
-        "x",
-    )
+    study = with_design({"tasks": ["pattern"], "imbalance": 0.2})
     levels = {"standard": (20, 26), "dynamic": (17, 3, 16)}
     measured = [
         difficulty("pattern", level, 0.5, f"{level}-{n}", occluders=float(n), targets=10 + n // 26)
@@ -222,9 +223,8 @@ def test_check_fails_names_the_trial_finds_redraws_and_they_match(
 
 
 def test_a_scene_drawn_again_comes_from_another_stream():
-    study = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
-                             "seed": 1}}, "x")  # fmt: skip
-    first = session_for(1, study.design.factors())[0].trials[0]
-    again = study.design.model_copy(update={"redraw": (first.scene, first.scene)})
-    second = session_for(1, again.factors())[0].trials[0]
+    study = parse(tomllib.loads(STUDY), "x")
+    first = session_for(1, study.plan)[0].trials[0]
+    design = study.design.model_copy(update={"redraw": (first.scene, first.scene)})
+    second = session_for(1, replace(study, design=design).plan)[0].trials[0]
     assert second.stream == (*first.stream, 2) and second.scene == first.scene

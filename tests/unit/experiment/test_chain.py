@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from published_design import published
 
 from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.recorder import FileRecorder, Who
@@ -18,12 +19,15 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
 from seethrough.tasks.kit.events import KeyPress, Tick
 
+DESIGN = published()
+LEVELS = {"transparency": "dynamic", "scenario": "abstract"}
+
 VIEW = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
 STEM = "study-test_subject-P01_session-1"
 
 
 def play(recorder, number):
-    trial = Trial(number, 1, 1, number, "dynamic", "abstract", "count", "stream-1", (1, 1))
+    trial = Trial(number, 1, 1, number, LEVELS, "count", "stream-1", (1, 1), world="abstract")
     recorder.trial_begins(trial)
     recorder.frame(10.0, VIEW)
     recorder.event(Tick(10.5))
@@ -34,7 +38,7 @@ def play(recorder, number):
 
 
 def session(data, number=1, trials=3, status="complete", answers=True):
-    who = Who("test", "P01", "human", 1, {"seed": 3}, number)
+    who = Who("test", "P01", "human", 1, {"seed": 3}, number, DESIGN)
     recorder = FileRecorder(data, who, now=lambda: "2026-01-02T03:04:05.678Z")
     for trial in range(1, trials + 1):
         play(recorder, trial)

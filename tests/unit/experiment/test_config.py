@@ -7,14 +7,18 @@ import pytest
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, load, parse, shipped
-from seethrough.experiment.study.keys import TABLES, keys_of
+from seethrough.experiment.study.keys import keys_of
+from seethrough.experiment.study.study_tables import TABLES
 
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 
 
 def changed(table, key, value):
     study = copy.deepcopy(PUBLISHED)
-    study.setdefault(table, {})[key] = value
+    own = study
+    for name in table.split("."):
+        own = own.setdefault(name, {})
+    own[key] = value
     return study
 
 
@@ -28,48 +32,64 @@ def test_the_published_study_is_the_published_study():
     study = load("configs/published.toml")
     assert study.study.participants == 16
     assert study.design.trials == 3
-    assert len(study.design.factors().conditions) == 4
-    assert (study.abstract.side, study.abstract.objects) == (100.0, 200)
-    assert study.abstract.target_share == (0.1, 0.2)
-    assert (study.walkthrough.grid, study.walkthrough.objects) == (16, 50)
-    assert (study.session.training_limit, study.session.session_limit) == (300.0, 4800.0)
+    assert len(study.plan.conditions()) == 4
+    abstract, building = study.places()
+    assert (abstract.side, abstract.objects, abstract.target_share) == (100.0, 200, (0.1, 0.2))
+    assert (building.grid, building.objects) == (16, 50)
+    assert (study.practice.limit, study.session.limit) == (300.0, 4800.0)
 
 
 # Each row: table, key, value, and the message after "study.toml: ".
+W, B, D = r"world\.abstract\.", r"world\.building\.", r"technique\.dynamic\."
 WRONG = [
     (
-        "abstract",
+        "world.abstract",
         "objcts",
         200,
-        r"abstract\.objcts = 200: unknown key, did you mean objects\? known: side, objects, target",
+        W + r"objcts = 200: unknown key, did you mean objects\? known: side, objects, target",
     ),
     (
-        "abstract",
+        "world.abstract",
         "objects",
         "many",
-        r"abstract\.objects = \"many\": expected a whole number from 1 to 5000$",
+        W + r"objects = \"many\": expected a whole number from 1 to 5000$",
     ),
-    ("abstract", "objects", 0, r"abstract\.objects = 0: expected a whole number from 1 to 5000$"),
-    ("abstract", "side", float("nan"), r"abstract\.side = nan: expected a number from 1 to 10000$"),
     (
-        "abstract",
+        "world.abstract",
+        "objects",
+        0,
+        W + r"objects = 0: expected a whole number from 1 to 5000$",
+    ),
+    (
+        "world.abstract",
+        "side",
+        float("nan"),
+        W + r"side = nan: expected a number from 1 to 10000$",
+    ),
+    (
+        "world.abstract",
         "shapes",
         ["cow"],
-        r"abstract\.shapes = \[\"cow\"\]: expected an array of some of \"sphere\", ",
+        W + r"shapes = \[\"cow\"\]: expected an array of some of \"sphere\", ",
     ),
     (
-        "abstract",
+        "world.abstract",
         "radius",
         ["a", 3],
-        r"abstract\.radius = \[\"a\", 3\]: expected \[lowest, highest\], numbers from",
+        W + r"radius = \[\"a\", 3\]: expected \[lowest, highest\], numbers from",
     ),
     (
-        "walkthrough",
+        "world.building",
         "grid",
         True,
-        r"walkthrough\.grid = true: expected a whole number from 2 to 64$",
+        B + r"grid = true: expected a whole number from 2 to 64$",
     ),
-    ("dynamic", "alpha_target", 3, r"dynamic\.alpha_target = 3\.0: expected a number from 0 to 1"),
+    (
+        "technique.dynamic",
+        "alpha_target",
+        3,
+        D + r"alpha_target = 3\.0: expected a number from 0 to 1",
+    ),
     ("design", "trials", 0, r"design\.trials = 0: expected a whole number from 1 to 100$"),
     (
         "design",
@@ -83,10 +103,10 @@ WRONG = [
     ("study", "seed", -1, r"study\.seed = -1: expected a whole number from 0 to 2\^63"),
     ("display", "samples", 3, r"display\.samples = 3: expected one of \"auto\", 0, 2, 4, 8$"),
     (
-        "session",
-        "trial_limit",
+        "task",
+        "limit",
         -3,
-        r"session\.trial_limit = -3: expected a number from 0 to 1e\+09$",
+        r"task\.limit = -3: expected a number from 0 to 1e\+09$",
     ),
     (
         "analysis",
@@ -120,11 +140,11 @@ def test_missing_table_is_named():
 
 
 def test_every_fault_of_a_file_has_its_line():
-    study = changed("abstract", "objcts", 200)
-    study["abstract"] |= {"side": -1.0, "shapes": ["cow"], "radius": [3.0, 2.0]}
+    study = changed("world.abstract", "objcts", 200)
+    study["world"]["abstract"] |= {"side": -1.0, "shapes": ["cow"], "radius": [3.0, 2.0]}
     study["study"] |= {"seed": "x", "language": "fr"}
     study["texts"] = {"welcome.txt": "Hello."}
-    study["walkthrough"]["models"] = [{"name": "a", "up": "x", "colour": 1}, 3]
+    study["world"]["building"]["models"] = [{"name": "a", "up": "x", "colour": 1}, 3]
     with pytest.raises(InputError) as caught:
         parse(study, "s.toml")
     assert [
@@ -132,14 +152,15 @@ def test_every_fault_of_a_file_has_its_line():
     ] == [
         's.toml: study.seed = "x"',
         's.toml: study.language = "fr"',
-        "s.toml: abstract.objcts = 200: unknown key",
-        "s.toml: abstract.side = -1.0",
-        's.toml: abstract.shapes = ["cow"]',
-        "s.toml: walkthrough.models[0].colour = 1: unknown key; known: name, file, "
+        "s.toml: world.abstract.objcts = 200: unknown key",
+        "s.toml: world.abstract.side = -1.0",
+        's.toml: world.abstract.shapes = ["cow"]',
+        "s.toml: world.building.models[0].colour = 1: unknown key; known: name, file, "
         "size, up, turn, detail, sha256, reader",
-        "s.toml: walkthrough.models[0].file: missing, expected the name of a file beside the study",
-        's.toml: walkthrough.models[0].up = "x"',
-        "s.toml: walkthrough.models[1] = 3",
+        "s.toml: world.building.models[0].file: missing, expected the name of a file beside the "
+        "study",
+        's.toml: world.building.models[0].up = "x"',
+        "s.toml: world.building.models[1] = 3",
         "s.toml: texts.welcome.txt: unknown text",
     ]
     assert "one of de, en" in caught.value.lines[1]  # which languages there are
@@ -147,7 +168,7 @@ def test_every_fault_of_a_file_has_its_line():
 
 
 def test_an_unknown_key_of_every_table_lists_its_known_ones():
-    for table in (t for t in TABLES if "." not in t):
+    for table in TABLES:
         known = list(keys_of(table))
         with pytest.raises(InputError) as caught:
             parse(changed(table, "qqq", 1), "s.toml")
@@ -157,7 +178,7 @@ def test_an_unknown_key_of_every_table_lists_its_known_ones():
         near = known[0][:-1] + "_"
         with pytest.raises(InputError, match=f"did you mean {known[0]}[?]"):
             parse(changed(table, near, 1), "s.toml")
-    with pytest.raises(InputError, match=r"desing = .*, did you mean design\? known: study"):
+    with pytest.raises(InputError, match=r"desing = .*, did you mean design\? known: factors"):
         parse(changed("desing", "trials", 3), "s.toml")
 
 
@@ -224,4 +245,4 @@ def test_the_digest_tells_studies_apart_and_ignores_the_order_of_keys():
     one = parse(PUBLISHED, "x")
     reordered = dict(reversed(list(copy.deepcopy(PUBLISHED).items())))
     assert one.digest() == parse(reordered, "x").digest()
-    assert one.digest() != parse(changed("dynamic", "width", 11.0), "x").digest()
+    assert one.digest() != parse(changed("technique.dynamic", "width", 11.0), "x").digest()

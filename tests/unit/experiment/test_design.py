@@ -1,5 +1,6 @@
 """The design's balance, counted."""
 
+import hashlib
 from collections import Counter
 from itertools import pairwise
 
@@ -8,23 +9,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from seethrough.experiment.study.design import (
-    Factors,
-    generator,
-    order_of,
-    scene_set,
-    session_for,
-    task_order,
-    williams_rows,
-)
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.design import generator, session_for
+from seethrough.experiment.study.items import letters, rotation
+from seethrough.experiment.study.squares import latin_rows, square, williams_rows
 
-PUBLISHED = Factors(
-    transparency=("standard", "dynamic"),
-    tasks={"abstract": ("count", "pattern"), "walkthrough": ("unique", "count_in_building")},
-    trials=3,
-    training=1,
-    static_scenarios=("walkthrough",),
-)
+PUBLISHED = load("published").plan
+BEFORE = "7bff85ab6bbae8c07520eb60501753e1a68649f0351a8d05459d9d66455dffca"
+
+
+def order_of(slot, k):
+    rows = williams_rows(k)
+    return rows[(slot - 1) % len(rows)]
 
 
 @given(k=st.integers(2, 9), passes=st.integers(1, 7))
@@ -47,23 +43,53 @@ def test_row_counts_differ_by_at_most_one_at_any_number_of_participants(k, parti
     assert all(sorted(row) == list(range(k)) for row in rows)
 
 
-@given(k=st.integers(2, 9), participants=st.integers(1, 64), tasks=st.integers(1, 4))
-def test_task_orders_are_permutations_and_used_equally_often_to_within_one_pass(
-    k, participants, tasks
-):
-    orders = [task_order(slot, k, tasks) for slot in range(1, participants + 1)]
-    assert all(sorted(order) == list(range(tasks)) for order in orders)
-    used = Counter(orders)
-    # The swap at each pass through the rows can repeat one order: one more for each pass begun.
-    passes = -(-participants // len(williams_rows(k)))
-    assert max(used.values()) - min(used.get(o, 0) for o in williams_rows(tasks)) <= 1 + passes
-
-
 def test_sixteen_slots_cross_order_task_order_and_scene_set_completely():
-    crossed = Counter(
-        (order_of(slot, 4), task_order(slot, 4, 2), scene_set(slot, 0, 2)) for slot in range(1, 17)
-    )
+    crossed = Counter()
+    for slot in range(1, 17):
+        trials = [t for s in session_for(slot, PUBLISHED) for t in s.trials]
+        walk = [t for t in trials if t.world == "building"]
+        order = tuple(dict.fromkeys(tuple(t.levels.values()) for t in trials))
+        tasks = tuple(dict.fromkeys(t.task for t in walk))
+        first = next(t.scene.split("-")[1] for t in walk if t.levels["transparency"] == "standard")
+        crossed[order, tasks, first] += 1
     assert len(crossed) == 16 and set(crossed.values()) == {1}
+
+
+def test_the_published_plan_is_the_one_of_before_there_were_factors():
+    """Every trial of 16 slots as the fixed 2 × 2 design had it: the hash of its words."""
+    lines = [
+        f"{slot} {t.number} {t.block} {t.task_set} {t.in_set} {t.levels['transparency']} "
+        f"{t.levels['scenario']} {t.task} {t.scene} {t.stream} {t.training}"
+        for slot in range(1, 17)
+        for s in session_for(slot, PUBLISHED)
+        for t in (*s.training, *s.trials)
+    ]
+    assert len(lines) == 512
+    assert hashlib.sha256("\n".join(lines).encode()).hexdigest() == BEFORE
+
+
+@given(sets=st.integers(1, 9), rows=st.integers(1, 30))
+def test_within_as_many_passes_as_there_are_sets_each_row_meets_each_rotation(sets, rows):
+    for row in range(rows):
+        met = {rotation(row, passes, sets) for passes in range(sets)}
+        assert met == set(range(sets))
+
+
+def test_sets_have_names_without_end():
+    assert [letters(n) for n in (0, 8, 9, 25, 26, 27, 701, 702)] == [
+        "A", "I", "J", "Z", "AA", "AB", "ZZ", "AAA",
+    ]  # fmt: skip
+
+
+@given(k=st.integers(1, 12))
+def test_a_latin_square_has_each_thing_once_in_each_row_and_column(k):
+    rows = latin_rows(k)
+    assert all(sorted(line) == list(range(k)) for line in (*rows, *zip(*rows, strict=True)))
+
+
+def test_an_order_that_there_is_not_is_named():
+    with pytest.raises(ValueError, match="order = 'magic', expected one of williams, latin"):
+        square("magic", 3)
 
 
 def test_published_session_has_every_cell_three_times_and_sixteen_make_384():
@@ -74,17 +100,19 @@ def test_published_session_has_every_cell_three_times_and_sixteen_make_384():
         assert len(session) == 8
         own = [t for s in session for t in s.trials]
         assert [t.number for t in own] == list(range(1, 25))
-        cells = Counter((t.transparency, t.scenario, t.task) for t in own)
+        cells = Counter((*t.levels.values(), t.task) for t in own)
         assert len(cells) == 8 and set(cells.values()) == {3}
 
 
 def test_walkthrough_scenes_are_shared_and_sets_never_meet_both_levels_in_one_session():
     for slot in range(1, 17):
         trials = [t for s in session_for(slot, PUBLISHED) for t in s.trials]
-        walk = [t for t in trials if t.scenario == "walkthrough"]
+        walk = [t for t in trials if t.world == "building"]
         sets = {
-            t.transparency: {
-                u.scene.split("-")[1] for u in walk if u.transparency == t.transparency
+            t.levels["transparency"]: {
+                u.scene.split("-")[1]
+                for u in walk
+                if u.levels["transparency"] == t.levels["transparency"]
             }
             for t in walk
         }
@@ -95,7 +123,7 @@ def test_walkthrough_scenes_are_shared_and_sets_never_meet_both_levels_in_one_se
         for slot in range(1, 17)
         for s in session_for(slot, PUBLISHED)
         for t in s.trials
-        if t.scenario == "walkthrough"
+        if t.world == "building"
     }
     assert len(scenes) == 12 and len(set(scenes.values())) == 12
 
@@ -106,7 +134,7 @@ def test_abstract_scenes_and_training_have_streams_of_their_own():
         for slot in range(1, 17)
         for s in session_for(slot, PUBLISHED)
         for t in (*s.trials, *s.training)
-        if t.scenario == "abstract"
+        if t.world == "abstract"
     ]
     assert len(streams) == len(set(streams)) == 16 * 4 * 4
 
@@ -120,4 +148,4 @@ def test_a_stream_gives_the_same_numbers_again_and_neighbours_differ():
 
 def test_slots_start_at_one():
     with pytest.raises(ValueError, match="slot = 0, expected at least 1"):
-        order_of(0, 4)
+        session_for(0, PUBLISHED)

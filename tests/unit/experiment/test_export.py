@@ -16,7 +16,14 @@ from seethrough.experiment import cli
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.dataset import _rows, harmless
 from seethrough.experiment.export.parquet import ParquetWriter
-from seethrough.experiment.record.columns import TABLES, TRIALS
+from seethrough.experiment.record.columns import with_factors
+from seethrough.experiment.study.config import load
+from seethrough.experiment.study.described import design_entry
+
+
+def columns_of_demo():
+    """Every table's columns in the study that is recorded here."""
+    return with_factors(design_entry(load("demo"))["factors"])
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +80,7 @@ def test_parquet_has_every_row_and_type(data, tmp_path):
         "text": {"object"}, "integer": {"int64"}, "number": {"float64"},
         "boolean": {"bool", "boolean"},
     }  # fmt: skip
-    for table, columns in TABLES.items():
+    for table, columns in columns_of_demo().items():
         with open(out / f"{table}.parquet", "rb") as file:
             read = fastparquet.ParquetFile(file)
             frame, types = read.to_pandas(), {k: str(v) for k, v in read.dtypes.items()}
@@ -167,7 +174,7 @@ def test_a_broken_table_is_named(tmp_path, capsys, old, new, message):
     (path,) = tmp_path.rglob("*_trials_data.csv")
     path.write_text(path.read_text("utf-8").replace(old, new, 1), "utf-8")
     with pytest.raises(InputError, match=rf"_trials_data\.csv: {message}$"):
-        _rows(path, path.read_bytes(), TRIALS)  # another program's table, which has no chain
+        _rows(path, path.read_bytes(), "trials")  # another program's table, which has no chain
     for form in ("wide", "parquet", "bids", "psychds"):  # this one has: nothing takes it
         words = ["export", str(tmp_path / "data"), "--format", form, "--out", str(tmp_path / "out")]
         assert cli.main(words) == 2
@@ -179,20 +186,20 @@ def test_a_table_from_before_a_column_was_added_is_read_with_empty_cells(tmp_pat
     record(tmp_path / "data", "P01", 1)
     (path,) = tmp_path.rglob("*_trials_data.csv")
     new = pd.read_csv(path, dtype=str, keep_default_na=False)
-    old = new.drop(columns=["time_within", "early"]).to_csv(index=False).encode()
-    rows = _rows(path, old, TRIALS)
+    old = new.drop(columns=["time_within", "early", "world"]).to_csv(index=False).encode()
+    rows = _rows(path, old, "trials")
     assert [list(row) for row in rows] == [list(new)] * len(new)
-    assert {(row["time_within"], row["early"]) for row in rows} == {("", "")}
+    assert {(row["time_within"], row["early"], row["world"]) for row in rows} == {("", "", "")}
     assert [row["time"] for row in rows] == list(new["time"])
     with pytest.raises(InputError, match=r"not so: \['early'\]"):  # one of them alone never was
-        _rows(path, new.drop(columns="early").to_csv(index=False).encode(), TRIALS)
+        _rows(path, new.drop(columns="early").to_csv(index=False).encode(), "trials")
 
 
 def test_parquet_joins_tables_from_before_and_after_a_column_was_added(tmp_path):
     record(tmp_path / "data", "P01", 1)
     (path,) = tmp_path.rglob("*_trials_data.csv")
     new = pd.read_csv(path, dtype=str, keep_default_na=False)
-    new.drop(columns=["time_within", "early"]).to_csv(tmp_path / "old.csv", index=False)
+    new.drop(columns=["time_within", "early", "world"]).to_csv(tmp_path / "old.csv", index=False)
     with ParquetWriter() as writer:
         writer.write("trials", [tmp_path / "old.csv", path], tmp_path / "both.parquet")
     with open(tmp_path / "both.parquet", "rb") as file:

@@ -8,8 +8,11 @@ import pytest
 
 from seethrough.experiment.cli import main
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.study.config import Study, find, parse
-from seethrough.experiment.study.keys import REFERENCE, REQUIRED, TABLES, keys_of, reference
+from seethrough.experiment.study.config import find, parse
+from seethrough.experiment.study.keys import REFERENCE, REQUIRED, keys_of, reference, tables
+from seethrough.experiment.study.merge import nested
+from seethrough.experiment.study.scopes import sections
+from seethrough.experiment.study.study_tables import TABLES
 from seethrough.renderer.declared import Of, declared
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.kit.own_models import OwnModel
@@ -17,6 +20,11 @@ from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParamet
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 FOUND_OUT = {"folder"}  # of a model, when the study is read
+LEAST = {
+    "technique": {"use": "standard"},
+    "world": {"use": "abstract"},
+    "design": {"tasks": ["count"]},
+}
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 
 
@@ -26,12 +34,14 @@ def test_the_page_is_what_the_code_declares():
 
 
 def test_every_table_and_key_of_a_study_is_there():
-    assert {t for t in TABLES if "." not in t} == set(Study.model_fields) - {"texts"}
+    assert {t.partition(".")[0] for t in tables()} == {*sections(), "factors"} - {"texts"}
     for cls in (AbstractParameters, BuildingParameters, OwnModel, DynamicTransparency):
         fields = {f.name for f in dataclasses.fields(cls)}
         assert fields - set(declared(cls)) == (FOUND_OUT if cls is OwnModel else set())
-    for table, (declares, _) in TABLES.items():
-        fields = getattr(declares, "model_fields", None) or declared(declares)
+    for table, declares in tables().items():
+        fields = getattr(declares, "model_fields", None)
+        if fields is None:
+            fields = declares if isinstance(declares, dict) else declared(declares)
         assert list(keys_of(table)) == list(fields)
     page = reference()
     for name in ("language", "fullscreen", "mask", "tolerance", "redraw", "stale_after", "layers"):
@@ -39,7 +49,7 @@ def test_every_table_and_key_of_a_study_is_there():
 
 
 def test_every_key_says_what_it_means_and_may_be():
-    for table in TABLES:
+    for table in tables():
         for key in keys_of(table).values():
             assert len(key.meaning) > 5 and key.allowed and "|" not in key.meaning, key
             assert not re.search(r"[\^\\$]|NoneType|<class", key.allowed.replace("2^63", "")), key
@@ -49,16 +59,17 @@ def test_the_defaults_are_allowed_and_those_of_a_study_that_sets_nothing():
     required = {
         n: PUBLISHED["study"][n] for n, k in keys_of("study").items() if k.default is REQUIRED
     }
-    study = parse({"study": required}, "s")
-    for table in (t for t in TABLES if "." not in t):
+    study = parse({"study": required, **LEAST}, "s")
+    for table in TABLES:
         for key in keys_of(table).values():
-            if key.default is not REQUIRED:
+            if key.default is not REQUIRED and key.name != "tasks":
                 assert getattr(getattr(study, table), key.name) == key.default
 
 
 def _limits():
-    for cls, table in ((AbstractParameters, "abstract"), (BuildingParameters, "walkthrough"),
-                       (DynamicTransparency, "dynamic")):  # fmt: skip
+    for cls, table in ((AbstractParameters, "world.abstract"),
+                       (BuildingParameters, "world.building"),
+                       (DynamicTransparency, "technique.dynamic")):  # fmt: skip
         for name, said in declared(cls).items():
             if said.low is not None:
                 yield table, cls, name, said
@@ -74,7 +85,7 @@ def test_what_the_page_says_is_what_is_checked(table, cls, name, said):
         number = int(value) if "int" in hint else float(value)
         wrong = [number, number] if "tuple" in hint else number
         with pytest.raises(InputError, match=rf"^s: {table}\.{name} = ") as caught:
-            parse({**PUBLISHED, table: {name: wrong}}, "s")
+            parse({**PUBLISHED, **nested((*table.split("."), name), wrong)}, "s")
         words = keys_of(table)[name].allowed
         start = words if not isinstance(said.high, Of) else words.rpartition(" to ")[0]
         assert f": expected {start}" in str(caught.value)

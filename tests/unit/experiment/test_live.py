@@ -89,7 +89,7 @@ def test_a_pilot_runs_line_has_its_own_colour(tmp_path, monkeypatch, source, pil
 
 
 def test_the_terminal_shows_trial_answer_time_and_missed_frames(capsys):
-    trial = Trial(7, 1, 2, 1, "dynamic", "abstract", "count", "s", (1, 1))
+    trial = Trial(7, 1, 2, 1, {"view": "dynamic"}, "count", "s", (1, 1))
     outcome = Outcome("12", "14", False, count_error=-2)
     record = TrialRecord(trial, outcome, 14, 10.0, 52.25, 0.0, False, 2500, 3, 0.05, 1.0, 1.0)
     live.say(record)

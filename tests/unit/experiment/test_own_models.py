@@ -39,15 +39,24 @@ participants = 4
 seed = 3
 [design]
 tasks = ["unique", "count_in_building"]
-[walkthrough]
+[factors.transparency]
+levels.standard = { technique.use = "standard" }
+levels.dynamic = { technique.use = "dynamic" }
+[world.building]
 grid = 6
 objects = 8
 count = [1, 3]
 types = ["wedge of wood", "cat", "dog"]
-[[walkthrough.models]]
+[[world.building.models]]
 name = "wedge of wood"
 file = "models/wedge.obj"
 size = 2.0
+[world]
+use = "building"
+[questions] # in this order
+ratings = { when = "end", each = ["transparency"] }
+comparison = { when = "end", of = "transparency" }
+remarks = { when = "end" }
 """
 
 
@@ -61,7 +70,7 @@ def written(folder, model=WEDGE, study=STUDY):
 def buildings(study):
     """The scenes of the first session."""
     scenes = StudyScenes(study)
-    for task_set in session_for(1, study.design.factors()):
+    for task_set in session_for(1, study.plan):
         for trial in task_set.trials:
             yield scenes.begin(TASKS[trial.task], trial, 4 / 3).building
 
@@ -83,17 +92,17 @@ def test_the_digest_follows_the_files_bytes_and_not_its_place(tmp_path):
     two = load(str(written(tmp_path / "b")))
     other = load(str(written(tmp_path / "c", WEDGE + "# a comment\n")))
     assert one.digest() == two.digest() != other.digest()
-    (model,) = one.resolved()["walkthrough"]["models"]
+    (model,) = one.resolved()["world"]["building"]["models"]
     assert len(model["sha256"]) == 64 and str(tmp_path) not in str(one.resolved())
 
 
 def test_replay_needs_the_data_folder_alone(tmp_path):
     study = load(str(written(tmp_path / "lab")))
-    keep(study.walkthrough, tmp_path / "data")
-    keep(study.walkthrough, tmp_path / "data")  # the next participant
+    keep(study, tmp_path / "data")
+    keep(study, tmp_path / "data")  # the next participant
     shutil.rmtree(tmp_path / "lab")
     again = parse(study.resolved(), "sidecar")
-    again = again.with_walkthrough(kept(again.walkthrough, tmp_path / "data"))
+    again = again.with_places(lambda place: kept(place, tmp_path / "data"))
     assert again.digest() == study.digest()
     for old, new in zip(buildings(study), buildings(again), strict=True):
         for a, b in zip(old.scene.objects, new.scene.objects, strict=True):
@@ -106,12 +115,12 @@ def test_a_model_that_was_not_kept_or_is_damaged_is_one_line(tmp_path):
     study = load(str(written(tmp_path / "lab")))
     plain = parse(study.resolved(), "sidecar")
     with pytest.raises(InputError, match=r"\.npz: expected the model 'wedge of wood' as it was"):
-        kept(plain.walkthrough, tmp_path / "data")
-    keep(study.walkthrough, tmp_path / "data")
+        plain.with_places(lambda place: kept(place, tmp_path / "data"))
+    keep(study, tmp_path / "data")
     (file,) = tmp_path.rglob("*.npz")
     file.write_bytes(file.read_bytes()[:100])
     with pytest.raises(ValueError, match=r"^[^\n]*\.npz: not a kept model: [^\n]*$"):
-        next(buildings(plain.with_walkthrough(kept(plain.walkthrough, tmp_path / "data"))))
+        next(buildings(plain.with_places(lambda place: kept(place, tmp_path / "data"))))
 
 
 BAD = [
@@ -156,7 +165,7 @@ def test_what_is_wrong_with_the_entry_is_named(tmp_path, old, new, message):
     path = written(tmp_path, study=STUDY.replace(old, new))
     with pytest.raises(InputError) as caught:
         load(str(path))
-    assert re.search(rf"^\S*own\.toml: walkthrough\..*{message}", caught.value.lines[0])
+    assert re.search(rf"^\S*own\.toml: world\.building\..*{message}", caught.value.lines[0])
 
 
 def test_check_lists_the_models(tmp_path, capsys):

@@ -155,7 +155,7 @@ def test_a_folder_gives_every_test_the_analysis_makes(tmp_path):
     rows = []
     rng = np.random.default_rng(1)
     for slot in range(1, 5):
-        for task_set in session_for(slot, study.design.factors()):
+        for task_set in session_for(slot, study.plan):
             for trial in task_set.trials:
                 rows.append(_trial(trial, slot, rng))
     about = Batch("demo", 1, 1).about(study)
@@ -176,8 +176,8 @@ def _trial(trial, slot, rng):
         "row_id": f"simulated-S{slot:02d}-1-trial{trial.number:03d}", "study": "demo",
         "participant": f"S{slot:02d}", "session": 1, "source": "simulated", "slot": slot,
         "trial": trial.number, "block": trial.block, "task_set": trial.task_set,
-        "trial_in_set": trial.in_set, "attempt": 1, "transparency": trial.transparency,
-        "scenario": trial.scenario, "task": trial.task, "scene": trial.scene, "targets": 20,
+        "trial_in_set": trial.in_set, "attempt": 1, **trial.levels,
+        "world": trial.world, "task": trial.task, "scene": trial.scene, "targets": 20,
         "time": float(rng.uniform(5, 50)), "time_clean": 5.0, "timed_out": False, "frames": 9,
         "answer": answer, "truth": answer, "correct": bool(rng.random() < 0.7),
         "count_error": 0 if counts else None, "distance": None if trial.task != "unique" else 3.0,

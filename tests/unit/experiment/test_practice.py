@@ -23,7 +23,7 @@ from seethrough.tasks.kit.events import KeyPress, Tick
 from seethrough.tasks.kit.hud import Label
 
 STUDY = load("published")
-SETS = session_for(1, STUDY.design.factors())
+SETS = session_for(1, STUDY.plan)
 
 
 def marked(view):

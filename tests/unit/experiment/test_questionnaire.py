@@ -1,5 +1,6 @@
 """The pages around the trials: what is asked, and what becomes of the answers."""
 
+import tomllib
 from itertools import chain
 
 import numpy as np
@@ -15,9 +16,11 @@ from seethrough.experiment.questions.depth_test.depth_pairs import RATIO, depth_
 from seethrough.experiment.questions.kit import Asking
 from seethrough.experiment.questions.ready import READY, TLX, question
 from seethrough.experiment.session import questionnaire
-from seethrough.experiment.study.config import load, parse
+from seethrough.experiment.study.config import find, load, parse
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 PUBLISHED = load("published")
+BUILDING = PUBLISHED.parameters("world", "building")
 
 
 class Answers:
@@ -45,8 +48,10 @@ def rows_of(steps, person, given=None):
 
 
 def with_blocks(*names):
-    session = PUBLISHED.session.model_copy(update={"questionnaire": names})
-    return PUBLISHED.model_copy(update={"session": session})
+    """The published study with these pages at its end."""
+    table = tomllib.loads(find("published").read_text("utf-8"))
+    table["questions"] = {name: {} for name in names}
+    return parse(table, "s")
 
 
 def test_the_published_session_asks_for_consent_age_gender_and_four_plates():
@@ -103,11 +108,10 @@ def test_plates_record_whether_the_digit_was_read():
 
 
 def test_each_condition_is_rated_on_three_scales():
-    rows = rows_of(questionnaire.after(with_blocks("ratings")), Answers())
+    rows = rows_of(questionnaire.after(with_blocks("ratings"), 1), Answers())
     assert len(rows) == 12
-    assert {(r["transparency"], r["scenario"]) for r in rows} == set(
-        PUBLISHED.design.factors().conditions
-    )
+    rated = [{k: r[k] for k in ("transparency", "scenario")} for r in rows[::3]]
+    assert rated == list(PUBLISHED.plan.conditions())
 
 
 ALL = ("ratings", "comparison", "tlx", "sus", "depth_test", "remarks")
@@ -115,7 +119,7 @@ ALL = ("ratings", "comparison", "tlx", "sus", "depth_test", "remarks")
 
 def test_a_pages_rows_are_out_before_the_next_page_is_shown():
     person = Answers(age="27", remarks="fine")
-    steps = chain(questionnaire.before(PUBLISHED, 1), questionnaire.after(with_blocks(*ALL)))
+    steps = chain(questionnaire.before(PUBLISHED, 1), questionnaire.after(with_blocks(*ALL), 1))
     for number, rows in enumerate(questionnaire.asked(steps, person), start=1):
         assert len(person.pages) == number
         assert rows
@@ -124,7 +128,7 @@ def test_a_pages_rows_are_out_before_the_next_page_is_shown():
 @pytest.mark.parametrize("seed", range(5))
 def test_what_was_answered_is_not_asked_again_wherever_it_broke_off(seed):
     def steps():
-        after = questionnaire.after(with_blocks(*ALL))
+        after = questionnaire.after(with_blocks(*ALL), 1)
         return chain(questionnaire.before(PUBLISHED, 1), after)
 
     whole = Answers(age="27", remarks="fine")
@@ -142,13 +146,13 @@ def test_what_was_answered_is_not_asked_again_wherever_it_broke_off(seed):
     [("0", "1", "dynamic"), ("1", "0", "neutral"), ("2", "0", "standard")],
 )
 def test_preference_is_1_for_dynamic_and_0_else_and_says_which(option, value, text):
-    rows = rows_of(questionnaire.after(with_blocks("comparison")), Answers(preference=option))
+    rows = rows_of(questionnaire.after(with_blocks("comparison"), 1), Answers(preference=option))
     assert rows[0] == {"item": "preference", "value": value, "text": text}
 
 
 def test_remarks_left_empty_leave_no_row():
-    assert rows_of(questionnaire.after(with_blocks("remarks")), Answers(remarks="")) == []
-    (row,) = rows_of(questionnaire.after(with_blocks("remarks")), Answers(remarks="<b>ok</b>"))
+    assert rows_of(questionnaire.after(with_blocks("remarks"), 1), Answers(remarks="")) == []
+    (row,) = rows_of(questionnaire.after(with_blocks("remarks"), 1), Answers(remarks="<b>ok</b>"))
     assert row["text"] == "<b>ok</b>"
 
 
@@ -171,9 +175,11 @@ def test_sus_scores_the_known_extremes_and_the_middle():
 
 def test_a_score_that_a_power_failure_cut_off_counts_the_answers_that_were_kept():
     """Of ten statements four were on disk; the page is asked again, and those four stand."""
-    kept = {(f"sus_{n}", "dynamic", ""): "4" if n % 2 else "0" for n in range(1, 5)}
+    kept = {
+        (f"sus_{n}", (("transparency", "dynamic"),)): "4" if n % 2 else "0" for n in range(1, 5)
+    }
     study = with_blocks("sus")
-    rows = rows_of(questionnaire.after(study), Answers(), kept)
+    rows = rows_of(questionnaire.after(study, 1), Answers(), kept)
     mine = {r["item"]: r["value"] for r in rows if r["transparency"] == "dynamic"}
     assert set(mine) == {f"sus_{n}" for n in range(5, 11)} | {"sus"}
     both = {item: value for (item, *_), value in kept.items()} | mine
@@ -183,13 +189,13 @@ def test_a_score_that_a_power_failure_cut_off_counts_the_answers_that_were_kept(
 
 
 def test_tlx_has_six_scales_of_21_steps_for_each_level():
-    rows = rows_of(questionnaire.after(with_blocks("tlx")), Answers())
+    rows = rows_of(questionnaire.after(with_blocks("tlx"), 1), Answers())
     assert len(rows) == 12 and {r["value"] for r in rows} == {"20"}
     assert {r["item"] for r in rows} == {f"tlx_{name}" for name in TLX}
 
 
 def test_the_depth_test_asks_three_disjoint_clear_pairs_and_scores_them():
-    test = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
+    test = depth_test(PUBLISHED.study.seed, "building", BUILDING)
     assert len(test.pairs) == 3 and len({k for pair in test.pairs for k in pair}) == 6
     scene, camera = test.view.scene, test.view.camera
     for (a, b), near in zip(test.pairs, test.nearer, strict=True):
@@ -204,7 +210,7 @@ def test_the_depth_test_asks_three_disjoint_clear_pairs_and_scores_them():
     right = {f"pair_{n}": str(near) for n, near in enumerate(test.nearer)}
     assert all(test.right(n, right) for n in range(3))
     assert not any(test.right(n, {k: str(1 - int(v)) for k, v in right.items()}) for n in range(3))
-    rows = rows_of(questionnaire.after(with_blocks("depth_test")), Answers(**right))
+    rows = rows_of(questionnaire.after(with_blocks("depth_test"), 1), Answers(**right))
     assert [(r["item"], r["value"]) for r in rows] == [
         ("depth_pair_1", "1"), ("depth_pair_2", "1"), ("depth_pair_3", "1"), ("depth_test", "3"),
     ]  # fmt: skip
@@ -216,9 +222,9 @@ def _in_picture(camera, point):
 
 
 def test_the_same_study_has_the_same_depth_test():
-    one = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
+    one = depth_test(PUBLISHED.study.seed, "building", BUILDING)
     depth_test.cache_clear()
-    two = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
+    two = depth_test(PUBLISHED.study.seed, "building", BUILDING)
     assert one.pairs == two.pairs and one.nearer == two.nearer
 
 
@@ -248,11 +254,12 @@ def test_plates_are_four_digits_of_dots_that_do_not_overlap():
 def test_a_consent_file_that_is_missing_or_no_text_is_named(tmp_path):
     text = (
         '[study]\nname = "a"\ntitle = "a"\ndescription = "a"\nparticipants = 1\nseed = 1\n'
-        '[session]\nconsent = "mine.txt"\n'
+        '[technique]\nuse = "standard"\n[world]\nuse = "abstract"\n[design]\ntasks = ["count"]\n'
+        '[questions]\nconsent = { file = "mine.txt" }\n'
     )
     study = tmp_path / "a.toml"
     study.write_text(text)
-    with pytest.raises(InputError, match=r'a\.toml: session\.consent = "mine\.txt": expected'):
+    with pytest.raises(InputError, match=r'a\.toml: questions\.consent\.file = "mine\.txt"'):
         load(str(study))
     (tmp_path / "mine.txt").write_bytes(b"\xff\xfe\xff")
     with pytest.raises(InputError, match="not UTF-8"):
@@ -262,8 +269,7 @@ def test_a_consent_file_that_is_missing_or_no_text_is_named(tmp_path):
 
 
 def test_optional_questions_do_not_hold_a_page_up():
-    page = parse({"study": {"name": "a", "title": "a", "description": "a", "participants": 1,
-                            "seed": 1}, "session": {"demographics": True}}, "x")  # fmt: skip
+    page = with_blocks("demographics")
     person = Answers()
     rows_of(questionnaire.before(page, 1), person)
     (asked,) = person.pages
@@ -272,11 +278,11 @@ def test_optional_questions_do_not_hold_a_page_up():
 
 
 def test_simulated_participants_judge_the_depth_of_what_is_in_the_picture():
-    test = depth_test(PUBLISHED.study.seed, "building", PUBLISHED.walkthrough)
+    test = depth_test(PUBLISHED.study.seed, "building", BUILDING)
     scores = []
     for seed in range(20):
         person = SimulatedParticipant(np.random.default_rng(seed))
-        pages = enumerate(test.pages(PUBLISHED.dynamic))
+        pages = enumerate(test.pages(DynamicTransparency()))
         scores.append(sum(test.right(n, person.answer(page)[0]) for n, page in pages))
     # Sixty fair coins come up right 42 times or more once in a thousand; the things that are out of
     # the picture, nearer ones of the same kinds among them, would bring it down to 20.

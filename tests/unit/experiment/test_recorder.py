@@ -6,10 +6,10 @@ import shutil
 
 import numpy as np
 import pytest
+from published_design import columns, published
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, next_free, stem_of
-from seethrough.experiment.record.columns import TABLES, TRIALS
 from seethrough.experiment.record.record_files import cell
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
@@ -19,7 +19,10 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
 from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
-TRIAL = Trial(5, 1, 2, 2, "dynamic", "abstract", "count", "stream-1", (1, 1))
+DESIGN = published()
+LEVELS = {"transparency": "dynamic", "scenario": "abstract"}
+
+TRIAL = Trial(5, 1, 2, 2, LEVELS, "count", "stream-1", (1, 1), world="abstract")
 RECORD = TrialRecord(
     TRIAL, Outcome("12", "14", False, count_error=-2), 14, 10.0, 52.25, 2.25, False,
     2500, 3, 0.05, 12.5, 3.25,
@@ -27,7 +30,7 @@ RECORD = TrialRecord(
 
 
 def recorder(folder, participant="P01", source="human"):
-    who = Who("test", participant, source, 1, {"seed": 3})
+    who = Who("test", participant, source, 1, {"seed": 3}, design=DESIGN)
     return FileRecorder(folder, who, now=lambda: "2026-01-02T03:04:05.678Z")
 
 
@@ -55,7 +58,7 @@ def test_a_trial_is_a_row_on_disk_as_soon_as_it_ends(tmp_path):
     rec.close("left")
     folder = copy / "data" / "human" / "P01"
     (row,) = rows(folder / "study-test_subject-P01_session-1_trials_data.csv")
-    assert list(row) == [c.name for c in TRIALS]
+    assert list(row) == [c.name for c in columns()["trials"]]
     expected = {
         "row_id": "human-P01-1-trial005", "participant": "P01", "source": "human",
         "trial": "5", "transparency": "dynamic", "task": "count", "answer": "12", "truth": "14",
@@ -78,7 +81,7 @@ def test_columns_are_the_declared_ones_and_unknown_ones_are_refused(tmp_path):
     rec.close("left")
     described = json.loads((tmp_path / "dataset_description.json").read_text(encoding="utf-8"))
     names = {v["name"] for v in described["variableMeasured"]}
-    assert names == {c.name for table in TABLES.values() for c in table}
+    assert names == {c.name for table in columns().values() for c in table}
 
 
 def test_nothing_is_overwritten_and_the_next_free_number_is_named(tmp_path):
@@ -142,7 +145,7 @@ def test_a_repeated_trial_is_another_attempt_with_traces_of_its_own(tmp_path):
 def test_a_continued_session_has_files_of_its_own_and_counts_attempts_on(tmp_path):
     play(first := recorder(tmp_path))
     first.close("left")
-    who = Who("test", "P01", "human", 1, {}, session=2)
+    who = Who("test", "P01", "human", 1, {}, 2, DESIGN)
     second = FileRecorder(tmp_path, who, now=lambda: "later", attempts={5: 1})
     play(second)
     second.close("complete")

@@ -14,17 +14,19 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.study.config import load
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import session_for
 from seethrough.tasks.kit.base import Outcome
 from seethrough.tasks.kit.events import Tick
 
 STUDY = load("demo")
-TRIALS = [t for s in session_for(1, STUDY.design.factors()) for t in s.trials]
+TRIALS = [t for s in session_for(1, STUDY.plan) for t in s.trials]
 
 
 def began(data):
     start = starting_point(STUDY, data, "human", "P01", 1)
-    who = Who(STUDY.study.name, "P01", "human", 1, {"study_sha256": STUDY.digest()}, start.session)
+    who = Who(STUDY.study.name, "P01", "human", 1, {"study_sha256": STUDY.digest()}, start.session,
+              design_entry(STUDY))  # fmt: skip
     return FileRecorder(data, who, attempts=start.attempts), start
 
 

@@ -1,5 +1,7 @@
 """Where an interrupted session goes on."""
 
+from dataclasses import replace
+
 import pytest
 
 from seethrough.experiment.errors import InputError
@@ -7,18 +9,20 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import already_done, going_on, past, starting_point
 from seethrough.experiment.study.config import load
+from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import session_for
 from seethrough.tasks.kit.base import Outcome
 
 STUDY = load("published")
 SLOT = 3
-TRIALS = [t for s in session_for(SLOT, STUDY.design.factors()) for t in s.trials]
+DESIGN = design_entry(STUDY)
+TRIALS = [t for s in session_for(SLOT, STUDY.plan) for t in s.trials]
 
 
 def played(data, count, status="left", study=STUDY, session=1):
     """A folder in which the first `count` trials were completed."""
     provenance = {"study_sha256": study.digest()}
-    who = Who("published", "P01", "human", SLOT, provenance, session)
+    who = Who("published", "P01", "human", SLOT, provenance, session, DESIGN)
     recorder = FileRecorder(data, who)
     for trial in TRIALS[:count]:
         recorder.trial_begins(trial)
@@ -59,7 +63,7 @@ def test_the_experimenter_is_told_where_it_goes_on(tmp_path, count, said):
 def test_by_config_it_goes_on_at_the_trial(tmp_path):
     played(tmp_path, 8)
     before = past(tmp_path, "human", "P01")
-    task_sets = session_for(SLOT, STUDY.design.factors())
+    task_sets = session_for(SLOT, STUDY.plan)
     assert already_done(task_sets, before, "trial") == frozenset(range(1, 9))
 
 
@@ -72,7 +76,9 @@ def test_a_row_cut_short_by_a_crash_does_not_count(tmp_path):
 
 def test_answers_of_all_sessions_so_far_are_known(tmp_path):
     for session, answers in enumerate((("ease", "3", "one\ntwo"), ("enjoy", "4", "")), start=1):
-        who = Who("published", "P01", "human", SLOT, {"study_sha256": STUDY.digest()}, session)
+        who = Who(
+            "published", "P01", "human", SLOT, {"study_sha256": STUDY.digest()}, session, DESIGN
+        )
         recorder = FileRecorder(tmp_path, who)
         row = dict(zip(("item", "value", "text"), answers, strict=True))
         recorder.answers([{**row, "transparency": "dynamic", "scenario": "abstract"}])
@@ -80,15 +86,15 @@ def test_answers_of_all_sessions_so_far_are_known(tmp_path):
         (table,) = tmp_path.rglob(f"*session-{session}_questionnaire_data.csv")
         table.write_bytes(table.read_bytes()[:-9])
     given = starting_point(STUDY, tmp_path, "human", "P01", 9).given
-    here = ("dynamic", "abstract")
-    assert given == {("ease", *here): "3", ("enjoy", *here): "4"}
+    here = (("scenario", "abstract"), ("transparency", "dynamic"))
+    assert given == {("ease", here): "3", ("enjoy", here): "4"}
 
 
 def test_a_table_of_answers_without_its_columns_is_named(tmp_path):
     played(tmp_path, 2)
     table = tmp_path / "data/human/P01/study-published_subject-P01_session-1_questionnaire_data.csv"
-    table.write_text("item,scenario,value\n")
-    with pytest.raises(InputError, match="expected a column transparency, found item, scenario"):
+    table.write_text("scenario,value\n")
+    with pytest.raises(InputError, match="expected a column item, found scenario"):
         past(tmp_path, "human", "P01")
 
 
@@ -100,7 +106,7 @@ def test_a_complete_participant_is_refused_with_the_next_free_number(tmp_path):
 
 def test_another_version_of_the_study_is_refused(tmp_path):
     played(tmp_path, 4)
-    changed = STUDY.model_copy(update={"design": STUDY.design.model_copy(update={"training": 2})})
+    changed = replace(STUDY, practice=STUDY.practice.model_copy(update={"trials": 2}))
     with pytest.raises(InputError, match=r"P01 began another version of this study"):
         starting_point(changed, tmp_path, "human", "P01", 1)
 

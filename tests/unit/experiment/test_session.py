@@ -17,7 +17,7 @@ def test_every_task_set_has_its_instruction_training_and_trials_in_that_order():
     status, recorder, person, _ = play(study())
     assert status == recorder.status == "complete"
     assert [r.trial.number for r in recorder.ended] == list(range(1, 9))
-    assert Counter((r.trial.transparency, r.trial.task) for r in recorder.ended) == {
+    assert Counter((r.trial.levels["transparency"], r.trial.task) for r in recorder.ended) == {
         (t, k): 2 for t in ("standard", "dynamic") for k in ("count", "pattern")
     }
     # One training trial before each of the four task sets; it is shown but leaves no row.
@@ -58,18 +58,18 @@ def test_the_transparency_level_decides_the_technique():
     _, _, _, display = play(config)
     kinds = {type(technique).__name__ for _, technique in display.shown}
     assert kinds == {"Standard", "DynamicTransparency"}
-    assert all(t in (config.dynamic,) or type(t).__name__ == "Standard" for _, t in display.shown)
+    assert {t for _, t in display.shown} == {part.technique for part in config.parts.values()}
 
 
 def test_the_trial_limit_ends_a_trial_without_an_answer():
-    config = study(session={"trial_limit": 1.0, "questionnaire": []})
+    config = study(task={"limit": 1.0})
     _, recorder, _, _ = play(config, thinking=100)
     assert len(recorder.ended) == 8
     assert all(r.timed_out and r.outcome is None and r.time == 1.0 for r in recorder.ended)
 
 
 def test_training_ends_at_its_limit():
-    config = study(session={"training_limit": 1.0, "questionnaire": []})
+    config = study(practice={"limit": 1.0})
     _, _, person, _ = play(config, thinking=40)
     feedback = [p for p in person.pages if p.name == "feedback"]
     assert len(feedback) == 4
@@ -77,7 +77,7 @@ def test_training_ends_at_its_limit():
 
 
 def test_the_session_limit_ends_the_session_after_the_task_set():
-    config = study(session={"session_limit": 5.0, "questionnaire": []})
+    config = study(session={"limit": 5.0})
     status, recorder, person, _ = play(config)
     assert status == recorder.status == "time limit"
     assert person.pages[-1].name == "time"
@@ -159,7 +159,7 @@ def test_a_lost_display_ends_the_session_and_is_told_to_the_caller_and_the_recor
 
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
-    config = study(design={"trials": 2, "training": 0, "tasks": ["count", "pattern"]})
+    config = study(practice={"trials": 0})
     world = Surroundings(Fails(clock), ScriptedInput(clock, ANSWERS), clock, recorder, TASKS)
     with pytest.raises(DisplayLost, match=r"^display: .*\(GL_CONTEXT_LOST\); every completed tr"):
         run_session(config, 1, world)
@@ -240,7 +240,7 @@ def test_refusing_consent_ends_the_session_before_any_trial():
 
     clock = SimulatedClock(0.0)
     recorder = MemoryRecorder()
-    config = study(texts={"consent.text": "Please."})
+    config = study(texts={"consent.text": "Please."}, questions={"consent": {}})
     world = Surroundings(FakeDisplay(clock), Refuses(clock, ANSWERS), clock, recorder, TASKS)
     assert run_session(config, 1, world) == "left"
     assert recorder.begun == [] and recorder.rows == []

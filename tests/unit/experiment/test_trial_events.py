@@ -42,7 +42,7 @@ class Acts(ScriptedInput):
         return {**answers, **(self.page or {})} if page.name in ("leave", "menu") else answers
 
 
-NO_TRAINING = {"trials": 2, "training": 0, "tasks": ["count", "pattern"]}
+NO_TRAINING = {"trials": 0}
 
 
 def acted(at, when=1, flip_within=0.0, config=None, **script):
@@ -52,7 +52,7 @@ def acted(at, when=1, flip_within=0.0, config=None, **script):
     world = Surroundings(
         FakeDisplay(clock), person, clock, recorder, TASKS, flip_within=lambda: flip_within
     )
-    run_session(config or study(design=NO_TRAINING), 1, world)
+    run_session(config or study(practice=NO_TRAINING), 1, world)
     return recorder.ended[0], [e for e in recorder.events if not isinstance(e, Tick)]
 
 
@@ -98,7 +98,7 @@ def test_what_was_typed_under_a_page_is_not_taken_after_it_and_held_keys_came_up
     held = lambda now: [KeyPress(now - 0.1, "left"), KeyPress(now, "escape")]  # noqa: E731
     person = Late(clock, ANSWERS, at=held, when=2, page={"button": "0"})
     world = Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS)
-    run_session(study(design=NO_TRAINING), 1, world)
+    run_session(study(practice=NO_TRAINING), 1, world)
     first = recorder.ended[0]
     assert first.outcome.answer == "20" and first.early == 2
     assert first.away == 2.0 and first.time == 4 * FRAME + 2.0
@@ -128,7 +128,7 @@ def test_an_answer_given_in_time_counts_though_it_came_in_after_the_limit():
 
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
     world = Surroundings(FakeDisplay(clock), Stalls(clock, ANSWERS), clock, recorder, TASKS)
-    config = study(design=NO_TRAINING, session={"trial_limit": 2.0, "questionnaire": []})
+    config = study(practice=NO_TRAINING, task={"limit": 2.0})
     run_session(config, 1, world)
     assert recorder.ended[0].outcome.answer == "8" and not recorder.ended[0].timed_out
 
@@ -167,7 +167,7 @@ def test_focus_lost_under_a_page_counts_from_its_end():
     asks = lambda now: [KeyPress(now, "escape")]  # noqa: E731
     person = Late(clock, ANSWERS, at=asks, when=2, page={"button": "0"})
     world = Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS)
-    run_session(study(design=NO_TRAINING), 1, world)
+    run_session(study(practice=NO_TRAINING), 1, world)
     first = recorder.ended[0]
     assert first.time == 4 * FRAME + 2.0 and first.away == 2.0 + 2 * FRAME
     times = [e.time for e in recorder.events]
@@ -179,7 +179,7 @@ def test_a_page_over_a_trial_is_no_missed_frame():
     clock, recorder = SimulatedClock(64.0), MemoryRecorder()
     person = Acts(clock, ANSWERS, at=lambda now: [KeyPress(now, "escape")], page={"button": "0"})
     world = Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS, period=FRAME)
-    run_session(study(design=NO_TRAINING), 1, world)
+    run_session(study(practice=NO_TRAINING), 1, world)
     first = recorder.ended[0]
     assert first.away == 2.0 and first.frames_missed == 0 and first.worst_frame == FRAME
 

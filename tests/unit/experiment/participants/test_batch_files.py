@@ -39,7 +39,7 @@ def fill(out, count, job=JOB):
     """Simulate, so to say, what the folder lacks; the chunks that were written."""
     about = job.about(STUDY)
     with Results(out, STUDY, about) as results:
-        chunks = results.missing(count)
+        chunks = results.missing(range(1, count + 1))
         for slots in chunks:
             results.add(render(about, STUDY, slots, [played(s) for s in slots]))
     return chunks

@@ -21,9 +21,18 @@ participants = 2
 seed = 3
 [design]
 tasks = ["unique"]
-[[walkthrough.models]]
+[factors.transparency]
+levels.standard = { technique.use = "standard" }
+levels.dynamic = { technique.use = "dynamic" }
+[[world.building.models]]
 name = "wedge"
 file = "wedge.obj"
+[world]
+use = "building"
+[questions] # in this order
+ratings = { when = "end", each = ["transparency"] }
+comparison = { when = "end", of = "transparency" }
+remarks = { when = "end" }
 """
 WEDGE = "v 0 0 0\nv 4 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
 
@@ -76,7 +85,7 @@ def test_own_models_and_a_cluster_are_refused_in_a_line(tmp_path, capsys):
     words = ["simulate", str(tmp_path / "own.toml"), "--mode", "data", "--out", str(tmp_path / "o")]
     assert cli.main([*words, "--scheduler", "tcp://127.0.0.1:1"]) == 2
     told = capsys.readouterr().err
-    line = f"seethrough: {tmp_path / 'own.toml'}: walkthrough.models = ['wedge']: expected none"
+    line = f"seethrough: {tmp_path / 'own.toml'}: world.building.models = ['wedge']: expected none"
     assert told.startswith(line) and told.count("\n") == 1
     assert not (tmp_path / "o").exists()
 

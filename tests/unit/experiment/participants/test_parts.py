@@ -232,18 +232,22 @@ def test_things_are_told_by_their_places():
 LEVELS = ("dynamic", "", "standard")  # what the options of a comparison speak for
 
 
+def cell(level):
+    """What a page is about: a level of transparency in the building."""
+    return (("transparency", level), ("scenario", "walkthrough"))
+
+
 def test_pages_are_read_and_filled_in():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
     for level, seconds in (("standard", 100.0), ("dynamic", 30.0)):
-        text = Page("instruction", "t", (Paragraph(f"transparency.{level}"),))
+        text = Page("instruction", "t", (Paragraph("ready.text"),), about=cell(level))
         assert opinions.answer(text)[0] == {"button": "0"}
         for _ in range(3):
             opinions.begin("unique")
             opinions.spent("unique", seconds)
     ratings = {"standard": [], "dynamic": []}
     for level in ratings:
-        about = (("transparency", level), ("scenario", "walkthrough"))
-        page = Page("r", "r", (Scale("ease", "rating.ease", "l", "h"),), about=about)
+        page = Page("r", "r", (Scale("ease", "rating.ease", "l", "h"),), about=cell(level))
         for _ in range(40):
             answers, spent = opinions.answer(page)
             assert spent > 0 and 0 <= int(answers["ease"]) <= 4
@@ -265,7 +269,7 @@ def test_opinions_without_experience_are_neutral():
 def test_load_and_negative_statements_are_rated_the_other_way():
     opinions = Opinions(Person(np.random.default_rng(1), AVERAGE))
     for level, seconds in (("standard", 100.0), ("dynamic", 25.0)):
-        opinions.answer(Page("i", "t", (Paragraph(f"transparency.{level}"),)))
+        opinions.answer(Page("instruction", "t", about=cell(level)))
         opinions.begin("count")
         opinions.spent("count", seconds)
     means = {}

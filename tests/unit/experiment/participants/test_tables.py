@@ -124,8 +124,10 @@ def shown(level):
 def trial_of(study, task, level):
     from seethrough.experiment.study.design import session_for
 
-    sets = session_for(1, study.design.factors())
-    return next(t for s in sets for t in s.trials if (t.task, t.transparency) == (task, level))
+    sets = session_for(1, study.plan)
+    return next(
+        t for s in sets for t in s.trials if (t.task, t.levels["transparency"]) == (task, level)
+    )
 
 
 @pytest.mark.parametrize("task", ["count", "pattern", "unique", "count_in_building"])

@@ -1,0 +1,64 @@
+"""What a study file may name: techniques, worlds, tasks and questions, and what each declares."""
+
+from __future__ import annotations
+
+from dataclasses import is_dataclass
+from typing import Any, get_args, get_origin, get_type_hints
+
+from seethrough import registry
+from seethrough.experiment.study.parameter_tables import Fault
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+
+
+def names(kind: str) -> tuple[str, ...]:
+    """The names of all techniques, worlds, tasks or question kinds."""
+    if kind == "question":
+        from seethrough.experiment.questions.ready import READY  # asks for pages: not for --help
+
+        return (*READY, *registry.names(kind))
+    return registry.names(kind)
+
+
+def parameters(kind: str, name: str) -> Any:
+    """The class of the parameters of one of them."""
+    if kind == "question":
+        from seethrough.experiment.questions.ready import question
+
+        return question(name).Parameters
+    return registry.get(kind, name).Parameters
+
+
+def worlds_of(task: str) -> tuple[str, ...]:
+    """The worlds that a task can live in."""
+    return tuple(registry.get("task", task).worlds)
+
+
+def further_faults(place: Any) -> list[Fault]:
+    """The building's models are there, each once, and enough of them to tell one from others."""
+    if not isinstance(place, BuildingParameters):
+        return []
+    types, own = place.types, [model.name for model in place.models]
+    if not types and not own:
+        return []
+    from seethrough.renderer.models import MODELS
+
+    found = [
+        Fault(f"models[{number}].name", name, "a name that no other model has")
+        for number, name in enumerate(own)
+        if name in MODELS or own.count(name) > 1
+    ]
+    known = {*MODELS, *own}
+    wrong = [t for t in types if t not in known or types.count(t) > 1]
+    if wrong or (types and len(types) < 3 and place.objects > 1):
+        expected = f"three or more of {', '.join(sorted(known))}, each once"
+        found.append(Fault("types", wrong or types, expected))
+    return found
+
+
+def inner_tables(cls: Any) -> dict[str, Any]:
+    """Key → class, of the parameters that are arrays of tables."""
+    return {
+        name: get_args(hint)[0]
+        for name, hint in get_type_hints(cls).items()
+        if get_origin(hint) is tuple and is_dataclass(get_args(hint)[0])
+    }

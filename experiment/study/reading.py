@@ -1,0 +1,181 @@
+"""A study's tables, each as its values: what is wrong comes with them, all of it at once.
+
+A table's content is read once, however many cells have it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from pydantic import ValidationError
+
+from seethrough.experiment.study import plugins
+from seethrough.experiment.study.parameter_tables import MISSING, Fault, Faults, built
+from seethrough.experiment.study.study_errors import faults_of
+from seethrough.experiment.study.study_tables import (
+    TABLES,
+    QuestionTable,
+    Table,
+    TaskTable,
+)
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What [technique] or [world] says: the name in use ("" for none), its parameters, and those of
+    every [technique.NAME]; `scenes` of a world."""
+
+    use: str
+    parameters: Any
+    tables: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What [task] says: the most time for a trial of each task (s; 0: none), their parameters."""
+
+    limit: float = 0.0
+    limits: Mapping[str, float] = field(default_factory=dict)
+    tables: Mapping[str, Any] = field(default_factory=dict)
+
+    def of(self, task: str) -> float:
+        """The limit of a task's trials."""
+        return self.limits.get(task, self.limit)
+
+
+@dataclass(frozen=True)
+class Question:
+    """A table of [questions]: when and for what it is asked, and what its kind may be told."""
+
+    use: str
+    table: QuestionTable
+    parameters: Any
+
+    @property
+    def when_asked(self) -> str:
+        """start, condition or end."""
+        return self.table.when or ("start" if self.use in STARTS else "end")
+
+    def meant_for(self, at: Mapping[str, str]) -> bool:
+        """Whether a cell is among those that it is asked for: levels by factor."""
+        return not self.table.off and all(
+            at[factor] in ((wanted,) if isinstance(wanted, str) else wanted)
+            for factor, wanted in self.table.only.items()
+        )
+
+
+Read = tuple[Any, list[Fault]]
+STARTS = ("consent", "demographics", "color_check")  # asked at the start unless a study says not
+
+
+def read(section: str, table: Any, whole: bool) -> Read:
+    """The values of a table and its faults; `whole` unless something may still be missing."""
+    if not isinstance(table, Mapping):
+        return None, [Fault(section, table, f"a table, [{section}]")]
+    if section in ("technique", "world"):
+        return _chosen(section, table, whole)
+    if section == "task":
+        return _limits(table)
+    if section == "questions":
+        return _questions(table)
+    return model(section, TABLES[section], table)
+
+
+def model(section: str, kind: type[Table], table: Mapping[str, Any]) -> Read:
+    """A table of ours."""
+    try:
+        return kind.model_validate(dict(table)), []
+    except ValidationError as error:
+        return None, faults_of(error, section, table)
+
+
+def _chosen(section: str, table: Mapping[str, Any], whole: bool) -> Read:
+    known, faults = plugins.names(section), []
+    tables: dict[str, Any] = {}
+    for name, own in table.items():
+        if name == "use":
+            continue
+        where = f"{section}.{name}"
+        if name not in known:
+            faults.append(Fault(where, own, known=("use", *known)))
+        elif not isinstance(own, Mapping):
+            faults.append(Fault(where, own, f"a table, [{where}]"))
+        else:
+            tables[name], found = parameters(section, name, own)
+            faults += found
+    use = table.get("use", "")
+    expected = f"one of {', '.join(known)}"
+    if use not in known and (use or "use" in table):
+        faults.append(Fault(f"{section}.use", use, expected))
+    elif not use and whole:
+        faults.append(Fault(f"{section}.use", MISSING, expected))
+    if faults:
+        return None, faults
+    if use and use not in tables:
+        tables[use], faults = parameters(section, use, {})
+    return Chosen(use, tables.get(use), tables), faults
+
+
+def parameters(section: str, name: str, table: Mapping[str, Any]) -> Read:
+    """The parameters of a technique, world or task."""
+    where = f"{section}.{name}"
+    try:
+        made = built(plugins.parameters(section, name), table)
+    except Faults as error:
+        return None, [fault._replace(key=f"{where}.{fault.key}") for fault in error.found]
+    more = plugins.further_faults(made)
+    return made, [fault._replace(key=f"{where}.{fault.key}") for fault in more]
+
+
+def _limits(table: Mapping[str, Any]) -> Read:
+    known = plugins.names("task")
+    plain = {k: v for k, v in table.items() if k not in known}
+    value, faults = model("task", TaskTable, plain)
+    limits, tables = {}, {}
+    for name in (k for k in table if k in known):
+        own = table[name]
+        if not isinstance(own, Mapping):
+            faults.append(Fault(f"task.{name}", own, f"a table, [task.{name}]"))
+            continue
+        limit, found = model(f"task.{name}", TaskTable, {k: own[k] for k in own if k == "limit"})
+        faults += found
+        if "limit" in own and limit is not None:
+            limits[name] = limit.limit
+        tables[name], found = parameters(
+            "task", name, {k: v for k, v in own.items() if k != "limit"}
+        )
+        faults += found
+    return (None if faults else Limits(value.limit, limits, tables)), faults
+
+
+def _questions(table: Mapping[str, Any]) -> Read:
+    found: dict[str, Question] = {}
+    faults: list[Fault] = []
+    for name, own in table.items():
+        where = f"questions.{name}"
+        if not isinstance(own, Mapping):
+            faults.append(Fault(where, own, f"a table, [{where}]"))
+            continue
+        common = {k: v for k, v in own.items() if k in QuestionTable.model_fields}
+        value, wrong = model(where, QuestionTable, common)
+        faults += wrong
+        use = (value.use if value else "") or name
+        if use not in plugins.names("question"):
+            key = f"{where}.use" if value is not None and value.use else where
+            faults.append(Fault(key, use, known=plugins.names("question")))
+            continue
+        kinds, wrong = parameters(
+            "question", use, {k: v for k, v in own.items() if k not in common}
+        )
+        faults += [fault._replace(key=_below(fault.key, f"question.{use}", where),
+                   known=fault.known and (*QuestionTable.model_fields, *fault.known))
+                   for fault in wrong]  # fmt: skip
+        if value is not None and not wrong:
+            found[name] = Question(use, value, kinds)
+    return (None if faults else found), faults
+
+
+def _below(key: str, old: str, new: str) -> str:
+    return f"{new}{key.removeprefix(old)}"

@@ -1,0 +1,169 @@
+"""A study as it was read: what holds everywhere, its factors, and what holds in each cell."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from seethrough.experiment.study.cells import Part
+from seethrough.experiment.study.design import Design, Trial
+from seethrough.experiment.study.factors import Cell, Factor, Levels
+from seethrough.experiment.study.reading import Chosen, Limits, Question
+from seethrough.experiment.study.study_tables import (
+    AnalysisTable,
+    DesignTable,
+    DisplayTable,
+    PracticeTable,
+    SessionTable,
+    StudyTable,
+)
+from seethrough.tasks.catalog import TASKS, WORLDS
+from seethrough.tasks.kit.base import Setting
+
+
+@dataclass(frozen=True)
+class Study:
+    """A whole study, checked: what holds everywhere, its factors, and each cell's `parts`.
+
+    `design`, `practice`, `display`, `questions` and `study` are as the base of the study has them;
+    a level may say otherwise of its cells. `tables` are the base's technique, world and task.
+    """
+
+    study: StudyTable
+    factors: tuple[Factor, ...]
+    design: DesignTable
+    practice: PracticeTable
+    display: DisplayTable
+    session: SessionTable
+    questions: Mapping[str, Question] = field(hash=False)
+    analysis: AnalysisTable
+    texts: Mapping[str, str] = field(hash=False)
+    tables: Mapping[str, Chosen | Limits] = field(hash=False)
+    parts: Mapping[Cell, Part] = field(hash=False)
+    excluded: tuple[Levels, ...] = field(hash=False)
+
+    @cached_property
+    def plan(self) -> Design:
+        """The design: which session each slot has."""
+        table = self.study
+        plans = {cell: part.plan for cell, part in self.parts.items()}
+        return Design(
+            self.factors, plans, self.design.order, table.participants, table.seed,
+            self.excluded, self.design.redraw,
+        )  # fmt: skip
+
+    def part(self, levels: Levels) -> Part:
+        """What holds at these levels: a level of every factor."""
+        return self.parts[tuple(levels[factor.name] for factor in self.factors)]
+
+    def setting(self, trial: Trial) -> Setting:
+        """Where and how a trial's task is set."""
+        part = self.part(trial.levels)
+        own = part.limits.tables.get(trial.task) or TASKS[trial.task].Parameters()
+        return Setting(WORLDS[part.world], part.place, own)
+
+    def tasks(self) -> tuple[str, ...]:
+        """Every task that some cell asks for, in the order of the file."""
+        return tuple(dict.fromkeys(t for part in self.parts.values() for t in part.design.tasks))
+
+    def session_part(self, slot: int) -> Part:
+        """A part that has what holds in the whole session of a slot: its display and language."""
+        group, _ = self.plan.group_of(slot)
+        return self.parts[self.plan.groups[group].cells[0]]
+
+    def factor(self, name: str) -> Factor:
+        """The factor of this name. Raises KeyError."""
+        return next((f for f in self.factors if f.name == name), None) or _raise(name)
+
+    def parameters(self, kind: str, name: str) -> Any:
+        """What the base says of a world or technique: its parameters; None if nothing."""
+        chosen = self.tables[kind]
+        return chosen.tables.get(name) if isinstance(chosen, Chosen) else None
+
+    def places(self) -> tuple[Any, ...]:
+        """The parameters of every world that some cell uses, each once."""
+        return tuple(dict.fromkeys(part.place for part in self.parts.values()))
+
+    def with_places(self, change: Callable[[Any], Any]) -> Study:
+        """The study with other parameters of its worlds."""
+        known = {place: change(place) for place in self.places()}
+        parts = {
+            cell: dataclasses.replace(part, place=known[part.place])
+            for cell, part in self.parts.items()
+        }
+        world = self.tables["world"]
+        assert isinstance(world, Chosen)
+        made = {name: known.get(own, own) for name, own in world.tables.items()}
+        tables = {**self.tables, "world": dataclasses.replace(world, tables=made)}
+        return dataclasses.replace(self, parts=parts, tables=tables)
+
+    def resolved(self) -> dict[str, Any]:
+        """Every value, defaults included, as plain JSON types; `parse` reads it again."""
+        questions = [
+            {"name": name, **_question_table(asked)} for name, asked in self.questions.items()
+        ]
+        plain = ("study", "design", "practice", "display", "session", "analysis")
+        said = {name: json.loads(getattr(self, name).model_dump_json()) for name in plain}
+        if not self.design.tasks:
+            del said["design"]["tasks"]  # every cell's levels say them
+        return {
+            **said,
+            "factors": [_factor_table(factor) for factor in self.factors],
+            **{name: _chosen_table(self.tables[name]) for name in ("technique", "world")},
+            "task": _limits_table(self.tables["task"]),
+            "questions": questions,
+            "texts": dict(self.texts),
+        }
+
+    def digest(self) -> str:
+        """SHA-256 of the resolved study: two sessions with the same digest ran the same study."""
+        text = json.dumps(self.resolved(), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _raise(name: str) -> Any:
+    raise KeyError(name)
+
+
+def _question_table(asked: Question) -> dict[str, Any]:
+    said: dict[str, Any] = json.loads(asked.table.model_dump_json(exclude_defaults=True))
+    return {**said, "use": asked.use, **_plain(asked.parameters)}
+
+
+def _factor_table(factor: Factor) -> dict[str, Any]:
+    levels = [
+        {"name": lv.name, "part": lv.part, "label": lv.label, "number": lv.number}
+        for lv in factor.levels
+    ]
+    people = dict(zip(factor.names, factor.people, strict=True)) if factor.people else None
+    return {
+        "name": factor.name, "vary": factor.kind, "order": factor.order,
+        "baseline": factor.baseline, "people": people, "text": factor.text, "levels": levels,
+    }  # fmt: skip
+
+
+def _plain(value: Any) -> Any:
+    """Parameters as JSON has them; where a file lies differs between stations of one study."""
+    table = json.loads(json.dumps(dataclasses.asdict(value)))
+    for model in table.get("models", ()):
+        model.pop("folder", None)
+    return table
+
+
+def _chosen_table(chosen: Any) -> dict[str, Any]:
+    use = {"use": chosen.use} if chosen.use else {}
+    return use | {name: _plain(own) for name, own in chosen.tables.items()}
+
+
+def _limits_table(limits: Any) -> dict[str, Any]:
+    own = {
+        name: {**_plain(limits.tables[name])} | ({"limit": limits.limits[name]}
+        if name in limits.limits else {})
+        for name in limits.tables
+    }  # fmt: skip
+    return {"limit": limits.limit, **own}
