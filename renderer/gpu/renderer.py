@@ -55,7 +55,7 @@ class Renderer:
         self._samples = min(samples, context.max_samples)
         self._target = FrameTarget(context, _checked(size), self._samples)
         self._small: FrameTarget | None = None
-        self._shown: tuple[Scene, Camera, Parameters, Any] | None = None
+        self._shown: tuple[Scene, Camera, Parameters, object] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
