@@ -109,7 +109,8 @@ def _planned(
     study: Study, name: str, asked_: Question, about: Mapping[str, str], cells: tuple[Levels, ...]
 ) -> Planned:
     """The question as it is asked about these levels."""
-    use, parameters, factor, of = asked_.use, asked_.parameters, "", ()
+    use, parameters, factor = asked_.use, asked_.parameters, ""
+    of: tuple[str, ...] = ()
     compared = [f for f in study.factors if f.name == asked_.table.of]
     if use == "comparison" and not compared:
         compared = [f for f in study.factors if f.block][:1]
