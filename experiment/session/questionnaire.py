@@ -118,7 +118,10 @@ def _planned(
         factor, first = compared[0].name, compared[0].baseline
         of = (first, *(level for level in compared[0].names if level != first))
     if use == "comparison" and len(of) > 2:
-        use, parameters = "ranking", RankingParameters(text="comparison.ranking")
+        use, parameters = (
+            "ranking",
+            RankingParameters(text="comparison.ranking", title="comparison.any"),
+        )
     elif use == "comparison" and not (of and words.known(study, f"{factor}.{of[1]}")):
         use, parameters, name = "choice", _preference(of), "preference"
     return Planned(name, use, about, of, parameters, factor, cells)

@@ -266,7 +266,7 @@ class PredictionTable(Table):
     ]
     contrast: Annotated[str, key("the factor whose levels are compared with its baseline")] = ""
     expect: Annotated[
-        Literal["less", "more", "different", "not worse", "equal", "at least", "at most"],
+        Literal["less", "more", "different", "equivalent", "not worse", "at least"],
         key("how the levels differ from the baseline, or what the mean is"),
     ]
     level: Annotated[str, key("the level that is compared; empty: each")] = ""
