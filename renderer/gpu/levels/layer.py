@@ -20,6 +20,7 @@ from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactJob, ExactPainter
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
+from seethrough.renderer.gpu.rules.rule_program import RulePrograms
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
@@ -122,6 +123,13 @@ class Layer:
         self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
         self._passes += 1
         self.peeled = painter.found[::-1]
+
+    def needed(self, table, frame, camera, technique, size):  # type: ignore[no-untyped-def]
+        """Pictures that the technique's rule needs, by name (RulePrograms.needed)."""
+        camera = tight(camera, frame)
+        programs = RulePrograms(self._context, self._defines)
+        shot, matrix = Shot(table.scene, camera, size), clip_from_offset(camera, size)
+        return programs.needed(table, technique, shot, matrix)
 
     def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
         """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""
