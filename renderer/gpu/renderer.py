@@ -76,7 +76,7 @@ class Renderer:
         camera: Camera,
         technique: Parameters,
         target_framebuffer: moderngl.Framebuffer | None = None,
-        state: Any = None,
+        state: object = None,
     ) -> FrameStats:
         """Draw a frame; it is also put into `target_framebuffer` (a window's), if given.
 
@@ -119,7 +119,7 @@ class Renderer:
         camera: Camera,
         technique: Parameters,
         size: tuple[int, int] = (200, 150),
-        state: Any = None,
+        state: object = None,
     ) -> Visibility:
         """What can be seen of each object in the frame as `draw` serves it, found at `size`.
 
@@ -209,7 +209,9 @@ class Renderer:
             self._id_layer = Layer(self.context, self._store, ids=True)
         return self._small, self._id_layer
 
-    def _unchanged(self, scene: Scene, camera: Camera, technique: Parameters, state: Any) -> bool:
+    def _unchanged(
+        self, scene: Scene, camera: Camera, technique: Parameters, state: object
+    ) -> bool:
         if self._shown is None or "still" in self.without:
             return False
         old_scene, old, old_technique, old_state = self._shown

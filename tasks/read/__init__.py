@@ -1,0 +1,5 @@
+"""Which digit stands on the sign?"""
+
+from seethrough.tasks.read.read_task import Read
+
+TASK = Read()
