@@ -177,6 +177,13 @@ class Renderer:
             found.append((ids, alpha))
         return found
 
+    def needed(
+        self, scene: Scene, camera: Camera, technique: Parameters
+    ) -> dict[str, NDArray[np.float32]]:
+        """Name → (h, w) of the pictures that a technique's rule needs, of the frame's size."""
+        frame = plan(scene, camera, technique, self.size, self.without)
+        return self._layer.needed(self._table(scene), frame, camera, technique, self.size)
+
     def _layers(
         self,
         scene: Scene,

@@ -21,6 +21,7 @@ from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
+from seethrough.renderer.gpu.rules.rule_program import RulePrograms
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
@@ -131,6 +132,20 @@ class Layer:
         self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
         self._passes += 1
         self.peeled = painter.found[::-1]
+
+    def needed(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: Parameters,
+        size: tuple[int, int],
+    ) -> dict[str, NDArray[np.float32]]:
+        """Pictures that the technique's rule needs, by name (RulePrograms.needed)."""
+        camera = tight(camera, frame)
+        programs = RulePrograms(self._context, self._defines)
+        shot, matrix = Shot(table.scene, camera, size), clip_from_offset(camera, size)
+        return programs.needed(table, technique, shot, matrix)
 
     def exact_layers(
         self,

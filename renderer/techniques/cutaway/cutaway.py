@@ -85,7 +85,7 @@ def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
     """One for each target that reaches beyond the near plane and has a box of some volume."""
     scene, camera = shot.scene, shot.camera
     targets = np.nonzero(scene.targets)[0]
-    center, sides = scene.centers[targets] - camera.eye, scene.box_sides[targets]
+    center, sides = scene.centers[targets] - camera.eye, _thick(scene.box_sides[targets])
     across = np.cross(sides[:, [1, 2, 0]], sides[:, [2, 0, 1]])
     across *= np.sign((across * sides).sum(axis=2, keepdims=True))
     lengths = np.linalg.norm(across, axis=2, keepdims=True)
@@ -101,6 +101,20 @@ def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
     for t in np.nonzero((depth > camera.near) & flat)[0]:
         chosen = order[t][away[t, order[t]] < 0]
         found.append(Wedge(normals[t, chosen], away[t, chosen], float(depth[t])))
+    return found
+
+
+def _thick(sides: Floats) -> Floats:
+    """(k, 3, 3) the sides of boxes, where one has no length a little of it: what is flat has two
+    faces as well."""
+    lengths = np.linalg.norm(sides, axis=2)
+    flat = lengths.min(axis=1) <= 1e-9 * lengths.max(axis=1)
+    found = sides.copy()
+    for t in np.nonzero(flat)[0]:
+        k = int(np.argmin(lengths[t]))
+        across = np.cross(sides[t, (k + 1) % 3], sides[t, (k + 2) % 3])
+        if across.any():
+            found[t, k] = across / np.linalg.norm(across) * lengths[t].max() * 1e-6
     return found
 
 
