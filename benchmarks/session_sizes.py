@@ -9,9 +9,10 @@ import numpy as np
 import pandas as pd
 from numpy.random import Generator
 
-from seethrough.analysis.measures import log_time_by_task, over_tasks
+from seethrough.analysis.before import design_before
+from seethrough.analysis.measures import cells_of, over_tasks
 from seethrough.analysis.mixed import mixed_model
-from seethrough.analysis.stats.paired import one_sample
+from seethrough.analysis.stats.paired import Paired, one_sample
 from seethrough.analysis.stats.undefined import is_defined
 from seethrough.analysis.validity import learning_slopes, order_tests
 
@@ -19,6 +20,8 @@ ORDERS = ((0, 1, 3, 2), (1, 2, 0, 3), (2, 3, 1, 0), (3, 0, 2, 1))  # a Williams 
 CONDITIONS = tuple((t, s) for t in ("standard", "dynamic") for s in ("abstract", "walkthrough"))
 TASKS = {"abstract": ("count", "pattern"), "walkthrough": ("unique", "count_in_building")}
 ALPHA = 0.05
+DESIGN = design_before({})
+TIME = DESIGN.measures()[0]
 
 
 @cache
@@ -54,23 +57,36 @@ def timed(rng: Generator, table: pd.DataFrame) -> pd.DataFrame:
 def sessions(rng: Generator) -> Mapping[str, bool | None]:
     """Order tests, learning, and the log ratio over all tasks, of 16 people."""
     table = timed(rng, frame(16, 2, 3))
-    found = {t.name: bool(t.p < ALPHA) if is_defined(t.p) else None for t in order_tests(table)}
+    found = {t.name: bool(t.p < ALPHA) if is_defined(t.p) else None
+             for t in order_tests(table, DESIGN)}  # fmt: skip
     slope = one_sample(learning_slopes(table))
-    cells = over_tasks(log_time_by_task(table)).values
+    cells = over_tasks(cells_of(table, DESIGN, TIME, log=True)).values
     ratio = one_sample(cells[:, 0] - cells[:, 1])
     return {
         **found,
-        "learning": bool(slope.p < ALPHA),
-        "interval of learning": bool(slope.interval[0] <= 0 <= slope.interval[1]),
-        "F of log times": bool(ratio.p < ALPHA),
-        "interval of a log ratio": bool(ratio.interval[0] <= 0 <= ratio.interval[1]),
+        "learning": _found(slope),
+        "interval of learning": _held(slope, 0),
+        "F of log times": _found(ratio),
+        "interval of a log ratio": _held(ratio, 0),
     }
+
+
+def _found(test: Paired) -> bool:
+    assert is_defined(test.p)
+    return bool(test.p < ALPHA)
+
+
+def _held(test: Paired, value: float) -> bool:
+    low, high = test.interval
+    assert is_defined(low) and is_defined(high)
+    return bool(low <= value <= high)
 
 
 def mixed_sessions(rng: Generator) -> Mapping[str, bool | None]:
     """The mixed model, of 12 people with two tasks."""
-    fit = mixed_model(timed(rng, frame(12, 1, 2)))
+    fit = mixed_model(timed(rng, frame(12, 1, 2)), DESIGN)[0]
     if not is_defined(fit.p):
         return {"mixed model": None, "interval, mixed model": None}
     low, high = fit.interval
+    assert is_defined(low) and is_defined(high)
     return {"mixed model": fit.p < ALPHA, "interval, mixed model": bool(low <= 1 <= high)}

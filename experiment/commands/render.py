@@ -8,6 +8,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -148,7 +149,7 @@ def _study(args: argparse.Namespace, size: tuple[int, int], out: Path) -> int:
 
 def _technique(name: str, settings: list[str]) -> Parameters:
     """The technique with `settings` ("key=value", values as in TOML or bare words)."""
-    values: dict[str, object] = {}
+    values: dict[str, Any] = {}
     known = {field.name for field in fields(named(name))}
     for text in settings:
         key, equals, value = text.partition("=")
@@ -160,9 +161,10 @@ def _technique(name: str, settings: list[str]) -> Parameters:
         except tomllib.TOMLDecodeError:
             values[key] = value
         if isinstance(values[key], list):
-            values[key] = tuple(values[key])  # type: ignore[arg-type]
+            values[key] = tuple(values[key])
     try:
-        return replace(named(name), **values)
+        set_: Parameters = replace(named(name), **values)
+        return set_
     except (TypeError, ValueError) as error:
         raise InputError(f"--set: {error}") from error
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 import moderngl
 
@@ -19,6 +19,9 @@ from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.hud import Inset, Label
+
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.base import Parameters
 
 
 class Stage:
@@ -36,7 +39,7 @@ class Stage:
         self.done = 0.0  # part of the session
         self.pilot = False
         self.pointer: tuple[float, float] | None = None
-        self.last: Form | tuple[View, Any] | None = None  # what was drawn
+        self.last: Form | tuple[View, Parameters] | None = None  # what was drawn
         self._pictures: dict[int, _SmallPicture] = {}
 
     @property
@@ -50,7 +53,7 @@ class Stage:
         self.renderer.resize(size)
 
     def draw_view(
-        self, view: View, technique: Any, target: moderngl.Framebuffer, passed: float
+        self, view: View, technique: Parameters, target: moderngl.Framebuffer, passed: float
     ) -> None:
         """Draw a task's view with its HUD."""
         self.last = (view, technique)
@@ -134,7 +137,7 @@ class _SmallPicture:
         self._target = context.framebuffer([self._texture])
         interface.overlay.adopt_texture(name, self._texture)
 
-    def draw(self, view: View, technique: Any) -> int:
+    def draw(self, view: View, technique: Parameters) -> int:
         self._renderer.draw(view.scene, view.camera, technique, self._target, view.drawn)
         return self.name
 

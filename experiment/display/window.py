@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING
 
 import moderngl
 import pyglet
@@ -49,6 +49,9 @@ from seethrough.tasks.kit.events import (
     Wheel,
 )
 
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.base import Parameters
+
 FLIPS = 30  # that measure the refresh rate: half a second at 60 Hz
 _KEYS = {getattr(key, theirs): ours for theirs, ours in KEY_NAMES.items()}
 
@@ -74,7 +77,7 @@ class Window(Waits):
         self._pace = min(self.period, 1.0 / self.declared)  # a display that waits does the rest
         samples = samples_for(table.samples, self.context)
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, samples)
-        self.technique: Any = None  # what the view shown last was drawn with
+        self.technique: Parameters | None = None  # what the view shown last was drawn with
         self._when = self._window.event_time = EventTime(clock.now)
         self._window.compare_clocks()
         self._events: list[Event] = []
@@ -101,7 +104,7 @@ class Window(Waits):
         """Width / height of the view."""
         return self.stage.aspect
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: Parameters) -> float:
         """Draw a view and flip; the time of the flip."""
         self._window.set_exclusive_mouse(view.captured)
         self.technique = technique
@@ -276,7 +279,7 @@ class Window(Waits):
         """Whether the event came before anybody saw the page: meant for the one before it."""
         return self._form is not None and self._when.moment()[0] < self._form_shown
 
-    def _note(self, kind: Callable[..., Event], *what: Any) -> None:
+    def _note(self, kind: Callable[..., Event], *what: object) -> None:
         time, within = self._when.moment()
         self._events.append(kind(time, *what, within))
 

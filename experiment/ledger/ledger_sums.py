@@ -6,7 +6,6 @@ import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import astuple
-from typing import Any
 
 import sqlalchemy as sql
 from sqlalchemy.engine import Connection
@@ -54,12 +53,12 @@ def verify(at: Connection, study: str, where: str) -> None:
             raise InputError(f"{where}: {store.DAMAGED}: {what}")
 
 
-def _study(at: Connection, study: str) -> list[Any]:
+def _study(at: Connection, study: str) -> list[object]:
     row = at.execute(store.STUDIES.select().where(store.STUDIES.c.name == study)).one()
     return list(row)
 
 
-def _keep(at: Connection, study: str, participant: str, values: Sequence[Any]) -> None:
+def _keep(at: Connection, study: str, participant: str, values: Sequence[object]) -> None:
     new = {"study": study, "participant": participant, "sum": _sum(values)}
     changed = store.SUMS.update().where(_is(study, participant)).values(sum=new["sum"])
     if at.execute(changed).rowcount == 0:
@@ -70,5 +69,5 @@ def _is(study: str, participant: str) -> sql.ColumnElement[bool]:
     return (store.SUMS.c.study == study) & (store.SUMS.c.participant == participant)
 
 
-def _sum(values: Sequence[Any]) -> str:
+def _sum(values: Sequence[object]) -> str:
     return hashlib.sha256(json.dumps(list(values)).encode()).hexdigest()

@@ -190,10 +190,11 @@ def _events(path: Path) -> Iterator[ev.Event]:
             if kind == "tick":
                 yield ev.Tick(time)
             elif kind == "PointerMove":
-                place = (float(row[n]) for n in ("x", "y", "dx", "dy"))
-                yield ev.PointerMove(time, *place, row["dragging"] == "true")
+                x, y, dx, dy = (float(row[n]) for n in ("x", "y", "dx", "dy"))
+                yield ev.PointerMove(time, x, y, dx, dy, row["dragging"] == "true")
             elif kind == "Wheel":
-                yield ev.Wheel(time, *(float(row[n]) for n in ("x", "y", "dy")))
+                x, y, dy = (float(row[n]) for n in ("x", "y", "dy"))
+                yield ev.Wheel(time, x, y, dy)
             elif kind in KINDS:
                 yield KINDS[kind](time, float(row["x"]), float(row["y"]))
             elif kind in KEYS:

@@ -9,7 +9,7 @@ import dataclasses
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,13 +28,18 @@ from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.techniques import base, named
 from seethrough.tasks.kit import events
 
+if TYPE_CHECKING:
+    from moderngl import Context
+
+    from seethrough.renderer.techniques.base import Technique
+
 SIZE = (96, 72)
 STEP = 1.0  # of 255: what a picture may differ, half of it rounding to 8 bits
 LEFT_OUT = 0.02  # share of pixels too near an edge to be compared
 TAKES = ("pointer", "wheel", "second button")
 
 
-def check(technique: Any, context: Any, most: int = 1000) -> Iterator[Finding]:
+def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[Finding]:
     """Try everything on a technique. `most` combinations of options are compared with the
     reference; `context` is an OpenGL context."""
     tried = _Tried(technique, context)
@@ -60,7 +65,7 @@ def check(technique: Any, context: Any, most: int = 1000) -> Iterator[Finding]:
 class _Tried:
     """A technique, its parameters, and what draws it."""
 
-    def __init__(self, technique: Any, context: Any) -> None:
+    def __init__(self, technique: Technique, context: Context) -> None:
         self.technique, self.context = technique, context
         self.p = technique.Parameters()
         self.cases = scenes.cases()
@@ -95,13 +100,13 @@ class _Tried:
         said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
         return Finding("refuses", not taken, said)
 
-    def picture(self, case: Case, p: Any, state: Any = None) -> NDArray[np.uint8]:
+    def picture(self, case: Case, p: Any, state: object = None) -> NDArray[np.uint8]:
         """(h, w, 3) drawn by a fresh renderer."""
         renderer = Renderer(self.context, SIZE)
         renderer.draw(case.scene, case.camera, p, state=state)
         return renderer.read()
 
-    def played(self, case: Case, p: Any) -> tuple[Any, list[bool]]:
+    def played(self, case: Case, p: object) -> tuple[Any, list[bool]]:
         """The state after some events of every kind, and which ones were used up."""
         shot = base.Shot(case.scene, case.camera, SIZE)
         state, used = self.technique.begin(p), []
@@ -241,7 +246,8 @@ class _Tried:
     def cost(self) -> Finding:
         """Its time over the standard frame's, frames interleaved; nothing is asked of it."""
         renderer = Renderer(self.context, (400, 300), without=frozenset({"still"}))
-        case, spent = self.cases[0], ([], [])
+        case = self.cases[0]
+        spent: tuple[list[float], list[float]] = ([], [])
         for _ in range(12):
             for times, p in zip(spent, (named("standard"), self.p), strict=True):
                 start = time.perf_counter()
@@ -252,7 +258,7 @@ class _Tried:
         return Finding("cost", True, f"{own / standard:.2f} × the standard frame at 400 × 300")
 
 
-def some_events() -> list[Any]:
+def some_events() -> list[object]:
     """A pointer that moves, presses and drags, and keys."""
     moves = [events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)]
     return [

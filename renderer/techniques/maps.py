@@ -8,6 +8,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints
+
 
 def least_of_greatest(
     functions: Sequence[NDArray[np.float64]], size: tuple[int, int]
@@ -37,7 +39,7 @@ TILE = 32
 
 
 @njit(cache=True)
-def _least_of_greatest(rows, starts, width, height):  # type: ignore[no-untyped-def]
+def _least_of_greatest(rows: Floats, starts: Ints, width: int, height: int) -> Floats32:
     out = np.empty((height, width), np.float32)
     sets = len(starts) - 1
     low, high = np.empty(sets), np.empty(sets)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from seethrough.experiment.study.design import STUDY_SCENES, generator
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import rotation_y
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.base import View
 
@@ -34,7 +34,7 @@ class DepthTest:
     pairs: tuple[tuple[str, str], ...]
     nearer: tuple[int, ...]
 
-    def pages(self, technique: object) -> list[Page]:
+    def pages(self, technique: Parameters) -> list[Page]:
         """The picture once for each pair, large."""
         picture = Picture(lambda: self.view, technique, height=0.56)
         return [
@@ -55,7 +55,7 @@ class DepthTest:
 
 
 @lru_cache(maxsize=4)
-def depth_test(seed: int, world: str, place: Any) -> DepthTest:
+def depth_test(seed: int, world: str, place: object) -> DepthTest:
     """The test of a study, in a world of such parameters: the same for everybody. Raises ValueError
     if no scene shows six kinds.
 

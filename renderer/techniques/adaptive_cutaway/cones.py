@@ -9,11 +9,13 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints, Real
+
 SMALL, LARGE = 8, 64
 
 
 @njit(cache=True)
-def _deepest(depth, block):  # type: ignore[no-untyped-def]
+def _deepest(depth: Real, block: int) -> Floats:
     """(rows, columns) the greatest depth in each block."""
     height, width = depth.shape
     found = np.zeros(((height + block - 1) // block, (width + block - 1) // block), np.float64)
@@ -24,13 +26,13 @@ def _deepest(depth, block):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _gap(x, low, block):  # type: ignore[no-untyped-def]
+def _gap(x: float, low: float, block: int) -> float:
     """Distance along one axis from x to the middles of the pixels of a block."""
     return max(low + 0.5 - x, x - (low + block - 0.5), 0.0)
 
 
 @njit(cache=True)
-def _filled(large):  # type: ignore[no-untyped-def]
+def _filled(large: Floats) -> Ints:
     """(k, 2) the blocks that have a point."""
     found = np.empty((large.size, 2), np.int64)
     count = 0
@@ -43,7 +45,7 @@ def _filled(large):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _too_far(deepest, dy, dx, wide, best):  # type: ignore[no-untyped-def]
+def _too_far(deepest: float, dy: float, dx: float, wide: float, best: float) -> bool:
     """Whether the cone of a point as deep as that, so far away, is no deeper than the best."""
     if best <= 0:
         return False
@@ -52,7 +54,16 @@ def _too_far(deepest, dy, dx, wide, best):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _best(depth, small, large, filled, x, y, wide, best):  # type: ignore[no-untyped-def]
+def _best(
+    depth: Real,
+    small: Floats,
+    large: Floats,
+    filled: Ints,
+    x: float,
+    y: float,
+    wide: float,
+    best: float,
+) -> tuple[int, int, float]:
     """The deepest cone at a point of the picture, and its pixel; −1 if none is deeper than best."""
     row, column = -1, -1
     per = LARGE // SMALL
@@ -79,7 +90,7 @@ def _best(depth, small, large, filled, x, y, wide, best):  # type: ignore[no-unt
 
 
 @njit(cache=True)
-def of_pixels(depth, lens, tangent):  # type: ignore[no-untyped-def]
+def of_pixels(depth: Real, lens: float, tangent: float) -> Floats32:
     """(h, w) the exact hole of points of a (h, w) depth (0: no point)."""
     height, width = depth.shape
     small, large = _deepest(depth, SMALL), _deepest(depth, LARGE)
@@ -101,7 +112,7 @@ def of_pixels(depth, lens, tangent):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def of_blocks(depth, lens, tangent):  # type: ignore[no-untyped-def]
+def of_blocks(depth: Real, lens: float, tangent: float) -> Floats32:
     """(h, w) the hole of the points that are best in the middle of a pixel's block or one beside
     it."""
     height, width = depth.shape
