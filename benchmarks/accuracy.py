@@ -18,18 +18,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from seethrough.benchmarks import guarantee, mask_sweep, vtk_peeling
 from seethrough.benchmarks.breaking import BREAKING
 from seethrough.benchmarks.picture_errors import drawn, errors
+from seethrough.benchmarks.rows import Row as Figure
+from seethrough.benchmarks.rows import row
 from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import Figure, row, times
+from seethrough.benchmarks.speed import drawing, times
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.planner import plan
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import SEEN
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
@@ -61,12 +64,11 @@ def figures() -> Iterator[Figure]:
 
 
 def of_scene(
-    renderer: Renderer, name: str, scene: Any, cameras: list[Any], held: bool
+    renderer: Renderer, name: str, scene: Scene, cameras: list[Camera], held: bool
 ) -> Iterator[Figure]:
     """The rows of one scene; `held` says whether the default must keep to its limit there."""
     draws = {
-        way: (lambda c, t=t: renderer.draw(scene, c, t))  # type: ignore[misc]
-        for way, t in {"standard": Standard(), **WAYS}.items()
+        way: drawing(renderer, scene, t) for way, t in {"standard": Standard(), **WAYS}.items()
     }
     spent = times(draws, cameras, renderer.context)
     truths = [drawn(renderer, scene, c, EXACT) for c in cameras]
@@ -95,13 +97,17 @@ def _keys(layers: list[tuple[np.ndarray, np.ndarray]], objects: int, least: floa
     return np.unique(np.concatenate(found))
 
 
-def _shown(renderer: Renderer, scene: Any, camera: Any) -> np.ndarray:
+def _shown(renderer: Renderer, scene: Scene, camera: Camera) -> np.ndarray:
     """The keys of what the exact picture shows."""
     return _keys(renderer.shares(scene, camera, EXACT, LOOK), len(scene.objects), SEEN)
 
 
 def wrong_order(
-    renderer: Renderer, scene: Any, camera: Any, technique: Any, shown: np.ndarray
+    renderer: Renderer,
+    scene: Scene,
+    camera: Camera,
+    technique: DynamicTransparency,
+    shown: np.ndarray,
 ) -> float:
     """The share of pixels where an object that should show was never drawn (see above)."""
     if technique.per_pixel_only:

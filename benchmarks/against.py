@@ -21,10 +21,15 @@ from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from moderngl import Context
+
+    from seethrough.renderer.techniques.base import Parameters
 
 PACKAGES = ("seethrough", "renderer", "tasks", "experiment", "analysis", "benchmarks")
 BEFORE = {  # where modules lay when the rooms had no common name (decisions/0013)
@@ -63,7 +68,7 @@ class Tree:
             self._modules = {name: sys.modules.pop(name) for name in mine}
             sys.modules.update(others)
 
-    def draws(self, context: Any) -> dict[str, list[Callable[[], None]]]:
+    def draws(self, context: Context) -> dict[str, list[Callable[[], None]]]:
         """What draws each view of each scene and technique with this folder's code."""
         with self.active():
             made = self._get("benchmarks.scenes", "SCENES")
@@ -101,11 +106,15 @@ class Tree:
         module = f"seethrough.{module}" if self._package else BEFORE.get(module, module)
         return getattr(import_module(module), name)
 
-    def _draw(self, renderer: Any, scene: Any, camera: Any, technique: Any) -> Callable[[], None]:
+    def _draw(
+        self, renderer: Any, scene: Any, camera: Any, technique: Parameters
+    ) -> Callable[[], None]:
         return lambda: renderer.draw(scene, camera, technique)
 
 
-def spent(trees: tuple[Tree, Tree], draws: Any, context: Any, turns: int) -> NDArray[np.float64]:
+def spent(
+    trees: tuple[Tree, Tree], draws: Any, context: Context, turns: int
+) -> NDArray[np.float64]:
     """(2, turns, views) seconds of both trees; which one begins changes with the turn."""
     found = np.zeros((2, turns, len(draws[0])))
     for turn in range(-1, turns):  # the first turn compiles and uploads

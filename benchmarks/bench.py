@@ -6,8 +6,8 @@ import argparse
 import importlib
 import json
 from pathlib import Path
-from typing import Any
 
+from seethrough.benchmarks.rows import Row
 from seethrough.experiment.errors import InputError
 
 HELP = "measure accuracy against time"
@@ -15,6 +15,7 @@ HELP = "measure accuracy against time"
 # Each module has figures(), which gives {figure, scene, value, unit, must, aim, met} one by one.
 BENCHES = (
     "accuracy",
+    "design",
     "effects",
     "ordering",
     "ordering_accuracy",
@@ -22,6 +23,7 @@ BENCHES = (
     "simulate",
     "speed",
     "statistics",
+    "techniques",
 )
 
 
@@ -82,7 +84,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _only(text: str | None, module: Any) -> list[list[str]]:
+def _only(text: str | None, module: object) -> list[list[str]]:
     """The parts asked for, as arguments of `figures`."""
     if text is None:
         return []
@@ -92,7 +94,7 @@ def _only(text: str | None, module: Any) -> list[list[str]]:
     return [parts]
 
 
-def line(row: dict[str, Any]) -> str:
+def line(row: Row) -> str:
     """A row in words."""
     text = f"{row['figure']:40s} {row['scene']:26s} {row['value']:10.4g} {row['unit']}"
     if row["must"] is not None:

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.benchmarks.speed import times
+from seethrough.benchmarks.speed import drawing, times
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.clusters import polygons_of
@@ -66,10 +66,7 @@ def figures() -> Iterator[str]:
     small, large = (Renderer(context, s, without=frozenset({"still"})) for s in (SMALL, SIZE))
     for kind, (mesh, count) in KINDS.items():
         scene, cameras = cluster(mesh, count)
-        draws = {
-            way: (lambda c, s=scene, t=technique: large.draw(s, c, t))  # type: ignore[misc]
-            for way, technique in WAYS.items()
-        }
+        draws = {way: drawing(large, scene, technique) for way, technique in WAYS.items()}
         spent = times(draws, cameras, context)
         truths = [exact(scene, camera, WAYS["pixels"], SMALL) for camera in cameras]
         for way, technique in WAYS.items():

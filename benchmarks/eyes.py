@@ -14,11 +14,11 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.benchmarks.rows import Row
 from seethrough.experiment.display.driver import open_context
 from seethrough.experiment.pages.pages import Page, Paragraph
 from seethrough.experiment.people.participant import SimulatedParticipant
@@ -30,6 +30,7 @@ from seethrough.experiment.study.design import SIMULATED, Trial, generator, sess
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, Tick
 from seethrough.tasks.kit.skills.profile import AVERAGE
@@ -91,7 +92,7 @@ class OpenEyes(Pool):
         self.renderer, self.way = renderer, way
         self.picture = (round(way.height * ASPECT), way.height)
 
-    def look(self, view: View, technique: Any) -> Visibility:
+    def look(self, view: View, technique: Parameters) -> Visibility:
         """What is seen in the view, drawn anew."""
         scene = simplified(view.scene) if self.way.simple else view.scene
         return self.renderer.look(scene, view.camera, technique, self.picture)
@@ -114,7 +115,7 @@ def play(trials: Sequence[Trial], pool: Pool, way: Way, repeats: int) -> Eyes:
     return Eyes(way.name, seconds, tuple(played), tuple(events))
 
 
-def measure(eyes: Eyes, reference: Eyes) -> dict[str, Any]:
+def measure(eyes: Eyes, reference: Eyes) -> Row:
     """The row of a way to look: differences of the task measures, with their standard errors."""
     slower = np.log([t.time / r.time for t, r in zip(eyes.trials, reference.trials, strict=True)])
     counts = np.array([_count_errors(e) for e in (eyes, reference)])
@@ -166,7 +167,7 @@ def _se(differences: NDArray[np.float64]) -> float:
     return float(differences.std(ddof=1) / len(differences) ** 0.5)
 
 
-def run(repeats: int) -> list[dict[str, Any]]:
+def run(repeats: int) -> list[Row]:
     """Every way to look, the reference first."""
     study = load("published")
     trials = [s.trials[0] for s in session_for(1, study.plan)]
@@ -180,7 +181,7 @@ def run(repeats: int) -> list[dict[str, Any]]:
     return [measure(eyes, seen[0]) for eyes in seen]
 
 
-def told(row: dict[str, Any]) -> str:
+def told(row: Row) -> str:
     """A row as a line."""
     return (
         f"{row['scene']:42s}{row['value']:8.1f} ms a trial, {row['looks_a_second']:.1f} looks a "
@@ -190,7 +191,7 @@ def told(row: dict[str, Any]) -> str:
     )
 
 
-def draw(rows: Sequence[dict[str, Any]], path: Path) -> None:
+def draw(rows: Sequence[Row], path: Path) -> None:
     """Error against time, a mark for each way to look, with twice its standard error."""
     import matplotlib
 

@@ -9,10 +9,9 @@ paths, how many pixels jump from one frame to the next where the exact picture's
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import degrees, pi, radians
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,7 +112,10 @@ def figures(renderer: Renderer, ways: Ways, default: str) -> Iterator[Row]:
     renderer.resize(size)
 
 
-def least_kept(renderer: Renderer, make: Any, seeds: range, ways: Ways) -> dict[str, Worst]:
+Make = Callable[[int, float], tuple[Scene, Sequence[Camera]]]  # of a seed and an aspect
+
+
+def least_kept(renderer: Renderer, make: Make, seeds: range, ways: Ways) -> dict[str, Worst]:
     """What each way keeps of the target that loses most in the views of some worlds; `where` is a
     yaw in degrees."""
     found: dict[str, list[tuple[float, int, float]]] = {way: [] for way in ways}
@@ -129,7 +131,7 @@ def least_kept(renderer: Renderer, make: Any, seeds: range, ways: Ways) -> dict[
     }
 
 
-def most_jumping(renderer: Renderer, path: Any, seeds: range, ways: Ways) -> dict[str, Worst]:
+def most_jumping(renderer: Renderer, path: Make, seeds: range, ways: Ways) -> dict[str, Worst]:
     """Pixels of each way that jump where the exact picture's do not, in the worst frame of some
     paths; `where` is the frame."""
     found: dict[str, list[tuple[float, int, float]]] = {way: [] for way in ways}

@@ -12,16 +12,20 @@ The defaults of the technique (paper 004 prints only 128 × 128) are chosen by t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
 from seethrough.benchmarks.picture_errors import drawn, errors
+from seethrough.benchmarks.rows import Row as Figure
+from seethrough.benchmarks.rows import row
 from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import Figure, row, times
+from seethrough.benchmarks.speed import drawing, times
 from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 
@@ -51,17 +55,20 @@ def _variants() -> dict[str, DynamicTransparency]:
     }
 
 
-def _spent(renderer: Renderer, scene: Any, cameras: list[Any], ways: dict[str, Any]) -> dict:  # type: ignore[type-arg]
+def _spent(
+    renderer: Renderer, scene: Scene, cameras: list[Camera], ways: Mapping[str, Parameters]
+) -> dict[str, float]:
     """Times of each way, as multiples of the standard frame's."""
     draws = {
-        way: (lambda c, t=t: renderer.draw(scene, c, t))  # type: ignore[misc]
-        for way, t in {"standard": Standard(), **ways}.items()
+        way: drawing(renderer, scene, t) for way, t in {"standard": Standard(), **ways}.items()
     }
     found = times(draws, cameras, renderer.context)
     return {way: found[way] / found["standard"] for way in ways}
 
 
-def _resolutions(renderer: Renderer, name: str, scene: Any, cameras: list[Any]) -> Iterator[Figure]:
+def _resolutions(
+    renderer: Renderer, name: str, scene: Scene, cameras: list[Camera]
+) -> Iterator[Figure]:
     ways = {
         "outline": DEFAULT,
         **{f"ring {n} × {n}": replace(DEFAULT, mask="ring", ring_size=n) for n in CELLS},
@@ -78,8 +85,8 @@ def _resolutions(renderer: Renderer, name: str, scene: Any, cameras: list[Any]) 
 def _looks(
     renderer: Renderer,
     name: str,
-    scene: Any,
-    cameras: list[Any],
+    scene: Scene,
+    cameras: list[Camera],
     ways: dict[str, DynamicTransparency],
 ) -> Iterator[Figure]:
     spent = _spent(renderer, scene, cameras, ways)
@@ -102,7 +109,7 @@ def _looks(
         yield row("time / standard", where, spent[way], "×", None, None)
 
 
-def _covered(renderer: Renderer, scene: Any, camera: Any) -> np.ndarray:
+def _covered(renderer: Renderer, scene: Scene, camera: Camera) -> np.ndarray:
     """(n,) targets of which standard rendering shows less than half of what it could."""
     plain = renderer.look(scene, camera, Standard()).pixels
     alone = renderer.look(scene, camera, DEFAULT).pixels

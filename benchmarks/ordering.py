@@ -16,7 +16,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,7 @@ from seethrough.benchmarks.rows import Row, row
 from seethrough.renderer.models.translucent.scenes import TranslucentScene, scene
 from seethrough.renderer.polygons import boxes, bsp, feudal
 from seethrough.renderer.polygons.polygons import Polygons, polygons_from
+from seethrough.renderer.polygons.prepared import Prepared
 
 HELP = "depth orderings: splits, relations, times, memory and image error"
 SEEDS = 100  # of the BSP baseline: the mean of 20, as in paper 002, still moves by 3 %
@@ -113,7 +115,7 @@ def closed_volume(made: TranslucentScene) -> Iterator[Row]:
     tried = feudal.prepare(made.polygons, "static", closed=True, lookahead=LOOKAHEAD)
     dynamic = [feudal.prepare(made.polygons, "dynamic", True, rng=r) for r in rngs[SEEDS:]]
 
-    def mean(prepared: list, what: str) -> float:
+    def mean(prepared: Sequence[Prepared], what: str) -> float:
         return float(np.mean([getattr(p.stats, what) for p in prepared]))
 
     name = made.name
@@ -184,7 +186,7 @@ def large_soup() -> Iterator[Row]:
     prepared = bsp.prepare(polygons)
     build = fastest(lambda: bsp.prepare(polygons), 4)
     eyes = made.eyes(8, np.random.default_rng(np.random.SeedSequence(3, spawn_key=(8,))))
-    order = min(fastest(lambda e=e: prepared.order(eye=e), 4) for e in eyes)
+    order = min(fastest(partial(prepared.order, eye=e), 4) for e in eyes)
     yield row("BSP fragments for each triangle", made.name, prepared.stats.outputs / 1e5, "")
     yield row("BSP build", made.name, build, "s", 1.2, 0.8)
     yield row("BSP, one order", made.name, order * 1e3, "ms", 15, 5)
@@ -208,7 +210,7 @@ def dense() -> Iterator[Row]:
 
 def image_errors() -> Iterator[Row]:
     """Pixels more than 1/255 off the exact picture, in the worst of many random eyes."""
-    from seethrough.benchmarks.ordering_accuracy import Bench
+    from seethrough.benchmarks.painted_scene import PaintedScene as Bench
 
     for name in IMAGE_SCENES:
         made = scene(name)

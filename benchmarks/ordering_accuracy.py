@@ -13,23 +13,25 @@ import argparse
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from seethrough.benchmarks import ordering_exactness
 from seethrough.benchmarks.painted_scene import PaintedScene as Bench
 from seethrough.benchmarks.rows import Row, row
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.gpu.levels.approximations import (
     PeelingPainter,
     StochasticPainter,
     WeightedPainter,
 )
+from seethrough.renderer.gpu.levels.polygon_painter import Corners
 from seethrough.renderer.models.translucent.scenes import scene
 from seethrough.renderer.polygons import axis_tree, boxes, bsp, distance, feudal
-from seethrough.renderer.polygons.polygons import Floats
 from seethrough.renderer.polygons.prepared import Prepared
+from seethrough.renderer.scene.camera import Camera
 
 SCENES = ("panels100", "boxes", "leaves", "cow", "house", "soup1000")
 SIZE = (400, 300)
@@ -46,7 +48,7 @@ ORDERINGS: dict[str, Callable[..., Prepared]] = {
     "feudal static (002)": feudal.prepare,
     "feudal dynamic (002)": lambda p: feudal.prepare(p, "dynamic"),
 }
-Result = dict[str, Any]
+Result = Row
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +67,7 @@ def ways(bench: Bench) -> Iterator[Way]:
         start = time.perf_counter()
         prepared = prepare(bench.made.polygons)
         spent = 1e3 * (time.perf_counter() - start)
-        yield Way(name, lambda eye, p=prepared: bench.paint(p, eye), spent)  # type: ignore[misc]
+        yield Way(name, partial(bench.paint, prepared), spent)
     yield from _without_order(bench)
 
 
@@ -78,17 +80,20 @@ def _without_order(bench: Bench) -> Iterator[Way]:
         away = float(np.linalg.norm(eye - bench.made.center))
         return away - bench.made.radius, away + bench.made.radius
 
+    def _passes(paint: Callable[[Corners, Camera, int], None], n: int, eye: Floats) -> None:
+        paint(plain, camera(eye), n)
+
     yield Way(UNSORTED, lambda eye: painter.paint(plain, None, camera(eye)))
     yield Way("weighted blended", lambda eye: weighted.paint(plain, camera(eye), depths(eye)))
     for n in PASSES:
         yield Way(
             f"depth peeling, {n}",
-            lambda eye, n=n: peeling.paint(plain, camera(eye), n),  # type: ignore[misc]
+            partial(_passes, peeling.paint, n),
         )
     for n in DRAWS:
         yield Way(
             f"stochastic, {n}",
-            lambda eye, n=n: chance.paint(plain, camera(eye), n),  # type: ignore[misc]
+            partial(_passes, chance.paint, n),
         )
     yield Way("exact list", lambda eye: bench.exact.paint(plain, camera(eye)))
 
@@ -133,7 +138,7 @@ def measure_all(names: tuple[str, ...] = SCENES) -> list[Result]:
     return [result for name in names for result in measure(name)]
 
 
-def figures() -> Iterator[dict[str, Any]]:
+def figures() -> Iterator[Row]:
     """The tables as rows of `seethrough bench`."""
     yield from ordering_exactness.figures()
     for name in SCENES:
@@ -148,7 +153,7 @@ def rows(results: list[Result]) -> Iterator[Row]:
             yield row(f"{what}, {result['way']}", result["scene"], result[what], unit)
 
 
-def results_of(table: list[dict[str, Any]]) -> list[Result]:
+def results_of(table: list[Row]) -> list[Result]:
     """The results that rows were made of."""
     found: dict[tuple[str, str], Result] = {}
     for line in table:
@@ -159,14 +164,14 @@ def results_of(table: list[dict[str, Any]]) -> list[Result]:
     return list(found.values())
 
 
-def summary(table: list[dict[str, Any]]) -> str:
+def summary(table: list[Row]) -> str:
     """Which way to pick when, from the rows of `figures`."""
     from seethrough.benchmarks.ordering_advice import advice
 
     return advice(results_of(table))
 
 
-def chart(table: list[dict[str, Any]], path: Path) -> None:
+def chart(table: list[Row], path: Path) -> None:
     """The figure of error against time, from the rows of `figures`."""
     draw_figure(results_of(table), path)
 

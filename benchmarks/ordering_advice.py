@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
+
+from seethrough.benchmarks.rows import Row
 
 EXACT = 0.1  # per cent of the pixels that may be more than 1/255 off, as issue 3 has it
 NOTICEABLE = 0.05  # of 255: closer pictures count as equal
@@ -14,8 +15,8 @@ NOTICEABLE = 0.05  # of 255: closer pictures count as equal
 class Results:
     """Errors and times by way and scene; times of a frame as multiples of drawing unsorted."""
 
-    def __init__(self, results: Iterable[dict[str, Any]]) -> None:
-        self.by: dict[str, dict[str, dict[str, Any]]] = {}
+    def __init__(self, results: Iterable[Row]) -> None:
+        self.by: dict[str, dict[str, Row]] = {}
         for result in results:
             self.by.setdefault(result["way"], {})[result["scene"]] = result
 
@@ -64,7 +65,7 @@ def short(value: float) -> str:
     return f"{value:.0f}" if value >= 100 else f"{value:.2g}"
 
 
-def advice(results: list[dict[str, Any]]) -> str:
+def advice(results: list[Row]) -> str:
     """One paragraph. Raises KeyError if "unsorted" was not measured."""
     found = Results(results)
     parts = [_still(found), _moving(found), _rough(found), _without(found), _never(found)]

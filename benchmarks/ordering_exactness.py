@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from seethrough.benchmarks.painted_scene import PaintedScene
 from seethrough.benchmarks.rows import Row, row
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.translucent.scenes import SCENES, scene
 from seethrough.renderer.polygons.methods import prepare
-from seethrough.renderer.polygons.polygons import Floats, Polygons
+from seethrough.renderer.polygons.polygons import Polygons
 from seethrough.renderer.scene.camera import Camera
 
 METHODS = ("bsp", "feudal", "feudal_dynamic")

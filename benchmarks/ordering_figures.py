@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from seethrough.benchmarks.rows import Row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +34,7 @@ FAMILIES = {
 MARKS = "os^D"
 
 
-def error_against_time(results: list[dict[str, Any]], path: Path) -> None:
+def error_against_time(results: list[Row], path: Path) -> None:
     """One panel for each scene: time of a frame to the right, error upwards, down left is best."""
     from matplotlib.figure import Figure
 
@@ -57,7 +59,7 @@ def error_against_time(results: list[dict[str, Any]], path: Path) -> None:
     )
 
 
-def _panel(axes: Axes, results: list[dict[str, Any]]) -> None:
+def _panel(axes: Axes, results: list[Row]) -> None:
     for starts, (color, chained) in FAMILIES.items():
         members = [r for r in results if r["way"].startswith(starts)]
         times = [r["frame_ms"] for r in members]
@@ -67,8 +69,9 @@ def _panel(axes: Axes, results: list[dict[str, Any]]) -> None:
             label = f"{starts[0]}, {', '.join(numbers)}"
             axes.plot(times, errors, "-o", color=color, ms=4, lw=1, label=label)
             for number, x, y in zip(numbers, times, errors, strict=True):
-                at = {"xytext": (3, 3), "textcoords": "offset points", "fontsize": 6.5}
-                axes.annotate(number, (x, y), color=INK, **at)
+                axes.annotate(
+                    number, (x, y), (3, 3), textcoords="offset points", fontsize=6.5, color=INK
+                )
             continue
         for mark, r, x, y in zip(MARKS, members, times, errors, strict=False):
             axes.plot(x, y, mark, color=color, ms=6, mec=PAPER, mew=0.5, label=r["way"])

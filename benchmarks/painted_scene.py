@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.levels.polygon_painter import Corners, ExactPainter, PolygonPainter
 from seethrough.renderer.models.translucent.scenes import TranslucentScene
-from seethrough.renderer.polygons.polygons import Floats
 from seethrough.renderer.polygons.prepared import Drawable, Prepared, drawable
 from seethrough.renderer.scene.camera import Camera, look_at
 

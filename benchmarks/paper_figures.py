@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.benchmarks.painted_scene import PaintedScene, Picture
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.translucent.scenes import TranslucentScene, panels, scene
 from seethrough.renderer.polygons import boxes
-from seethrough.renderer.polygons.polygons import Floats
 
 SIZE = (480, 360)
 # Where the scenes are seen from: a direction, and a distance in radii.
@@ -108,8 +108,7 @@ def draw_rates(rates: dict[int, dict[str, float]], path: Path) -> None:
     for count, (mean, worst, best) in PUBLISHED.items():
         label = "published: mean, worst, best" if count == min(PUBLISHED) else None
         reach = [[mean - worst], [best - mean]]
-        style = {"fmt": "D", "color": "#d64f86", "capsize": 3, "label": label}
-        axes.errorbar([count], [mean], yerr=reach, **style)
+        axes.errorbar([count], [mean], yerr=reach, fmt="D", color="#d64f86", capsize=3, label=label)
     plain(axes)
     axes.set(yscale="log")
     axes.set_xlabel("parallel panels", color=INK)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
-from seethrough.benchmarks.speed import Figure, row
+from seethrough.benchmarks.rows import Row as Figure
+from seethrough.benchmarks.rows import row
 from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.base import Parameters
 
 
 def flip(truth: np.ndarray, picture: np.ndarray) -> float | None:
@@ -21,7 +24,7 @@ def flip(truth: np.ndarray, picture: np.ndarray) -> float | None:
     return float(flip_evaluator.evaluate(one, two, "LDR")[1])
 
 
-def drawn(renderer: Renderer, scene: Any, camera: Any, technique: Any) -> np.ndarray:
+def drawn(renderer: Renderer, scene: Scene, camera: Camera, technique: Parameters) -> np.ndarray:
     """(h, w, 3) the frame."""
     renderer.draw(scene, camera, technique)
     return renderer.read()
@@ -39,6 +42,6 @@ def errors(
     yield row("mean difference", where, float(apart.mean()), "/255", None, None)
     yield row("99.9th percentile", where, float(np.percentile(apart, 99.9)), "/255", None, None)
     yield row("largest difference", where, float(apart.max()), "/255", None, None)
-    values = [flip(a, b) for a, b in pairs]
-    if None not in values:
-        yield row("mean FLIP", where, float(np.mean(values)), "", None, None)  # type: ignore[arg-type]
+    values = [value for a, b in pairs if (value := flip(a, b)) is not None]
+    if len(values) == len(pairs):
+        yield row("mean FLIP", where, float(np.mean(values)), "", None, None)

@@ -22,18 +22,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
 
 import numba
 import numpy as np
 
-from seethrough.renderer.arrays import Whole
+from seethrough.renderer.arrays import Bytes, Floats, Whole
 from seethrough.renderer.polygons.bsp import PreparedBsp
 from seethrough.renderer.polygons.feudal import PreparedFeudal
 from seethrough.renderer.polygons.feudal_stretches import BLOCK, Stretches
 from seethrough.renderer.polygons.feudal_stretches import emit as emit_stretches
-from seethrough.renderer.polygons.polygons import Floats
-from seethrough.renderer.polygons.tree import EITHER, Tree
+from seethrough.renderer.polygons.tree import EITHER, Indices, Tree
 from seethrough.renderer.polygons.tree import emit as emit_tree
 
 VIEWS, TURNS = 500, 40
@@ -51,8 +49,10 @@ def as_polygons(prepared: PreparedBsp) -> Tree:
     return Tree(made.planes, made.children, items, sizes.astype(np.uint32), facing, made.depth)
 
 
-@numba.njit
-def _repeat(kernel, arguments, points, out):
+@numba.njit()
+def _repeat(
+    kernel: Callable[..., np.uint64], arguments: tuple[object, ...], points: Floats, out: Whole
+) -> int:
     """A kernel for every view; returns how many faces it listed in all."""
     total = 0
     for i in range(len(points)):
@@ -60,8 +60,17 @@ def _repeat(kernel, arguments, points, out):
     return total
 
 
-@numba.njit
-def _walk(planes, children, items, sizes, facing, depth, points, out):
+@numba.njit()
+def _walk(
+    planes: Floats,
+    children: Indices,
+    items: Indices,
+    sizes: Indices,
+    facing: Bytes,
+    depth: int,
+    points: Floats,
+    out: Whole,
+) -> int:
     """The BSP tree walked from back to front with a stack, faces culled where they are met."""
     u = np.uint64
     n = u(len(planes))
@@ -87,7 +96,7 @@ def _walk(planes, children, items, sizes, facing, depth, points, out):
                 out[length] = item
                 length += u((facing[item] == front[node]) | (facing[item] == np.uint8(EITHER)))
             node = u(children[node, u(1) - u(front[node])])
-        total += length
+        total += int(length)
     return total
 
 
@@ -103,9 +112,8 @@ def microseconds(
     for prepared in trees:
         lists = as_polygons(prepared)
         out = np.empty(int(prepared.tree.items[-1]) + 1, np.int32)
-        walked = (*lists.arguments, lists.depth, points, out)
         ways.setdefault("bsp", []).append(_call(emit_tree, lists.arguments, points, out))
-        ways.setdefault("walk", []).append(lambda a=walked: int(_walk(*a)))
+        ways.setdefault("walk", []).append(_walking(lists, points, out))
         ways.setdefault("bsp triangles", []).append(
             _call(emit_tree, prepared.tree.arguments, points, out)
         )
@@ -124,12 +132,16 @@ def microseconds(
     return {name: float(times.mean()) / len(points) * 1e6 for name, times in best.items()}
 
 
+def _walking(lists: Tree, points: Floats, out: Whole) -> Callable[[], int]:
+    return lambda: int(_walk(*lists.arguments, lists.depth, points, out))
+
+
 def _emitting(stretches: Stretches, points: Floats) -> Callable[[], int]:
     out = np.empty(stretches.room + BLOCK, np.int32)
     return _call(emit_stretches, stretches.arguments, points, out)
 
 
 def _call(
-    kernel: Callable[..., int], arguments: tuple[Any, ...], points: Floats, out: Whole
+    kernel: Callable[..., np.uint64], arguments: tuple[object, ...], points: Floats, out: Whole
 ) -> Callable[[], int]:
     return lambda: int(_repeat(kernel, arguments, points, out))

@@ -11,7 +11,7 @@ from numpy.random import Generator
 
 from seethrough.analysis.measures import log_time_by_task, over_tasks
 from seethrough.analysis.mixed import mixed_model
-from seethrough.analysis.stats.paired import one_sample
+from seethrough.analysis.stats.paired import Paired, one_sample
 from seethrough.analysis.stats.undefined import is_defined
 from seethrough.analysis.validity import learning_slopes, order_tests
 
@@ -60,11 +60,22 @@ def sessions(rng: Generator) -> Mapping[str, bool | None]:
     ratio = one_sample(cells[:, 0] - cells[:, 1])
     return {
         **found,
-        "learning": bool(slope.p < ALPHA),
-        "interval of learning": bool(slope.interval[0] <= 0 <= slope.interval[1]),
-        "F of log times": bool(ratio.p < ALPHA),
-        "interval of a log ratio": bool(ratio.interval[0] <= 0 <= ratio.interval[1]),
+        "learning": _found(slope),
+        "interval of learning": _held(slope, 0),
+        "F of log times": _found(ratio),
+        "interval of a log ratio": _held(ratio, 0),
     }
+
+
+def _found(test: Paired) -> bool:
+    assert is_defined(test.p)
+    return bool(test.p < ALPHA)
+
+
+def _held(test: Paired, value: float) -> bool:
+    low, high = test.interval
+    assert is_defined(low) and is_defined(high)
+    return bool(low <= value <= high)
 
 
 def mixed_sessions(rng: Generator) -> Mapping[str, bool | None]:
@@ -73,4 +84,5 @@ def mixed_sessions(rng: Generator) -> Mapping[str, bool | None]:
     if not is_defined(fit.p):
         return {"mixed model": None, "interval, mixed model": None}
     low, high = fit.interval
+    assert is_defined(low) and is_defined(high)
     return {"mixed model": fit.p < ALPHA, "interval, mixed model": bool(low <= 1 <= high)}

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from seethrough.benchmarks import eyes
 from seethrough.benchmarks.memory import Watch
@@ -54,7 +54,10 @@ def told(name: str, value: float, unit: str) -> Row:
     return row(name, STUDY, value, unit)
 
 
-def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+Made = TypeVar("Made")
+
+
+def timed(work: Callable[[], Made]) -> tuple[float, Made]:
     """Seconds that `work` took, and what it gave."""
     start = time.perf_counter()
     result = work()

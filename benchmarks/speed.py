@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 from moderngl import Context
@@ -26,6 +27,7 @@ from seethrough.renderer.models.simple import simplified
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 
@@ -35,8 +37,20 @@ MUST = {"abstract": 2.5, "walkthrough": 2.0, "jeep": 2.0}
 TECHNIQUE = DynamicTransparency()
 
 
+def drawing(renderer: Renderer, scene: Scene, technique: Parameters) -> Callable[[Camera], object]:
+    """What draws a scene with a technique, from a camera."""
+    return lambda camera: renderer.draw(scene, camera, technique)
+
+
+class Drawn(Protocol):
+    """What draws, and says when it has: a context of ours, or another library's."""
+
+    def finish(self) -> None:
+        """Wait until everything is drawn."""
+
+
 def times(
-    ways: Mapping[str, Callable[[Camera], object]], cameras: Sequence[Camera], context: Context
+    ways: Mapping[str, Callable[[Camera], object]], cameras: Sequence[Camera], context: Drawn
 ) -> dict[str, float]:
     """Seconds of each way over all cameras: the least of TURNS turns each."""
     best = {name: np.full(len(cameras), np.inf) for name in ways}
@@ -140,10 +154,7 @@ def _of_many_targets(context: Context) -> Iterator[Figure]:
     }
     renderer = Renderer(context, size, without=frozenset({"still"}))
     spent = times(
-        {
-            str(n): (lambda c, s=s: renderer.draw(s, c, TECHNIQUE))  # type: ignore[misc]
-            for n, s in with_targets.items()
-        },
+        {str(n): drawing(renderer, s, TECHNIQUE) for n, s in with_targets.items()},
         cameras,
         context,
     )
@@ -170,14 +181,20 @@ def _of_nothing(context: Context) -> Figure:
     renderer = Renderer(context, SIZES[0], without=frozenset({"still"}))
     spent = times(
         {
-            "standard": lambda c: renderer.draw(free, c, Standard()),
-            "dynamic": lambda c: renderer.draw(free, c, TECHNIQUE),
+            "standard": drawing(renderer, free, Standard()),
+            "dynamic": drawing(renderer, free, TECHNIQUE),
         },
         cameras,
         context,
     )
     value = spent["dynamic"] / spent["standard"]
     return row("no target occluded: dynamic / standard", "abstract 800×600", value, "×", 1.1, 1.02)
+
+
+def _looking(
+    renderer: Renderer, scene: Scene, technique: Parameters, size: tuple[int, int]
+) -> Callable[[Camera], object]:
+    return lambda camera: renderer.look(scene, camera, technique, size)
 
 
 def _of_looks(context: Context) -> Iterator[Figure]:
@@ -189,8 +206,8 @@ def _of_looks(context: Context) -> Iterator[Figure]:
         simple = simplified(scene)
         spent = times(
             {
-                "standard": lambda c, s=simple: renderer.look(s, c, Standard(), size),
-                "dynamic": lambda c, s=simple: renderer.look(s, c, TECHNIQUE, size),
+                "standard": _looking(renderer, simple, Standard(), size),
+                "dynamic": _looking(renderer, simple, TECHNIQUE, size),
             },
             cameras,
             context,
@@ -204,6 +221,7 @@ _MEMORY = """
 from seethrough.benchmarks.scenes import walkthrough
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 scene, cameras = walkthrough(4 / 3, 4)
 renderer = Renderer(standalone(), (800, 600))

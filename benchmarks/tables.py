@@ -71,8 +71,8 @@ def _pivot(scene: str, rows: list[Row]) -> str:
     for figures, found in tables:
         lines = [f"| {scene} | " + " | ".join(figures) + " |", "| --- " * (len(figures) + 1) + "|"]
         for way in found:
-            cells = [_cell(ways[way][f]) if f in ways[way] else "" for f in figures]
-            lines.append(f"| {way} | " + " | ".join(cells) + " |")
+            texts_of = [_cell(ways[way][f]) if f in ways[way] else "" for f in figures]
+            lines.append(f"| {way} | " + " | ".join(texts_of) + " |")
         texts.append("\n".join(lines))
     return "\n\n".join(texts)
 

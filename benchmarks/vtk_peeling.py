@@ -16,8 +16,10 @@ from typing import Any
 
 import numpy as np
 
+from seethrough.benchmarks.rows import Row as Figure
+from seethrough.benchmarks.rows import row
 from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import Figure, row, times
+from seethrough.benchmarks.speed import drawing, times
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
@@ -145,8 +147,8 @@ def figures(renderer: Renderer) -> Iterator[Figure]:
     for name, make in SCENES.items():
         scene, cameras = make(renderer.size[0] / renderer.size[1], VIEWS)
         ways = {
-            "standard": lambda c, s=scene: renderer.draw(s, c, Standard()),  # type: ignore[misc]
-            "exact": lambda c, s=scene: renderer.draw(s, c, EXACT),  # type: ignore[misc]
+            "standard": drawing(renderer, scene, Standard()),
+            "exact": drawing(renderer, scene, EXACT),
         }
         ours = times(ways, cameras, renderer.context)
         yield row(f"VTK, {PEELS} peels / VTK opaque", name, theirs[name], "×", None, None)

@@ -14,7 +14,6 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
 
 from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.window import _KEYS, Window
@@ -24,6 +23,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
 
@@ -40,10 +40,10 @@ class Hand:
         self.views: list[View] = []
         self.cpu = 0.0
         self._show = window.show
-        window.show = self.show  # type: ignore[method-assign]
+        window.show = self.show  # type: ignore[method-assign]  # it drives a window as it is
         window.on_frame = self.act
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: Parameters) -> float:
         """The window's own, keeping the views."""
         self.views.append(view)
         return self._show(view, technique)
@@ -88,7 +88,7 @@ def measured(transparency: str, seconds: float) -> dict[str, float]:
     }
 
 
-def _alone(window: Window, views: list[View], technique: Any) -> float:
+def _alone(window: Window, views: list[View], technique: Parameters) -> float:
     step = max(len(views) // AGAIN, 1)
     renderer, target = window.stage.renderer, window.context.screen
     start = time.process_time()

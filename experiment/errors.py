@@ -6,7 +6,6 @@ import json
 import math
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
-from typing import Any
 
 MOST = 40  # lines of faults: more come of one mistake more often than of forty
 
@@ -42,7 +41,7 @@ def short(text: str) -> str:
     return text if len(text) <= 60 else text[:57] + "…"
 
 
-def shown(value: Any) -> str:
+def shown(value: object) -> str:
     """A value as a TOML file has it, shortened."""
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)

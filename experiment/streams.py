@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import select
 import sys
+from typing import TextIO
 
 READER_GONE = 141  # as a shell reports a program that SIGPIPE ended: 128 + 13
 
@@ -34,9 +35,9 @@ def leave_quietly() -> None:
     os.close(nowhere)
 
 
-def _gone(stream: object) -> bool:
+def _gone(stream: TextIO) -> bool:
     try:
-        number = stream.fileno()  # type: ignore[attr-defined]
+        number = stream.fileno()
     except (OSError, ValueError, AttributeError):  # a test's, or none
         return False
     if hasattr(select, "poll"):
@@ -44,7 +45,7 @@ def _gone(stream: object) -> bool:
         asked.register(number, select.POLLOUT)
         return any(event & (select.POLLERR | select.POLLHUP) for _, event in asked.poll(0))
     try:
-        stream.flush()  # type: ignore[attr-defined]  # Windows: what could not be written still waits
+        stream.flush()  # Windows: what could not be written still waits
     except OSError:
         return True
     return False

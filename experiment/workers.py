@@ -12,7 +12,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
-from typing import Any, TypeVar
+from typing import TypeVar
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -26,7 +26,7 @@ def ordered_map(
     items: Sequence[Item],
     workers: int,
     prepare: Callable[..., None] | None = None,
-    arguments: tuple[Any, ...] = (),
+    arguments: tuple[object, ...] = (),
 ) -> Iterator[Result]:
     """`work(item)` for each item, in order; `prepare(*arguments)` runs once in each process.
 
@@ -38,7 +38,7 @@ def ordered_map(
             prepare(*arguments)
         yield from map(work, items)
         return
-    done: dict[int, Any] = {}
+    done: dict[int, Result | _Raised] = {}
     given = 0
     left = list(range(len(items)))
     deaths = 0
@@ -65,14 +65,14 @@ class _Raised:
     error: BaseException
 
 
-def _result(made: Any) -> Any:
+def _result(made: Result | _Raised) -> Result:
     if isinstance(made, _Raised):
         raise made.error
     return made
 
 
 def _executor(
-    workers: int, prepare: Callable[..., None] | None, arguments: tuple[Any, ...]
+    workers: int, prepare: Callable[..., None] | None, arguments: tuple[object, ...]
 ) -> ProcessPoolExecutor:
     # Spawned, not forked: a forked process would share this one's graphics context.
     return ProcessPoolExecutor(
@@ -80,7 +80,7 @@ def _executor(
     )
 
 
-def _begin(prepare: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:
+def _begin(prepare: Callable[..., None] | None, arguments: tuple[object, ...]) -> None:
     # The software rasteriser would take every core for itself, in each worker.
     os.environ.setdefault("LP_NUM_THREADS", "1")
     if prepare is not None:
@@ -93,7 +93,7 @@ def _run(
     items: Sequence[Item],
     left: Sequence[int],
     workers: int,
-) -> Iterator[tuple[int, Any]]:
+) -> Iterator[tuple[int, Result | _Raised]]:
     """(index, result) as they come; only a few items are handed out at a time."""
     waiting = iter(list(left))
     running: dict[Future[Result], int] = {}

@@ -75,11 +75,13 @@ def _words(plain: Any, said: Key, values: Mapping[str, Any] | None) -> str:
 
 def _limits(said: Key, values: Mapping[str, Any] | None) -> str:
     high = said.high
-    if isinstance(high, Of):
-        high = high.said if values is None else f"{high.said} ({high.value(values):g})"
     if said.low is None or high is None:
         return ""
-    return f" from {_number(said.low)} to {high if isinstance(high, str) else _number(high)}"
+    if isinstance(high, Of):
+        most = high.said if values is None else f"{high.said} ({high.value(values):g})"
+    else:
+        most = _number(high)
+    return f" from {_number(said.low)} to {most}"
 
 
 def _number(value: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import SupportsFloat
 
 from seethrough.analysis.stats.undefined import Undefined
 
@@ -56,7 +57,9 @@ def show(value: object, style: str) -> str:
         return "yes" if value else "no"
     if isinstance(value, Undefined) or style == "text" or isinstance(value, str):
         return str(value)
-    number = float(value)  # type: ignore[arg-type]
+    if not isinstance(value, SupportsFloat):
+        raise TypeError(f"{value!r}: expected a number or text")
+    number = float(value)
     if style == "int":
         return f"{number:.0f}".replace("-", MINUS)
     if style == "p":

@@ -80,7 +80,8 @@ def contrast_scores(y: Array, inside: Sequence[int]) -> tuple[Array, Array]:
     lengths: Array = np.ones(1)
     for factor, k in enumerate(levels):
         own = helmert(k) if factor in inside else (np.ones((k, 1)), np.array([float(k)]))
-        matrix, lengths = np.kron(matrix, own[0]), np.kron(lengths, own[1])
+        matrix = np.kron(matrix, own[0]).astype(float, copy=False)
+        lengths = np.kron(lengths, own[1]).astype(float, copy=False)
     return (flat - flat[:, :1]) @ matrix, lengths
 
 

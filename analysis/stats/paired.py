@@ -162,8 +162,8 @@ def ratio_within(first: Array, second: Array, theta: float, level: float = 0.90)
     """
     upper = one_sample(second - theta * first, _scale(second, theta * first))
     lower = one_sample(second - first / theta, _scale(second, first))
-    gone = next((r.t for r in (upper, lower) if isinstance(r.t, Undefined)), None)
-    if gone is not None:
+    if isinstance(upper.t, Undefined) or isinstance(lower.t, Undefined):
+        gone = next(r.t for r in (upper, lower) if isinstance(r.t, Undefined))
         return Equivalence(theta, gone, gone, gone, no_interval(gone.reason))
     p_low, p_high = t_upper(-upper.t, upper.n - 1), t_upper(lower.t, lower.n - 1)
     ends = ratio_of_means(first, second, level)[1]
@@ -187,4 +187,5 @@ def within_halfwidths(y: Array, level: float = 0.95) -> list[Number]:
     centred = y - y[:, :1]
     centred = centred - centred.mean(axis=1, keepdims=True)
     sd = np.std(centred, axis=0, ddof=1) * np.sqrt(k / (k - 1))
-    return (t_quantile((1 + level) / 2, n - 1) * sd / np.sqrt(n)).tolist()
+    widths: list[Number] = (t_quantile((1 + level) / 2, n - 1) * sd / np.sqrt(n)).tolist()
+    return widths

@@ -64,7 +64,8 @@ def ranks(y: Array) -> Array:
     level = levels(y, slack(y)[:, None])
     below = (level[:, None, :] < level[:, :, None]).sum(axis=-1)
     same = (level[:, None, :] == level[:, :, None]).sum(axis=-1)
-    return below + (same + 1) / 2
+    found: Array = below + (same + 1) / 2
+    return found
 
 
 def friedman(y: Array, rng: Generator) -> Friedman:
@@ -155,7 +156,7 @@ def _binomial(fewer: int, total: int) -> float:
     for i in range(fewer):
         term = term * (total - i) // (i + 1)
         ways += term
-    return ways / 2 ** (total - 1)
+    return ways / (1 << total - 1)
 
 
 def share_interval(hits: int, n: int, level: float = 0.95) -> Interval:

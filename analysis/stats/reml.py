@@ -40,7 +40,7 @@ class Term:
     @property
     def size(self) -> int:
         """Effects of one group."""
-        return self.columns.shape[1]
+        return int(self.columns.shape[1])
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,7 +33,8 @@ def slack(*parts: Array) -> Array:
     size = np.max(np.abs(values), axis=1, initial=0.0)
     if np.all(values == np.rint(values)) and np.all(size < _EXACT):
         return np.zeros(len(values))
-    return STEPS * EPS * size
+    moved: Array = STEPS * EPS * size
+    return moved
 
 
 def signs(values: Array, room: Array) -> NDArray[np.intp]:

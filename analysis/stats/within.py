@@ -31,7 +31,8 @@ class TermTest:
 def dummies(values: NDArray[np.generic]) -> Array:
     """One column per level but the first."""
     levels = np.unique(values)
-    return (values[:, None] == levels[None, 1:]).astype(np.float64)
+    columns: Array = (values[:, None] == levels[None, 1:]).astype(np.float64)
+    return columns
 
 
 def centre(values: Array, group: NDArray[np.intp]) -> Array:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import fields, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.pages.texts import Texts
@@ -21,6 +21,8 @@ from seethrough.experiment.study.own_model_files import models_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 
 if TYPE_CHECKING:
+    from moderngl import Context
+
     from seethrough.experiment.session.machine import FrameTimes
     from seethrough.experiment.study.certificate import Difficulty, Match
 
@@ -96,7 +98,7 @@ def _models(study: Study, said: Verdicts) -> None:
 
 
 def _contact_sheet(
-    study: Study, context: Any, arguments: argparse.Namespace, said: Verdicts
+    study: Study, context: Context, arguments: argparse.Namespace, said: Verdicts
 ) -> None:
     """The study's own models in a picture, where it has any."""
     if models_of(study):
@@ -166,7 +168,7 @@ def _conditions(study: Study, session: Sequence[TaskSet]) -> tuple[str, ...]:
     return tuple(blocks.values())
 
 
-def _measured(study: Study, context: Any) -> list[Difficulty]:
+def _measured(study: Study, context: Context) -> list[Difficulty]:
     """Every trial's difficulty, with progress."""
     from seethrough.experiment.session.progress import Progress
     from seethrough.experiment.study.certificate import Certifier, trials_of
@@ -181,7 +183,7 @@ def _measured(study: Study, context: Any) -> list[Difficulty]:
 
 
 def _difficulty(
-    study: Study, measured: list[Difficulty], context: Any, redraw: bool, said: Verdicts
+    study: Study, measured: list[Difficulty], context: Context, redraw: bool, said: Verdicts
 ) -> None:
     from seethrough.experiment.study.certificate import matches, worst
 
@@ -218,7 +220,7 @@ def _apart(match: Match, value: float) -> str:
     return f"{value:.3f}" if match.measure in SHARES else f"{100 * value:.0f} %"
 
 
-def _redraw(study: Study, measured: list[Difficulty], context: Any, said: Verdicts) -> None:
+def _redraw(study: Study, measured: list[Difficulty], context: Context, said: Verdicts) -> None:
     """Draw the worst scene again until all match; print the line for the config."""
     from seethrough.experiment.study.certificate import Certifier, matches, trials_of, worst
 
@@ -255,14 +257,14 @@ def _write(study: Study, measured: list[Difficulty], path: Path) -> None:
 
 
 def _machine(
-    study: Study, measured: list[Difficulty], context: Any, seconds: float, said: Verdicts
+    study: Study, measured: list[Difficulty], context: Context, seconds: float, said: Verdicts
 ) -> None:
     """Frame times where they are worst: the scenes with most to see through, of each world with
     each technique."""
     from seethrough.experiment.session.machine import crossings, frame_times, free_disk
     from seethrough.renderer.polygons.prepared import DENSE_CROSSINGS
 
-    drawn: dict[tuple[str, Any], list[Difficulty]] = {}
+    drawn: dict[tuple[str, object], list[Difficulty]] = {}
     for d in measured:
         part = study.part(d.trial.levels)
         if part.technique_name != "standard" or len(study.parts) == 1:

@@ -76,7 +76,7 @@ def draw(renderer: Renderer, plate: Plate, path: Path) -> None:
     from PIL import Image
 
     renderer.resize(plate.size)
-    renderer.draw(plate.scene, plate.camera, plate.technique)
+    renderer.draw(plate.scene, plate.camera, plate.technique, state=plate.state)
     picture = Image.fromarray(renderer.read())
     picture.thumbnail((WIDEST, WIDEST))
     picture.save(path, optimize=True)

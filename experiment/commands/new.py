@@ -12,7 +12,7 @@ from seethrough.experiment.errors import InputError
 
 HELP = "write a package with a plug-in of your own, to begin with"
 NAME = re.compile(r"[a-z][a-z0-9_]{0,40}")
-KINDS = ("technique", "task", "world", "question")
+KINDS = ("technique", "task", "world", "question", "study")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -20,6 +20,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("kind", choices=KINDS, help="what kind of thing")
     parser.add_argument("name", metavar="NAME", help="its name, as a study will say it")
     parser.add_argument("folder", metavar="DIR", type=Path, help="a folder that is made for it")
+    parser.add_argument(
+        "--yes", action="store_true", help="of a study: ask nothing, take what is proposed"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -29,6 +32,10 @@ def run(args: argparse.Namespace) -> int:
             f"new {args.kind}: NAME = {args.name}: expected small letters, digits and _, a letter "
             "first"
         )
+    if args.kind == "study":
+        from seethrough.experiment.study.new_study import new_study
+
+        return new_study(args.name, args.folder, args.yes)
     if args.name in registry.names(args.kind):
         raise InputError(f"new {args.kind}: NAME = {args.name}: there is one of this name already")
     templates = files("seethrough.experiment.suites").joinpath("templates")

@@ -5,10 +5,14 @@ from __future__ import annotations
 import argparse
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from seethrough.analysis.written import write_over
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import load
+
+if TYPE_CHECKING:
+    from seethrough.experiment.power.power import Effect
 
 MOST = 10_000
 LONG = 200
@@ -75,7 +79,7 @@ def _sizes(text: str) -> list[int]:
     return sorted({*range(low, high + 1, 1 if high - low <= LONG else 10), high})
 
 
-def _effects(source: str):  # type: ignore[no-untyped-def]
+def _effects(source: str) -> tuple[list[Effect], str]:
     from seethrough.experiment.power import power, power_ranks
 
     if source == "published":
@@ -91,7 +95,8 @@ def _effects(source: str):  # type: ignore[no-untyped-def]
     if not folder.is_dir():
         raise InputError(f"--effect = {source}: expected published or a data folder")
     effects = sampled(folder)
-    return effects, (
+    assert isinstance(effects[0], power.SampledEffect)  # times come first
+    return list(effects), (
         f"Participants are drawn with replacement from the {len(effects[0].values)} simulated ones "
         f"of {folder.name}; simulated participants are a tool for planning, never evidence."
     )

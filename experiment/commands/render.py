@@ -8,6 +8,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -66,7 +67,10 @@ SCENES: dict[str, Callable[[int, float], tuple[Scene, Camera]]] = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.add_argument("scene", choices=sorted(SCENES), help="what to draw")
+    parser.add_argument(
+        "scene", metavar="SCENE|STUDY",
+        help=f"what to draw: {', '.join(sorted(SCENES))}, or each cell of a study",
+    )  # fmt: skip
     parser.add_argument("--technique", choices=registry.names("technique"), default="dynamic")
     parser.add_argument("--out", required=True, type=Path, help="the picture, a .png file")
     parser.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
@@ -99,6 +103,8 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(f"--seed = {args.seed}: expected a number ≥ 0")
     if not 0 <= args.samples <= 16:
         raise InputError(f"--samples = {args.samples}: expected a number from 0 to 16")
+    if args.scene not in SCENES:
+        return _study(args, size, out)
     from PIL import Image
 
     from seethrough.renderer.gpu.device.context import standalone
@@ -124,9 +130,26 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
+def _study(args: argparse.Namespace, size: tuple[int, int], out: Path) -> int:
+    """A plate of each cell of a study, with the study's own techniques."""
+    from seethrough.experiment.display.driver import open_context
+    from seethrough.experiment.gallery.study_plates import first_trials, plates
+    from seethrough.experiment.study.config import load
+
+    if args.set or args.without:
+        raise InputError("--set and --without: expected with a scene; a study has its own")
+    study = load(args.scene)
+    try:
+        plates(study, open_context(), size, args.samples).save(out)
+    except ValueError as error:
+        raise InputError(f"{args.scene}: {error}") from None
+    print(f"{out}: {len(first_trials(study))} plates of {study.study.name}")
+    return 0
+
+
 def _technique(name: str, settings: list[str]) -> Parameters:
     """The technique with `settings` ("key=value", values as in TOML or bare words)."""
-    values: dict[str, object] = {}
+    values: dict[str, Any] = {}
     known = {field.name for field in fields(named(name))}
     for text in settings:
         key, equals, value = text.partition("=")
@@ -138,9 +161,10 @@ def _technique(name: str, settings: list[str]) -> Parameters:
         except tomllib.TOMLDecodeError:
             values[key] = value
         if isinstance(values[key], list):
-            values[key] = tuple(values[key])  # type: ignore[arg-type]
+            values[key] = tuple(values[key])
     try:
-        return replace(named(name), **values)
+        set_: Parameters = replace(named(name), **values)
+        return set_
     except (TypeError, ValueError) as error:
         raise InputError(f"--set: {error}") from error
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.errors import InputError
@@ -15,6 +16,11 @@ from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.skills.effects import EFFECTS, checked
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
+
+if TYPE_CHECKING:
+    from moderngl import Context
+
+    from seethrough.experiment.record.trial_record import TrialRecord
 
 MOST_WORKERS = 256
 POOL = 200  # scenes a task in data mode
@@ -95,8 +101,15 @@ def simulate(
             _one(study, slot, seed, out, context, progress, person, explain)
 
 
-def _one(  # type: ignore[no-untyped-def]
-    study: Study, slot: int, seed: int, out: Path, context, progress, person, explain: bool
+def _one(
+    study: Study,
+    slot: int,
+    seed: int,
+    out: Path,
+    context: Context,
+    progress: Progress,
+    person: SimulatedParticipant,
+    explain: bool,
 ) -> None:
     from seethrough.experiment.display.offscreen import OffscreenDisplay
     from seethrough.experiment.people.simulated_input import SimulatedInput
@@ -115,7 +128,7 @@ def _one(  # type: ignore[no-untyped-def]
         study.study.name, f"S{slot:02d}", "simulated", slot, described, design=design_entry(study)
     )
 
-    def ended(record) -> None:  # type: ignore[no-untyped-def]
+    def ended(record: TrialRecord) -> None:
         progress.step(f"S{slot:02d} {record.trial.task}")
         if explain:
             _explain(f"S{slot:02d} trial {record.trial.number} {record.trial.task}", person)

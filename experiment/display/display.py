@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.pages.pages import Answers, Page, Paragraph
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
+
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.base import Parameters
 
 MEANT = ("escape", "f1")  # keys that are for the session, whenever they were pressed
 LEAVE = Page("leave", "leave.title", (Paragraph("leave.text"),), ("leave.no", "leave.yes"))
@@ -35,7 +38,7 @@ class Display(Protocol):
     def aspect(self) -> float:
         """Width / height of the view."""
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: Parameters) -> float:
         """Draw and flip; the time of the flip."""
 
     def digest(self) -> str:

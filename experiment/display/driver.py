@@ -5,16 +5,19 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
+
+if TYPE_CHECKING:
+    from moderngl import Context
 
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software")  # rasterisers on the processor
 INSTEAD = "`seethrough simulate` plays a study, `seethrough render` draws"
 AUTOMATIC = 4  # samples where a graphics card draws
 
 
-def describe(context: Any) -> Mapping[str, str]:
+def describe(context: Context) -> Mapping[str, str]:
     """Vendor, renderer and version of a context's OpenGL."""
     info = context.info
     return {
@@ -24,7 +27,7 @@ def describe(context: Any) -> Mapping[str, str]:
     }
 
 
-def samples_for(wanted: str | int, context: Any) -> int:
+def samples_for(wanted: str | int, context: Context) -> int:
     """Samples a pixel: as the study says, or by what draws. 4 × costs a software rasteriser some
     20 ms a frame at 800 × 600, a graphics card next to nothing."""
     if isinstance(wanted, int):
@@ -32,13 +35,13 @@ def samples_for(wanted: str | int, context: Any) -> int:
     return 0 if on_the_processor(context) else AUTOMATIC
 
 
-def on_the_processor(context: Any) -> bool:
+def on_the_processor(context: Context) -> bool:
     """Whether a software rasteriser draws."""
     renderer = context.info["GL_RENDERER"].lower()
     return any(name in renderer for name in SOFTWARE)
 
 
-def open_context() -> Any:
+def open_context() -> Context:
     """A context without a window. Raises InputError, one line, where there is no OpenGL."""
     from seethrough.renderer.gpu.device.context import (
         standalone,
@@ -61,7 +64,7 @@ def no_window(error: Exception, instead: str = INSTEAD) -> InputError:
     )
 
 
-def window_context() -> Any:
+def window_context() -> Context:
     """The context of the window that was opened last. Raises InputError, one line, without one."""
     import moderngl
 

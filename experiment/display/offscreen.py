@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.display.clock import Clock
 from seethrough.experiment.display.driver import describe
@@ -11,11 +11,16 @@ from seethrough.experiment.display.looking import Looking
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
 
+if TYPE_CHECKING:
+    from moderngl import Context
+
+    from seethrough.renderer.techniques.base import Parameters
+
 
 class OffscreenDisplay:
     """Shows nothing to nobody; `look` tells what could be seen."""
 
-    def __init__(self, context: Any, size: tuple[int, int], clock: Clock) -> None:
+    def __init__(self, context: Context, size: tuple[int, int], clock: Clock) -> None:
         self.size = size
         self.clock = clock
         self.looking = Looking(context, size, simple=True)
@@ -27,7 +32,7 @@ class OffscreenDisplay:
         """Width / height of the view."""
         return self.size[0] / self.size[1]
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: Parameters) -> float:
         """Keep the view; the time now."""
         self._shown = view
         self.looking.technique = technique

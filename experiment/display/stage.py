@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 import moderngl
 
@@ -18,6 +19,9 @@ from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.hud import Inset, Label
+
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.base import Parameters
 
 
 class Stage:
@@ -35,7 +39,7 @@ class Stage:
         self.done = 0.0  # part of the session
         self.pilot = False
         self.pointer: tuple[float, float] | None = None
-        self.last: Form | tuple[View, Any] | None = None  # what was drawn
+        self.last: Form | tuple[View, Parameters] | None = None  # what was drawn
         self._pictures: dict[int, _SmallPicture] = {}
 
     @property
@@ -49,11 +53,11 @@ class Stage:
         self.renderer.resize(size)
 
     def draw_view(
-        self, view: View, technique: Any, target: moderngl.Framebuffer, passed: float
+        self, view: View, technique: Parameters, target: moderngl.Framebuffer, passed: float
     ) -> None:
         """Draw a task's view with its HUD."""
         self.last = (view, technique)
-        self.renderer.draw(view.scene, view.camera, technique, target)
+        self.renderer.draw(view.scene, view.camera, technique, target, view.drawn)
         self.interface.begin(self.size, passed)
         inset = partial(self._inset, scale=self.size[1])
         hud = HudDrawing(self.interface, self.texts, self.size[1], inset)
@@ -92,7 +96,7 @@ class Stage:
         elif self.last is not None:
             (view, technique), middle = self.last, (self.aspect / 2, 0.47)
             word = Label(said, middle, align="center")
-            self.draw_view(View(view.scene, view.camera, (word,)), technique, target, passed)
+            self.draw_view(replace(view, hud=(word,), captured=False), technique, target, passed)
             self.last = (view, technique)
 
     def _inset(self, number: int, inset: Inset, scale: float) -> int:
@@ -133,8 +137,8 @@ class _SmallPicture:
         self._target = context.framebuffer([self._texture])
         interface.overlay.adopt_texture(name, self._texture)
 
-    def draw(self, view: View, technique: Any) -> int:
-        self._renderer.draw(view.scene, view.camera, technique, self._target)
+    def draw(self, view: View, technique: Parameters) -> int:
+        self._renderer.draw(view.scene, view.camera, technique, self._target, view.drawn)
         return self.name
 
     def release(self, interface: Interface) -> None:

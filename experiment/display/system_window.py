@@ -26,20 +26,20 @@ ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
 ASKED, PROMPT = 5, 0.02  # how often the server is asked the time until it says so within so many s
 
 
-class SystemWindow(pyglet.window.Window):
+class SystemWindow(pyglet.window.Window):  # type: ignore[misc]  # pyglet picks it as it runs
     """Keeps the system's stamp of the event that is being dispatched, where the system has one."""
 
     event_time: EventTime | None = None
 
-    def dispatch_platform_event(self, event: Any) -> None:
+    def dispatch_platform_event(self, event: object) -> None:
         """X11 only: keys come this way."""
         self._stamped(super().dispatch_platform_event, event, "window")
 
-    def dispatch_platform_event_view(self, event: Any) -> None:
+    def dispatch_platform_event_view(self, event: object) -> None:
         """X11 only: the pointer's events come this way."""
         self._stamped(super().dispatch_platform_event_view, event, "view")
 
-    def _stamped(self, dispatch: Callable[[Any], None], event: Any, queue: str) -> None:
+    def _stamped(self, dispatch: Callable[[Any], None], event: object, queue: str) -> None:
         if self.event_time is None:
             return dispatch(event)
         self.event_time.stamp, self.event_time.queue = x11_stamp(event), queue
@@ -90,7 +90,7 @@ class SystemWindow(pyglet.window.Window):
 
 def open_window(table: DisplayTable, title: str) -> SystemWindow:
     """A window as the study wants it. Raises InputError where none can be opened."""
-    config = pyglet.gl.Config(
+    config = pyglet.gl.Config(  # type: ignore[abstract]  # its __new__ makes the platform's
         double_buffer=True, major_version=3, minor_version=3, forward_compatible=True
     )
     try:
@@ -109,7 +109,7 @@ def say_when_the_server_goes() -> None:
     """Xlib ends the program when its server does: with one line of ours instead of its own."""
     from pyglet.libs.x11 import xlib
 
-    def end(_: Any) -> int:
+    def end(_: object) -> int:
         line = "seethrough: display: the desktop went away; every completed trial is saved"
         print(line, file=sys.stderr, flush=True)
         os._exit(2)

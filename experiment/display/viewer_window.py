@@ -40,7 +40,6 @@ def show(scene: TranslucentScene, prepared: Prepared, method: str, size: tuple[i
     )
     state = ViewState()
 
-    @window.event
     def on_key_press(symbol: int, _modifiers: int) -> None:
         nonlocal state
         if symbol in KEYS:
@@ -48,21 +47,19 @@ def show(scene: TranslucentScene, prepared: Prepared, method: str, size: tuple[i
         elif symbol == key.ESCAPE:
             window.close()
 
-    @window.event
     def on_mouse_drag(_x: int, _y: int, dx: int, dy: int, buttons: int, _modifiers: int) -> None:
         nonlocal state
         if buttons & mouse.LEFT:
             state = state.dragged(-DRAG * dx, -DRAG * dy)
 
-    @window.event
     def on_mouse_scroll(_x: int, _y: int, _dx: float, dy: float) -> None:
         nonlocal state
         state = state.moved(0.9**dy)
 
-    @window.event
     def on_draw() -> None:
         viewer.draw(state)
         viewer.present(context.screen)
         label.draw()
 
+    window.set_handlers(on_key_press, on_mouse_drag, on_mouse_scroll, on_draw)
     pyglet.app.run()

@@ -10,16 +10,18 @@ import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from seethrough.experiment.display.display import Leave
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Answers, Page
 
+Made = TypeVar("Made")
+
 PATIENCE = 0.1  # s; between two trials, what is made sooner is not worth a word
 
 
-def meanwhile(work: Callable[[], Any], frame: Callable[[], None], patience: float) -> Any:
+def meanwhile(work: Callable[[], Made], frame: Callable[[], None], patience: float) -> Made:
     """What `work` gives; until then, but not before `patience` seconds, `frame` again and again.
 
     Without patience there is one frame at least. An exception of either is raised.
@@ -42,7 +44,7 @@ def meanwhile(work: Callable[[], Any], frame: Callable[[], None], patience: floa
 class Waits:
     """The part of a window that waits, or shows what somebody else does (display/window.py)."""
 
-    def waiting(self: Any, work: Callable[[], Any], said: str = "wait.scene") -> Any:
+    def waiting(self: Any, work: Callable[[], Made], said: str = "wait.scene") -> Made:
         """Do what takes time and no graphics, and say so. Raises Leave if the session is to end."""
         say = partial(self._say, said)
         return meanwhile(work, say, 0.0 if self.stage.on_page else PATIENCE)

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING
 
 import moderngl
 import pyglet
@@ -43,8 +43,14 @@ from seethrough.tasks.kit.events import (
     PointerMove,
     PointerPress,
     PointerRelease,
+    SecondPress,
+    SecondRelease,
     Tick,
+    Wheel,
 )
+
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.base import Parameters
 
 FLIPS = 30  # that measure the refresh rate: half a second at 60 Hz
 _KEYS = {getattr(key, theirs): ours for theirs, ours in KEY_NAMES.items()}
@@ -71,7 +77,7 @@ class Window(Waits):
         self._pace = min(self.period, 1.0 / self.declared)  # a display that waits does the rest
         samples = samples_for(table.samples, self.context)
         self.stage = Stage(self.context, self._window.get_framebuffer_size(), texts, samples)
-        self.technique: Any = None  # what the view shown last was drawn with
+        self.technique: Parameters | None = None  # what the view shown last was drawn with
         self._when = self._window.event_time = EventTime(clock.now)
         self._window.compare_clocks()
         self._events: list[Event] = []
@@ -98,7 +104,7 @@ class Window(Waits):
         """Width / height of the view."""
         return self.stage.aspect
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: Parameters) -> float:
         """Draw a view and flip; the time of the flip."""
         self._window.set_exclusive_mouse(view.captured)
         self.technique = technique
@@ -273,7 +279,7 @@ class Window(Waits):
         """Whether the event came before anybody saw the page: meant for the one before it."""
         return self._form is not None and self._when.moment()[0] < self._form_shown
 
-    def _note(self, kind: Callable[..., Event], *what: Any) -> None:
+    def _note(self, kind: Callable[..., Event], *what: object) -> None:
         time, within = self._when.moment()
         self._events.append(kind(time, *what, within))
 
@@ -303,10 +309,14 @@ class Window(Waits):
 
     def on_mouse_press(self, x: int, y: int, button: int, _: int) -> None:
         """A button went down."""
-        if button == mouse.LEFT and not self._blind():
+        if self._blind():
+            return
+        if button == mouse.LEFT:
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, True)
             self._note(PointerPress, *self._at(x, y))
+        elif button == mouse.RIGHT:
+            self._note(SecondPress, *self._at(x, y))
 
     def on_mouse_release(self, x: int, y: int, button: int, _: int) -> None:
         """A button went up."""
@@ -314,11 +324,14 @@ class Window(Waits):
             self._io_pointer(x, y)
             self.stage.interface.io.add_mouse_button_event(0, False)
             self._note(PointerRelease, *self._at(x, y))
+        elif button == mouse.RIGHT:
+            self._note(SecondRelease, *self._at(x, y))
 
     def on_mouse_scroll(self, x: int, y: int, _: float, dy: float) -> None:
-        """The wheel turned: pages scroll."""
+        """The wheel turned: pages scroll, and some techniques take it."""
         if not self._blind():
             self.stage.interface.io.add_mouse_wheel_event(0, dy)
+            self._note(Wheel, *self._at(x, y), dy)
 
     def on_key_press(self, symbol: int, _: int) -> bool:
         """A key went down. Handled: pyglet would close the window on Esc."""

@@ -12,7 +12,6 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.load.chain import read_rows
 from seethrough.analysis.load.whole import verified
@@ -101,7 +100,7 @@ def as_csv(columns: Sequence[str], rows: Sequence[Mapping[str, str]]) -> str:
     return "\n".join([csv_line(list(columns)), *lines]) + "\n"
 
 
-def as_json(value: Any) -> str:
+def as_json(value: object) -> str:
     """JSON for people."""
     return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
 

@@ -8,9 +8,10 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
+from seethrough.analysis.written import FILE
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.dataset import Dataset
-from seethrough.experiment.files.private import FILE, make_folder
+from seethrough.experiment.files.private import make_folder
 from seethrough.experiment.record.columns import Column, columns_in
 
 TYPES = {"text": "VARCHAR", "integer": "BIGINT", "number": "DOUBLE", "boolean": "BOOLEAN"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, Plate, Section
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
-from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.scene import Color, Object, Scene
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
@@ -30,8 +30,16 @@ def sections() -> Iterator[Section]:
     yield Section("Refused by name", "Before anything is drawn.", (), tuple(_refused()))
 
 
-def _at(mesh: geometry.Mesh, x: float, y: float, z: float, color, **kinds) -> Object:  # type: ignore[no-untyped-def]
-    return Object(mesh, transforms.translation(x, y, z), color, **kinds)
+def _at(
+    mesh: geometry.Mesh,
+    x: float,
+    y: float,
+    z: float,
+    color: Color,
+    target: bool = False,
+    group: int | None = None,
+) -> Object:
+    return Object(mesh, transforms.translation(x, y, z), color, target=target, group=group)
 
 
 def _plate(
@@ -178,11 +186,12 @@ def _refused() -> Iterator[tuple[str, str]]:
             Object(RING, matrix, kind="lamp")
         except ValueError as error:
             yield words, str(error)
-    for words, options in (
-        ("An opacity above 1", {"alpha_target": 1.5}),
-        ("A mask nobody knows", {"mask": "square"}),
-    ):
+    faults: tuple[tuple[str, Callable[[], object]], ...] = (
+        ("An opacity above 1", lambda: replace(DYNAMIC, alpha_target=1.5)),
+        ("A mask nobody knows", lambda: replace(DYNAMIC, mask="square")),
+    )
+    for words, make in faults:
         try:
-            replace(DYNAMIC, **options)  # type: ignore[arg-type]
+            make()
         except ValueError as error:
             yield words, str(error)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
@@ -15,7 +16,8 @@ SIZE, LARGE = (400, 300), (800, 600)
 
 @dataclass(frozen=True, eq=False)
 class Plate:
-    """One picture: its file name, what it shows in words, and how large it is drawn."""
+    """One picture: its file name, what it shows in words, how large it is drawn, and what events
+    have made of the technique's state (None: there were none)."""
 
     name: str
     caption: str
@@ -23,6 +25,7 @@ class Plate:
     camera: Camera
     technique: Parameters
     size: tuple[int, int] = SIZE
+    state: Any = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from seethrough.experiment.gallery import gallery_hard
+from seethrough.experiment.gallery import gallery_hard, gallery_techniques
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, LARGE, Plate, Section
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import GRANULARITIES, MASKS
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
+    GRANULARITIES,
+    MASKS,
+    DynamicTransparency,
+)
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
@@ -30,6 +34,7 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
         "Standard rendering beside dynamic transparency.",
         tuple(_scenes(aspect, seed)),
     )
+    yield from gallery_techniques.sections(stage(), aspect, seed)
     yield from _options()
     yield from gallery_hard.sections()
 
@@ -89,52 +94,78 @@ def _options() -> Iterator[Section]:
     """One section for each thing that the technique may vary, on the same stage."""
     scene, camera = stage()
 
-    def shown(name: str, caption: str, scene: Scene = scene, **options: object) -> Plate:
-        return Plate(name, caption, scene, camera, replace(DYNAMIC, **options))  # type: ignore[arg-type]
+    def shown(
+        name: str, caption: str, technique: DynamicTransparency = DYNAMIC, scene: Scene = scene
+    ) -> Plate:
+        return Plate(name, caption, scene, camera, technique)
 
     plain = Plate("stage-standard", "Standard rendering", scene, camera, Standard())
     yield Section(
         "Masks",
         "The part that has the target's opacity, and the gradient about it.",
-        (plain, *(shown(f"mask-{m}", f"Mask: {m}", mask=m, width=14) for m in MASKS)),
+        (
+            plain,
+            *(shown(f"mask-{m}", f"Mask: {m}", replace(DYNAMIC, mask=m, width=14)) for m in MASKS),
+        ),
     )
-    widths = (shown(f"width-{w}", f"A border of {w} pixels", width=w) for w in (0, 10, 30))
+    widths = (
+        shown(f"width-{w}", f"A border of {w} pixels", replace(DYNAMIC, width=w))
+        for w in (0, 10, 30)
+    )
     clear = (
-        shown(f"alpha-{a:g}", f"Occluders keep {100 * a:g} %", alpha_target=a) for a in (0.1, 0.3)
+        shown(f"alpha-{a:g}", f"Occluders keep {100 * a:g} %", replace(DYNAMIC, alpha_target=a))
+        for a in (0.1, 0.3)
     )
     yield Section("Width and opacity", "10 pixels and 30 % are the defaults.", (*widths, *clear))
     yield Section(
         "Granularity",
         "What turns transparent as a whole. The planks are three groups.",
-        tuple(shown(f"granularity-{g}", f"By {g}", granularity=g) for g in GRANULARITIES),
+        tuple(
+            shown(f"granularity-{g}", f"By {g}", replace(DYNAMIC, granularity=g))
+            for g in GRANULARITIES
+        ),
     )
-    light = {"mode": "active", "radius": 0.2, "softness": 0.08}
+    light = replace(DYNAMIC, mode="active", radius=0.2, softness=0.08)
     yield Section(
         "Modes",
         "Passive: every mask works. Active: masks work in a searchlight that follows the pointer.",
         (
             shown("mode-passive", "Passive"),
-            shown("mode-active", "Active, pointer at the horse", pointer=(0.62, 0.5), **light),
-            shown("mode-active-aside", "Active, pointer at the torus", pointer=(0.2, 0.4), **light),
-            shown("mode-active-none", "Active, the pointer is away: standard", **light),
+            shown(
+                "mode-active", "Active, pointer at the horse", replace(light, pointer=(0.62, 0.5))
+            ),
+            shown(
+                "mode-active-aside",
+                "Active, pointer at the torus",
+                replace(light, pointer=(0.2, 0.4)),
+            ),
+            shown("mode-active-none", "Active, the pointer is away: standard", light),
         ),
     )
     yield from _adding_up(scene, shown)
 
 
-def _adding_up(scene: Scene, shown) -> Iterator[Section]:  # type: ignore[no-untyped-def]
+def _adding_up(scene: Scene, shown: Callable[..., Plate]) -> Iterator[Section]:
     """Layers, models of transparency, and what never turns transparent."""
     yield Section(
         "Layers and how they add up",
         "The ball and the fence are two layers before the horse.",
         (
             *(
-                shown(f"layers-{m}", f"At most {m} layer{'s' * (m != 1)}", layers=m)
+                shown(
+                    f"layers-{m}", f"At most {m} layer{'s' * (m != 1)}", replace(DYNAMIC, layers=m)
+                )
                 for m in (0, 1, 2)
             ),
-            shown("model-additive", "Additive transparency", model="additive"),
-            shown("kept", "80 % of the light kept for sure", min_transmittance=0.8),
-            shown("combine-min", "Where masks line up, the least counts", combine="min"),
+            shown("model-additive", "Additive transparency", replace(DYNAMIC, model="additive")),
+            shown(
+                "kept", "80 % of the light kept for sure", replace(DYNAMIC, min_transmittance=0.8)
+            ),
+            shown(
+                "combine-min",
+                "Where masks line up, the least counts",
+                replace(DYNAMIC, combine="min"),
+            ),
         ),
     )
     hard = [replace(o, impenetrable=o.group == 1) for o in scene.objects]
@@ -142,12 +173,20 @@ def _adding_up(scene: Scene, shown) -> Iterator[Section]:  # type: ignore[no-unt
         "Impenetrable things and the order of objects",
         "What is impenetrable never turns transparent, or not until the viewer is near.",
         (
-            shown("impenetrable", "The middle of the fence is impenetrable", Scene(tuple(hard))),
-            shown("penetrable-near", "Only the ball is near enough", penetrable_within=8.3),
             shown(
-                "order-centers", "Order by the groups' centres, as in the paper", order="centers"
+                "impenetrable", "The middle of the fence is impenetrable", scene=Scene(tuple(hard))
+            ),
+            shown(
+                "penetrable-near",
+                "Only the ball is near enough",
+                replace(DYNAMIC, penetrable_within=8.3),
+            ),
+            shown(
+                "order-centers",
+                "Order by the groups' centres, as in the paper",
+                replace(DYNAMIC, order="centers"),
             ),
             shown("order-planes", "Order by planes between boxes (default)"),
-            shown("order-exact", "Every pixel sorted by itself", exact=True),
+            shown("order-exact", "Every pixel sorted by itself", replace(DYNAMIC, exact=True)),
         ),
     )

@@ -8,6 +8,7 @@ import os
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, check_participant, folder_of, taken
@@ -70,9 +71,9 @@ def reconcile(ledger: Ledger, data: Path, now: datetime) -> tuple[str, ...]:
     said = []
     for name, (slot, when) in withdrawn(data).items():
         if name not in entries:
-            entry = Entry(slot, name, VOID, when, when, "withdrawn")
-            ledger.add([entry])
-            entries[name] = entry
+            void = Entry(slot, name, VOID, when, when, "withdrawn")
+            ledger.add([void])
+            entries[name] = void
             said.append(f"{name}: withdrawn, not in the ledger: entered as void")
     for name in sorted(taken(data, SOURCE)):
         entry = entries.get(name)
@@ -119,7 +120,7 @@ def ends_complete(folder: Path) -> list[bool]:
     return [end.get("status") == "complete" for end in ends]
 
 
-def _read(path: Path) -> dict:  # type: ignore[type-arg]
+def _read(path: Path) -> dict[str, Any]:
     try:
         value = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError) as error:

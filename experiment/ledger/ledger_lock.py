@@ -135,13 +135,14 @@ class Locks:
 
     def _holder(self, at: Connection, participant: str) -> Holder | None:
         c = store.LOCKS.c
-        age = self._clock() - c.heard
-        query = sql.select(c.token, c.station, c.place, c.since, c.beats, age)
+        silent = self._clock() - c.heard
+        query = sql.select(c.token, c.station, c.place, c.since, c.beats, silent)
         row = at.execute(query.where(self._is(participant))).first()
         if row is None:
             return None
-        *who, heard = row
-        return Holder(*who, float(heard) if self._has_clock else None)
+        token, station, place, since, beats, heard = row
+        age = float(heard) if self._has_clock else None
+        return Holder(token, station, place, since, beats, age)
 
     def _insert(self, at: Connection, participant: str, me: Holder) -> None:
         values = {

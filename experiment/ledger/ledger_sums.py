@@ -59,7 +59,7 @@ def _study(at: Connection, study: str) -> list[Any]:
     return list(row)
 
 
-def _keep(at: Connection, study: str, participant: str, values: Sequence[Any]) -> None:
+def _keep(at: Connection, study: str, participant: str, values: Sequence[object]) -> None:
     new = {"study": study, "participant": participant, "sum": _sum(values)}
     changed = store.SUMS.update().where(_is(study, participant)).values(sum=new["sum"])
     if at.execute(changed).rowcount == 0:
@@ -70,5 +70,5 @@ def _is(study: str, participant: str) -> sql.ColumnElement[bool]:
     return (store.SUMS.c.study == study) & (store.SUMS.c.participant == participant)
 
 
-def _sum(values: Sequence[Any]) -> str:
+def _sum(values: Sequence[object]) -> str:
     return hashlib.sha256(json.dumps(list(values)).encode()).hexdigest()

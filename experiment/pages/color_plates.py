@@ -90,4 +90,5 @@ def _in_digit(places: NDArray[np.float64], digit: int) -> NDArray[np.bool_]:
     row = np.floor((places[:, 1] - 0.18) / 0.64 * 7).astype(int)
     on = (column >= 0) & (column < 5) & (row >= 0) & (row < 7)
     bits = np.array(DIGITS[digit])[np.clip(row, 0, 6)]
-    return on & (bits >> (4 - np.clip(column, 0, 4)) & 1 == 1)
+    dark: NDArray[np.bool_] = bits >> (4 - np.clip(column, 0, 4)) & 1 == 1
+    return on & dark

@@ -79,16 +79,7 @@ class Interface:
             )
             kind = np.uint16 if imgui.INDEX_SIZE == 2 else np.uint32
             indices = np.frombuffer(raw, kind).astype(np.uint32)
-            batches = [
-                Batch(
-                    command.tex_ref.get_tex_id(),
-                    command.idx_offset,
-                    command.elem_count,
-                    command.vtx_offset,
-                    tuple(command.clip_rect),
-                )
-                for command in commands.cmd_buffer
-            ]
+            batches = [_batch(command) for command in commands.cmd_buffer]
             self.overlay.draw(target, vertices, indices, batches)
 
     def _update(self, texture: imgui.ImTextureData) -> None:
@@ -145,3 +136,14 @@ def _style() -> None:
     }
     for which, value in colors.items():
         style.set_color_(which, imgui.ImVec4(*value))
+
+
+def _batch(command: imgui.ImDrawCmd) -> Batch:
+    left, top, right, bottom = command.clip_rect
+    return Batch(
+        command.tex_ref.get_tex_id(),
+        command.idx_offset,
+        command.elem_count,
+        command.vtx_offset,
+        (left, top, right, bottom),
+    )

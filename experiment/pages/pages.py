@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.pages.color_plates import Plate
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.hud import FloorPlan
@@ -147,7 +148,7 @@ class Picture:
     """
 
     look: Callable[[], View]
-    technique: object = Standard()
+    technique: Parameters = field(default_factory=Standard)
     height: float = 0.36
 
     @cached_property
@@ -229,4 +230,5 @@ def on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float6
     """(n, 2) places in half-heights of the picture from its middle."""
     seen = (points - camera.eye) @ camera.rotation
     with np.errstate(divide="ignore", invalid="ignore"):
-        return seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
+        places: NDArray[np.float64] = seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
+    return places

@@ -19,6 +19,7 @@ from scipy import special
 from seethrough.analysis.stats.anova import contrast_scores
 from seethrough.analysis.stats.distributions import t_quantile
 from seethrough.analysis.stats.ranks import share_interval
+from seethrough.analysis.stats.undefined import is_defined
 
 Array = NDArray[np.float64]
 ANALYSIS = 3  # first word of the streams (CONVENTIONS.md)
@@ -66,7 +67,8 @@ class NormalEffect:
     def dz(self) -> float:
         """Mean over s.d. of the difference."""
         a, b = self.sds
-        return (self.means[0] - self.means[1]) / (a * a + b * b - 2 * self.r * a * b) ** 0.5
+        spread: float = (a * a + b * b - 2 * self.r * a * b) ** 0.5
+        return (self.means[0] - self.means[1]) / spread
 
     def found(self, values: Array, alpha: float) -> NDArray[np.bool_]:
         """By the F test of the contrast."""
@@ -130,7 +132,8 @@ def rejections(values: Array, alpha: float) -> NDArray[np.bool_]:
     scores = contrast_scores(values.reshape(-1, 2), (0,))[0].reshape(count, n)
     variance = scores.var(axis=1, ddof=1)
     f = np.divide(n * scores.mean(axis=1) ** 2, variance, out=np.zeros(count), where=variance > 0)
-    return f > t_quantile(1 - alpha / 2, n - 1) ** 2
+    significant: NDArray[np.bool_] = f > t_quantile(1 - alpha / 2, n - 1) ** 2
+    return significant
 
 
 def power(effect: Effect, n: int, replications: int, alpha: float, rng: Generator) -> Power:
@@ -138,9 +141,9 @@ def power(effect: Effect, n: int, replications: int, alpha: float, rng: Generato
     if n < 2:
         raise ValueError(f"participants = {n}, expected at least 2")
     found = int(effect.found(effect.draw(rng, replications, n), alpha).sum())
-    interval = share_interval(found, replications)
-    assert isinstance(interval, tuple)
-    return Power(effect.name, n, found / replications, *interval, effect.exact(n, alpha))
+    low, high = share_interval(found, replications)
+    assert is_defined(low) and is_defined(high)  # of one replication or more they are
+    return Power(effect.name, n, found / replications, low, high, effect.exact(n, alpha))
 
 
 def curve(

@@ -31,23 +31,22 @@ def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect | Ran
     if tuple(measures.design(trials)["transparency"]) != LEVELS:
         raise InputError(f"--effect = {folder}: expected trials of both transparency levels")
     times = measures.time_by_task(trials)
-    effects: list[SampledEffect | RankEffect] = [
-        _effect("time, overall", measures.over_tasks(times))
-    ]
+    effects = [_effect("time, overall", measures.over_tasks(times))]
     effects += [_effect(f"time {task}", times, task) for task in times.factors["task"]]
     errors = measures.relative_error(trials)
     effects += [_effect(f"relative error {task}", errors, task) for task in errors.factors["task"]]
     if (trials["task"] == "unique").any():
         effects.append(_effect("distance unique", measures.distance(trials)))
+    ranked = []
     if "pattern" in times.factors["task"]:
         correct = measures.share_correct(trials)
-        effects.append(RankEffect(_effect("right answers pattern", correct, "pattern")))
+        ranked.append(_effect("right answers pattern", correct, "pattern"))
     asked = measures.rating(study.questionnaire)
     if len(asked.factors["transparency"]) == 2:
-        effects.append(RankEffect(_effect("rating, overall", asked)))
-    if any(len(e.people.values if isinstance(e, RankEffect) else e.values) < 2 for e in effects):
+        ranked.append(_effect("rating, overall", asked))
+    if any(len(effect.values) < 2 for effect in (*effects, *ranked)):
         raise InputError(f"--effect = {folder}: expected at least 2 complete participants")
-    return effects
+    return [*effects, *map(RankEffect, ranked)]
 
 
 def _effect(name: str, cells: Cells, task: str | None = None) -> SampledEffect:

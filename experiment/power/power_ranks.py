@@ -42,7 +42,8 @@ class RankEffect:
         table = significant(values.shape[1], alpha)
         first, second = values.reshape(-1, 2).T
         sign = difference_signs(first, second).reshape(values.shape[:2])
-        return table[(sign > 0).sum(axis=1), (sign < 0).sum(axis=1)]
+        found: NDArray[np.bool_] = table[(sign > 0).sum(axis=1), (sign < 0).sum(axis=1)]
+        return found
 
     def exact(self, n: int, alpha: float) -> float:
         """Power by the trinomial of wins, losses and ties."""

@@ -59,15 +59,31 @@ class Respondent(Protocol):
 
 
 class Question(Protocol):
-    """A kind of question, without state: parameters go in, pages and rows come out. `example` are
-    parameters that show it."""
+    """A kind of question, without state: parameters go in, pages and rows come out."""
 
-    name: str
-    version: str
-    source: str
-    Parameters: Any
-    example: Any
-    texts: Texts
+    @property
+    def name(self) -> str:
+        """As a study file says it."""
+
+    @property
+    def version(self) -> str:
+        """Changes with what it asks."""
+
+    @property
+    def source(self) -> str:
+        """Where it is from."""
+
+    @property
+    def Parameters(self) -> Any:
+        """The frozen dataclass of what a study may set."""
+
+    @property
+    def example(self) -> Any:
+        """Parameters that show it."""
+
+    @property
+    def texts(self) -> Texts:
+        """What it says to participants."""
 
     def count(self, p: Any) -> int:
         """How many pages it has."""

@@ -188,7 +188,9 @@ READY: Mapping[str, Ready] = {
 
 def question(name: str) -> Question:
     """The ready-made question or the kind of that name. Raises KeyError if there is none."""
-    found: Question = READY[name] if name in READY else registry.get("question", name)
+    if name in READY:
+        return READY[name]
+    found: Question = registry.get("question", name)
     return found
 
 

@@ -38,7 +38,7 @@ def start_of(sidecar: Mapping[str, Any], header: str) -> str:
     return link(plain, header)
 
 
-def seal_of(end: Mapping[str, Any]) -> str:
+def seal_of(end: Mapping[str, object]) -> str:
     """The end file's hash of itself, but for `seal`: nothing else holds how a session ended."""
     plain = {key: value for key, value in end.items() if key != "seal"}
     return link("", json.dumps(plain, sort_keys=True, ensure_ascii=False))

@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.files.private import FILE, refused, sync_folder, write, write_new
+from seethrough.analysis.written import FILE
+from seethrough.experiment.files.private import refused, sync_folder, write, write_new
 from seethrough.experiment.record.chain import link
 from seethrough.experiment.record.columns import Column
 from seethrough.tasks.kit.base import View
@@ -58,7 +59,7 @@ class Table:
         ask_again(guard, path.unlink)
         self._file: int | None = os.open(path, os.O_WRONLY | os.O_APPEND)
 
-    def append(self, *rows: Mapping[str, Any]) -> None:
+    def append(self, *rows: Mapping[str, object]) -> None:
         """Rows at once; columns that are not given stay empty. Unknown columns raise KeyError."""
         lines, value = [], self.chain
         for row in rows:
@@ -76,17 +77,18 @@ class Table:
         self.chain = value
 
     def _write(self, text: str) -> None:
-        assert self._file is not None
+        file = self._file
+        assert file is not None
         self._guard()
-        size = os.fstat(self._file).st_size
+        size = os.fstat(file).st_size
         try:
-            write(self._file, text.encode("utf-8", "replace"))
-            os.fsync(self._file)
+            write(file, text.encode("utf-8", "replace"))
+            os.fsync(file)
         except OSError as error:
             with suppress(OSError):  # the disk is gone altogether: nothing can be taken back
-                os.ftruncate(self._file, size)
+                os.ftruncate(file, size)
             raise refused(error, self.path) from None
-        ask_again(self._guard, lambda: os.ftruncate(self._file, size))
+        ask_again(self._guard, lambda: os.ftruncate(file, size))
 
     def close(self) -> None:
         """Closing twice does no harm."""
@@ -140,17 +142,18 @@ class Trace:
         self.path.unlink()
 
     def _write(self) -> None:
-        assert self._file is not None
+        file = self._file
+        assert file is not None
         self._guard()
-        size = os.fstat(self._file).st_size
+        size = os.fstat(file).st_size
         data = "".join(f"{line}\n" for line in self._kept).encode("utf-8", "replace")
         self._kept.clear()
         self._size = 0
         try:
-            write(self._file, data)
+            write(file, data)
         except OSError as error:
             raise refused(error, self.path) from None
-        ask_again(self._guard, lambda: os.ftruncate(self._file, size))
+        ask_again(self._guard, lambda: os.ftruncate(file, size))
         self._hash.update(data)
 
 
@@ -197,7 +200,7 @@ def header_of(columns: tuple[Column, ...]) -> str:
     return ",".join(c.name for c in columns)
 
 
-def cell(value: Any) -> str:
+def cell(value: object) -> str:
     """A value as its column's type is written (CONVENTIONS.md, tables)."""
     if value is None:
         return ""

@@ -249,7 +249,7 @@ def _check_before(folder: Path, data: Path) -> None:
         raise InputError(f"{data}: {line}; expected the earlier files as they were written")
 
 
-def _json(content: Mapping[str, Any]) -> str:
+def _json(content: Mapping[str, object]) -> str:
     return json.dumps(content, indent=2) + "\n"
 
 

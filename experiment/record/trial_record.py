@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 from seethrough.experiment.study.design import Trial
-from seethrough.tasks.kit.base import Outcome
+from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import FloorPlan
 
 
@@ -44,10 +45,10 @@ class Recorder(Protocol):
     def trial_begins(self, trial: Trial) -> None:
         """Open the traces of a trial."""
 
-    def event(self, event: Any) -> None:
+    def event(self, event: Event) -> None:
         """One input event of the running trial."""
 
-    def frame(self, time: float, view: Any, digest: str = "") -> None:
+    def frame(self, time: float, view: View, digest: str = "") -> None:
         """One frame shown in the running trial; the digest of its pixels now and then."""
 
     def trial_ends(self, record: TrialRecord) -> None:

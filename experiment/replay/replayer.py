@@ -20,6 +20,7 @@ from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, folder_of
+from seethrough.experiment.session.hand import Hand
 from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
@@ -28,7 +29,9 @@ from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
 
-KINDS = {c.__name__: c for c in (ev.PointerMove, ev.PointerPress, ev.PointerRelease)}
+KINDS = {
+    c.__name__: c for c in (ev.PointerPress, ev.PointerRelease, ev.SecondPress, ev.SecondRelease)
+}
 CAMERA = ("eye_x", "eye_y", "eye_z", "forward_x", "forward_y", "forward_z")
 KEYS = {c.__name__: c for c in (ev.KeyPress, ev.KeyRelease)}
 
@@ -146,16 +149,18 @@ def replay(recorded: Recorded) -> Iterator[Frame]:
     state = StudyScenes(recorded.study).begin(task, recorded.trial, aspect)
     *shown, last = _frames(recorded.camera)
     rest = iter(shown)
-    view = task.view(state)
+    hand = Hand(recorded.technique, aspect)
+    view = hand.shown(task.view(state))
     time, digest, camera = next(rest)
     yield Frame(time, view, digest, camera)
     for event in _events(recorded.events):
-        state = task.on_event(state, event)
+        if not hand.on_event(event, view):
+            state = task.on_event(state, event)
         if isinstance(event, ev.Tick) and task.outcome(state) is None:
             following = next(rest, None)
             if following is None:
                 break  # the trial ended at a limit: what came after its last frame was not shown
-            view = task.view(state)
+            view = hand.shown(task.view(state))
             yield Frame(following[0], view, *following[1:])
     time, digest, camera = last
     yield Frame(time, view, digest, camera, task.outcome(state))
@@ -185,8 +190,11 @@ def _events(path: Path) -> Iterator[ev.Event]:
             if kind == "tick":
                 yield ev.Tick(time)
             elif kind == "PointerMove":
-                place = (float(row[n]) for n in ("x", "y", "dx", "dy"))
-                yield ev.PointerMove(time, *place, row["dragging"] == "true")
+                x, y, dx, dy = (float(row[n]) for n in ("x", "y", "dx", "dy"))
+                yield ev.PointerMove(time, x, y, dx, dy, row["dragging"] == "true")
+            elif kind == "Wheel":
+                x, y, dy = (float(row[n]) for n in ("x", "y", "dy"))
+                yield ev.Wheel(time, x, y, dy)
             elif kind in KINDS:
                 yield KINDS[kind](time, float(row["x"]), float(row["y"]))
             elif kind in KEYS:

@@ -11,6 +11,7 @@ from seethrough.experiment.display.display import LEAVE, MEANT, Leave
 from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, TextField
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import viewpoint
+from seethrough.experiment.session.hand import Hand
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
@@ -24,7 +25,10 @@ from seethrough.tasks.kit.events import (
     KeyRelease,
     PointerMove,
     PointerRelease,
+    SecondPress,
+    SecondRelease,
     Tick,
+    Wheel,
 )
 from seethrough.tasks.kit.hud import Inset, practice_mark
 
@@ -33,7 +37,9 @@ MISSED = 1.5
 DIGEST_EVERY = 1.0  # s between the digests of frames that replay compares, closer at the start:
 DIGEST_SOONEST = 0.25  # so that a short trial has some too
 
-POINTER = "pointer"  # the left button, among the keys that are down
+POINTER, SECOND = "pointer", "second button"  # left and right, among the keys that are down
+
+BUTTONS = {POINTER: PointerRelease, SECOND: SecondRelease}
 
 MENU = Page(
     "menu",
@@ -134,12 +140,20 @@ def _interrupts(event: Event) -> TypeGuard[KeyPress]:
     return isinstance(event, KeyPress) and event.key in MEANT
 
 
+def _held(event: Event) -> str:
+    """What an event holds down or lets go: a key's name, or a button's."""
+    if isinstance(event, KeyPress | KeyRelease):
+        return event.key
+    return SECOND if isinstance(event, SecondPress | SecondRelease) else POINTER
+
+
 class Running:
     """A trial while it runs."""
 
     def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
         self._world, self._task = run.world, run.world.tasks[trial.task]
         self._technique = run.technique(trial)
+        self._hand = Hand(self._technique, run.world.display.aspect)
         self._trial, self._state, self._limit = trial, state, limit
         refresh = run.study.part(trial.levels).display.refresh
         self._watch = _Watch(run.world.period or 1.0 / refresh)
@@ -162,7 +176,7 @@ class Running:
 
     def _viewed(self) -> View:
         """What the task shows now; all through a practice trial, with a mark that says so."""
-        view = self._task.view(self._state)
+        view = self._hand.shown(self._task.view(self._state))
         return replace(view, hud=(*view.hud, *self._marks)) if self._marks else view
 
     def show(self) -> None:
@@ -188,18 +202,21 @@ class Running:
         """
         if _interrupts(event) or isinstance(event, Tick | FocusChange):
             return event
-        if isinstance(event, KeyRelease | PointerRelease):
-            key = event.key if isinstance(event, KeyRelease) else POINTER
+        if isinstance(event, Wheel | SecondPress | SecondRelease) and not self._hand.takes(event):
+            return None
+        if isinstance(event, KeyRelease | PointerRelease | SecondRelease):
+            key = _held(event)
             known = key in self._down
             self._down.discard(key)
             return event if known else None
         if event.time < self._since:
-            self._early += not isinstance(event, PointerMove)
+            self._early += not isinstance(event, PointerMove | Wheel)
             return None
         if isinstance(event, PointerMove):
             stale = event.dragging and POINTER not in self._down
             return replace(event, dragging=False) if stale else event
-        self._down.add(event.key if isinstance(event, KeyPress) else POINTER)
+        if not isinstance(event, Wheel):
+            self._down.add(_held(event))
         return event
 
     def take(self, event: Event) -> bool:
@@ -213,7 +230,8 @@ class Running:
             return False
         if not isinstance(event, Tick):
             self._within = event.within
-        state = self._task.on_event(self._state, event)
+        used = self._hand.on_event(event, self.view)
+        state = self._state if used else self._task.on_event(self._state, event)
         if state is not self._state:
             self._state, self._outcome = state, self._task.outcome(state)
         over = bool(self._limit) and event.time - self.first >= self._limit
@@ -254,8 +272,8 @@ class Running:
         self._counted = now
         self._watch.pause()
         up: list[Event] = [
-            PointerRelease(before, 0.0, 0.0, now - before)
-            if key == POINTER
+            BUTTONS[key](before, 0.0, 0.0, now - before)
+            if key in BUTTONS
             else KeyRelease(before, key, now - before)
             for key in sorted(self._down)
         ]

@@ -132,9 +132,9 @@ def _unfit(
             said = f"an array of some of {', '.join(known)}{where}"
             faults.setdefault(("", ""), Fault("design.tasks", MISSING, said))
         for number, task in enumerate(design.tasks):
-            key = _task_key(factors, cell, number)
             if world.use not in plugins.worlds_of(task):
                 here = [t for t in known if world.use in plugins.worlds_of(t)]
+                key = _task_key(factors, cell, number)
                 said = f"a task of the world {world.use}{where}: {', '.join(here) or 'none'}"
                 faults.setdefault((key, task), Fault(key, task, said))
     return list(faults.values())

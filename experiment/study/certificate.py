@@ -6,7 +6,7 @@ numbers say something about the scene and nothing about a participant.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -140,7 +140,7 @@ class Certifier:
 
 
 # What is matched between levels. The path is one of the building's: sets are crossed with levels.
-MEASURES = {
+MEASURES: Mapping[str, Callable[[Difficulty], float]] = {
     "visible": lambda d: d.visible,
     "hidden": lambda d: d.hidden / max(d.targets, 1),
     "targets": lambda d: float(d.targets),

@@ -97,7 +97,7 @@ class Design:
         """Who is assigned or measured what, with the places that are wanted of each."""
         return groups_of(self.factors, self.cells, self.people)
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """The factors' names."""
         return tuple(factor.name for factor in self.factors)
@@ -109,6 +109,44 @@ class Design:
     @cached_property
     def _branches(self) -> tuple[Branch, ...]:
         return tuple(branches(self.factors, group.cells, self.order) for group in self.groups)
+
+    @cached_property
+    def _codes(self) -> dict[tuple[Cell, str], int]:
+        """A number for each cell's levels of the factors that leave scenes alone, and of those that
+        change them: the first factor's count singly, so that at a new last factor's first level
+        every number is as it was."""
+        codes = {}
+        for scenes in (ALONE, CHANGED):
+            weights, weight = [], 1
+            for factor in self.factors:
+                meant = factor.scenes == scenes and (factor.kind == WITHIN or scenes == CHANGED)
+                weights.append(weight if meant else 0)
+                weight *= len(factor.levels) if meant else 1
+            places = [{name: k for k, name in enumerate(f.names)} for f in self.factors]
+            for cell in self.cells:
+                codes[cell, scenes] = sum(
+                    w * at[lv] for w, at, lv in zip(weights, places, cell, strict=True)
+                )
+        return codes
+
+    def code(self, cell: Cell, scenes: str) -> int:
+        """The cell's number among those that differ in factors of this kind: see CONVENTIONS.md."""
+        return self._codes[cell, scenes]
+
+    @cached_property
+    def _blocks(self) -> tuple[dict[Cell, list[Cell]], ...]:
+        block = [i for i, factor in enumerate(self.factors) if factor.block]
+        found: list[dict[Cell, list[Cell]]] = []
+        for group in self.groups:
+            cells: dict[Cell, list[Cell]] = {}
+            for cell in group.cells:
+                cells.setdefault(tuple(cell[i] for i in block), []).append(cell)
+            found.append(cells)
+        return tuple(found)
+
+    def cells_of(self, group: int, condition: Cell) -> list[Cell]:
+        """The cells that are mixed within a condition's block."""
+        return self._blocks[group][condition]
 
     def branch(self, group: int) -> Branch:
         """The tree of conditions of a group."""
@@ -179,7 +217,7 @@ class _Session:
         sets: list[TaskSet] = []
         played = 0
         for block, condition in enumerate(self.order(), start=1):
-            mixed = [c for c in self.group.cells if self._condition(c) == condition]
+            mixed = self.design.cells_of(self.which, condition)
             plan = self.design.plans[mixed[0]]
             for which in self._row(len(plan.tasks), (ORDERS, self.number, self.which, block)):
                 place = (block, len(sets) + 1, which)
@@ -192,9 +230,6 @@ class _Session:
         """The conditions in the slot's order."""
         seed, words = self.design.seed, (ORDERS, self.number, self.which, 0)
         return self.branch.order_of_slot(self.index, lambda more: generator(seed, (*words, *more)))
-
-    def _condition(self, cell: Cell) -> Cell:
-        return tuple(lv for f, lv in zip(self.design.factors, cell, strict=True) if f.block)
 
     def _row(self, k: int, words: tuple[int, ...]) -> tuple[int, ...]:
         """The order of k tasks in each condition.
@@ -244,11 +279,12 @@ class _Session:
         plan, levels = self.design.plans[cell], self.design.levels(cell)
         task = plan.tasks[which]
         word = TRAINING_TRIAL + round_ if training else round_
-        alone, changed = self._code(cell, ALONE), self._code(cell, CHANGED)
+        alone, changed = self.design.code(cell, ALONE), self.design.code(cell, CHANGED)
         if plan.shared:
             chosen = self._set(cell)
             stream: tuple[int, ...] = (STUDY_SCENES, chosen, changed, which, word)
-            where = "-".join(levels[f.name] for f in self._with(CHANGED)) or plan.world
+            changing = [f.name for f in self.design.factors if f.scenes == CHANGED]
+            where = "-".join(levels[name] for name in changing) or plan.world
             practice = "training-" if training else ""
             scene = f"{where}-{letters(chosen)}-{task}-{practice}{round_}"
         else:
@@ -263,31 +299,10 @@ class _Session:
     def _set(self, cell: Cell) -> int:
         """Which set of items goes with the cell: sets rotate over the cells of the person that
         differ only in factors that leave scenes alone."""
-        alike = [c for c in self.group.cells if self._only(c, CHANGED) == self._only(cell, CHANGED)]
-        cells = [self._only(c, ALONE) for c in alike]
+        code, changed = self.design.code, self.design.code(cell, CHANGED)
+        cells = [code(c, ALONE) for c in self.group.cells if code(c, CHANGED) == changed]
         turn = rotation(self.outer, self.passes, len(cells))
-        return (cells.index(self._only(cell, ALONE)) + turn) % len(cells)
-
-    def _only(self, cell: Cell, scenes: str) -> Cell:
-        """A cell's levels of the factors that leave scenes alone, or that change them."""
-        wanted = {f.name for f in self._with(scenes)}
-        return tuple(lv for n, lv in zip(self.design.names, cell, strict=True) if n in wanted)
-
-    def _with(self, scenes: str) -> list[Factor]:
-        return [
-            f for f in self.design.factors
-            if f.scenes == scenes and (f.kind == WITHIN or scenes == CHANGED)
-        ]  # fmt: skip
-
-    def _code(self, cell: Cell, scenes: str) -> int:
-        """A number for the cell's levels of these factors: the first factor's count singly, so that
-        at a new last factor's first level every number is as it was."""
-        code, weight = 0, 1
-        for factor, level in zip(self.design.factors, cell, strict=True):
-            if factor in self._with(scenes):
-                code += weight * factor.names.index(level)
-                weight *= len(factor.levels)
-        return code
+        return (cells.index(code(cell, ALONE)) + turn) % len(cells)
 
 
 def scene_names(number: int, design: Design) -> list[str]:

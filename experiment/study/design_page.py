@@ -23,7 +23,7 @@ th { font-weight: normal; color: #444; text-align: right; padding-right: .5rem; 
 thead th { text-align: center; padding: 0; }
 td { min-width: 2rem; height: 1.6rem; text-align: center; font-size: 13px; color: #111; }
 ul.legend { list-style: none; padding: 0; columns: 18rem; }
-ul.legend li { margin: .2rem 0; break-inside: avoid; }
+ul.legend li { padding: .2rem 0; break-inside: avoid; }
 ul.legend span { display: inline-block; min-width: 2rem; text-align: center; margin-right: .5rem; }
 @media print { td, ul.legend span { print-color-adjust: exact; } }
 """

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from seethrough.experiment.study.balance import cycle
+from seethrough.experiment.study.cells import every_combination
 from seethrough.experiment.study.design import TaskSet, session_for
 from seethrough.experiment.study.factors import CHANGED, WITHIN, Factor
 from seethrough.experiment.study.merge import leaves
@@ -39,9 +40,8 @@ def lines_of(study: Study, count: int) -> list[str]:
     plan = study.plan
     lines = [f"study      {study.study.name}: {count} people, seed {plan.seed}"]
     lines += [line for factor in study.factors for line in _factor(factor, study)]
-    total = len(plan.cells)
-    lines.append(f"cells      {total}" + (f", {len(study.excluded)} entries leave some out"
-                 if study.excluded else ""))  # fmt: skip
+    gone = every_combination(study.factors) - len(plan.cells)
+    lines.append(f"cells      {len(plan.cells)}" + (f", {gone} left out" if gone else ""))
     lines += _short(["/".join(cell) or "(one)" for cell in plan.cells])
     for which in range(len(plan.groups)):
         lines += _group(study, which)

@@ -10,6 +10,8 @@ Every row is a permutation of 0 … k − 1. What each square promises over all 
 
 from __future__ import annotations
 
+from functools import cache
+
 Rows = tuple[tuple[int, ...], ...]
 
 SQUARES = ("williams", "latin", "fixed", "random")
@@ -37,6 +39,7 @@ def latin_rows(k: int) -> Rows:
     return tuple(tuple((row + i) % k for i in range(k)) for row in range(k))
 
 
+@cache
 def square(kind: str, k: int) -> Rows:
     """The rows of a kind of order; one for `fixed`, and for `random`, whose rows are drawn."""
     if kind == "williams":

@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -68,13 +69,13 @@ def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> An
 
 def played(task: Task, setting: Setting, seed: int) -> Played:
     """A trial played by a simulated person who sees all that is in the view."""
-    states, events = [begun(task, setting, seed)], []
+    states, events = [begun(task, setting, seed)], list[Event]()
     person = SimulatedParticipant(np.random.default_rng(seed))
     person.begin_trial(task.name, 0.0)
     now, outcome = 0.0, None
     while outcome is None and len(events) < MOST_EVENTS:
         view = task.view(states[-1])
-        batch = person.events(view, lambda view=view: plain_look(view, ASPECT), now, task.name)
+        batch = person.events(view, partial(plain_look, view, ASPECT), now, task.name)
         for event in batch:
             events.append(event)
             states.append(task.on_event(states[-1], event))

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from seethrough.experiment.pages.form import Form
-from seethrough.experiment.pages.pages import Page
+from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons.person import Person
-from seethrough.experiment.questions.kit import Asking
+from seethrough.experiment.questions.kit import Asking, Row
 from seethrough.experiment.suites.played import no_clock
 from seethrough.experiment.suites.suite import (
     Rule,
@@ -46,7 +46,9 @@ def _askings() -> Iterator[Asking]:
     yield Asking("mine", {"view": "plain"}, of=LEVELS, study=_Study())
 
 
-def _answered(question: Any, asking: Asking, seed: int) -> Iterator[tuple[int, Page, Any, list]]:
+def _answered(
+    question: Any, asking: Asking, seed: int
+) -> Iterator[tuple[int, Page, Answers, list[Row]]]:
     """(number, page, answers, rows) of each page, by a simulated person."""
     opinions = Opinions(Person(np.random.default_rng(seed), AVERAGE))
     for number in range(question.count(question.example)):

@@ -58,7 +58,8 @@ def describes_itself(plugin: Any, words: tuple[str, ...]) -> Iterator[str]:
 
 def parameters_declared(cls: Any) -> Iterator[str]:
     """Problems with a class of parameters: frozen, each declared, and the wrong ones refused."""
-    if not (dataclasses.is_dataclass(cls) and cls.__dataclass_params__.frozen):
+    made = getattr(cls, "__dataclass_params__", None)
+    if made is None or not made.frozen:
         yield f"Parameters = {cls!r}: expected a frozen dataclass"
         return
     keys, hints = declared(cls), get_type_hints(cls)

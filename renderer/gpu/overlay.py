@@ -9,6 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device import state
 from seethrough.renderer.gpu.device.reused import spoil
 
 _VERTEX = """
@@ -36,6 +37,14 @@ void main() { out_color = color * texture(u_texture, uv); }
 """
 
 STRIDE = 20  # bytes a vertex: position 2 × f4, uv 2 × f4, color 4 × u1
+
+# Straight alpha in, the alpha of what is there added up.
+OVER = (
+    moderngl.SRC_ALPHA,
+    moderngl.ONE_MINUS_SRC_ALPHA,
+    moderngl.ONE,
+    moderngl.ONE_MINUS_SRC_ALPHA,
+)
 
 
 @dataclass(frozen=True)
@@ -94,12 +103,7 @@ class Overlay:
         target.viewport = (0, 0, width, height)
         context.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         context.enable(moderngl.BLEND)
-        context.blend_func = (
-            moderngl.SRC_ALPHA,
-            moderngl.ONE_MINUS_SRC_ALPHA,
-            moderngl.ONE,
-            moderngl.ONE_MINUS_SRC_ALPHA,
-        )
+        state.blend(context, OVER)
         self._program["u_size"] = (width, height)
         points = np.frombuffer(vertices, np.uint8).reshape(-1, STRIDE)
         for batch in batches:
@@ -107,11 +111,11 @@ class Overlay:
             left, top = max(left, 0), max(top, 0)
             if right <= left or bottom <= top or batch.count == 0:
                 continue
-            target.scissor = (left, height - bottom, right - left, bottom - top)
+            state.within(target, (left, height - bottom, right - left, bottom - top))
             self._textures[batch.texture].use(0)
             chosen = indices[batch.first : batch.first + batch.count] + batch.base_vertex
             self._draw_points(points[chosen].tobytes(), batch.count)
-        target.scissor = None
+        state.within(target, None)
 
     def _draw_points(self, data: bytes, count: int) -> None:
         # Expanded to plain triangles: a HUD is a few thousand vertices, one buffer is simplest.

@@ -76,7 +76,7 @@ class Renderer:
         camera: Camera,
         technique: Parameters,
         target_framebuffer: moderngl.Framebuffer | None = None,
-        state: Any = None,
+        state: object = None,
     ) -> FrameStats:
         """Draw a frame; it is also put into `target_framebuffer` (a window's), if given.
 
@@ -92,8 +92,9 @@ class Renderer:
             without = self.without | {"held"} if self._samples else self.without
             scale = self.size[1] / self.window if self.window else 1.0
             shown = _shown(scene, camera, technique, state, self.size)
-            self.plan = plan(shown, camera, technique, self.size, without, scale, state=state)
-            args = (self._table(shown), self.plan, camera, technique, self._target)
+            drawn = technique.technique.drawn(technique, state)
+            self.plan = plan(shown, camera, drawn, self.size, without, scale, state=state)
+            args = (self._table(shown), self.plan, camera, drawn, self._target)
             stats = self._layer.draw(*args, scale, state=state)
             self._target.resolve()
             self._shown = (scene, camera, technique, state)
@@ -118,7 +119,7 @@ class Renderer:
         camera: Camera,
         technique: Parameters,
         size: tuple[int, int] = (200, 150),
-        state: Any = None,
+        state: object = None,
     ) -> Visibility:
         """What can be seen of each object in the frame as `draw` serves it, found at `size`.
 
@@ -128,6 +129,7 @@ class Renderer:
             state = technique.technique.begin(technique)
         n = len(scene.objects)
         scene = _shown(scene, camera, technique, state, size)
+        technique = technique.technique.drawn(technique, state)
         frame = self._looked(scene, camera, technique, size, state)
         if len(frame.exact):
             # What a frame sorts by pixel is in none of its layers.
@@ -137,6 +139,8 @@ class Renderer:
             shares = self.shares(scene, camera, technique, size)
             return visibility_of_shares(shares, small.read(), n)
         layers = self._layers(scene, camera, technique, size, frame, state)
+        if len(scene.objects) > n:  # what a technique adds is nobody's
+            layers = [(w[ids <= n], ids[ids <= n], alpha[ids <= n]) for w, ids, alpha in layers]
         return visibility(layers, self._looking(size)[0].read(), n)
 
     def _looked(self, scene, camera, technique, size, state=None) -> FramePlan:  # type: ignore[no-untyped-def]
@@ -198,7 +202,9 @@ class Renderer:
             self._id_layer = Layer(self.context, self._store, ids=True)
         return self._small, self._id_layer
 
-    def _unchanged(self, scene: Scene, camera: Camera, technique: Parameters, state: Any) -> bool:
+    def _unchanged(
+        self, scene: Scene, camera: Camera, technique: Parameters, state: object
+    ) -> bool:
         if self._shown is None or "still" in self.without:
             return False
         old_scene, old, old_technique, old_state = self._shown

@@ -9,6 +9,7 @@ side of the loops: exact, and the work grows with the outline instead of with th
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -34,6 +35,26 @@ class HalfEdges:
     signs: NDArray[np.int8]
 
 
+class Solid(NamedTuple):
+    """A mesh as its outlines are found: a Topology's points (v, 3) and planes (f, 4), HalfEdges."""
+
+    points: Floats
+    planes: Floats
+    ends: Ints32
+    first: Ints
+    faces: Ints32
+    signs: NDArray[np.int8]
+
+
+class Pose(NamedTuple):
+    """The eye (3,) in mesh space, and turn (3, 3) and move (3,): camera coordinates are
+    turn · p + move."""
+
+    eye: Floats
+    turn: Floats
+    move: Floats
+
+
 def half_edges(shape: Topology) -> HalfEdges:
     """The directed edges of a mesh's faces, put together by edge."""
     starts = shape.faces.reshape(-1)
@@ -53,7 +74,7 @@ def half_edges(shape: Topology) -> HalfEdges:
 def distances(
     shape: Topology,
     edges: HalfEdges,
-    pose: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
+    pose: Pose,
     lens: tuple[float, float, float],
     tile: tuple[int, int, int, int],
     reach: float,
@@ -61,35 +82,20 @@ def distances(
 ) -> NDArray[np.float32]:
     """Distance in pixels (height, width) from a target's outline, −1 on the target itself.
 
-    `pose`: the eye in mesh space, and turn (3, 3) and move (3,), so that camera coordinates are
-    turn · p + move; every point must lie in front of the eye. `lens`: the scale in pixels, and
-    the picture's centre x, y. `tile`: left, top, width, height in pixels, what of the window to
-    fill. Pixels farther than `reach` have FAR. Outlines may be moved by `straight` pixels.
+    Every point must lie in front of the eye. `lens`: the scale in pixels, and the picture's centre
+    x, y. `tile`: left, top, width, height in pixels, what of the window to fill. Pixels farther
+    than `reach` have FAR. Outlines may be moved by `straight` pixels.
     """
-    return outline_distances(
-        shape.points, shape.planes, edges.ends, edges.first, edges.faces, edges.signs,
-        *pose, np.array(lens), np.array(tile), reach, straight,
-    )  # fmt: skip
+    solid = Solid(shape.points, shape.planes, edges.ends, edges.first, edges.faces, edges.signs)
+    return outline_distances(solid, pose, np.array(lens), np.array(tile), reach, straight)
 
 
 @njit(cache=True, nogil=True)
 def outline_distances(
-    points: Floats,
-    planes: Floats,
-    ends: Ints32,
-    first: Ints,
-    faces: Ints32,
-    signs: NDArray[np.int8],
-    eye: Floats,
-    turn: Floats,
-    move: Floats,
-    lens: Floats,
-    tile: Ints,
-    reach: float,
-    straight: float,
+    solid: Solid, pose: Pose, lens: Floats, tile: Ints, reach: float, straight: float
 ) -> Floats32:
     """`distances` of arrays alone, for other kernels."""
-    pixels, edges = _loops(points, planes, ends, first, faces, signs, eye, turn, move, lens)
+    pixels, edges = _loops(solid, pose, lens)
     for v in range(len(pixels)):
         pixels[v, 0] -= tile[0]
         pixels[v, 1] -= tile[1]
@@ -129,18 +135,9 @@ def _cover(pixels: Floats, edges: Ints, out: Floats32) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _loops(
-    points: Floats,
-    planes: Floats,
-    ends: Ints32,
-    first: Ints,
-    faces: Ints32,
-    signs: NDArray[np.int8],
-    eye: Floats,
-    turn: Floats,
-    move: Floats,
-    lens: Floats,
-) -> tuple[Floats, Ints]:
+def _loops(solid: Solid, pose: Pose, lens: Floats) -> tuple[Floats, Ints]:
+    points, planes, ends, first, faces, signs = solid
+    eye, turn, move = pose
     front = np.empty(len(planes), np.bool_)
     for f in range(len(planes)):
         p = planes[f]

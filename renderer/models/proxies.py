@@ -27,7 +27,7 @@ VIEWS = tuple((yaw, pitch) for pitch in (-0.2, 0.1, 0.5) for yaw in np.arange(0.
 
 
 @lru_cache(maxsize=1)
-def _stored() -> dict[str, NDArray]:
+def _stored() -> dict[str, NDArray[np.number]]:
     with np.load(FILE) as file:
         return dict(file)
 
@@ -150,7 +150,7 @@ def main() -> None:
         arrays[f"{name}/color"] = small.colors[0, 0].astype(np.float32)
         error = outline_error(shade(whole), shade(small))
         print(f"{name:16s} {len(whole.triangles):6d} → {len(small.triangles):4d}  {error:6.2%}")
-    np.savez_compressed(FILE, **arrays)
+    np.savez_compressed(FILE, allow_pickle=False, **arrays)
 
 
 if __name__ == "__main__":

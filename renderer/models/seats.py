@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join
@@ -70,7 +72,7 @@ def directors_chair() -> Shape:
     bar = rounded_bar(1.0, 0.65)
     w, d = 0.36, 0.27
 
-    def stick(a, b, radius=0.024):
+    def stick(a: Sequence[float], b: Sequence[float], radius: float = 0.024) -> Shape:
         return sweep([a, b], radius, OAK, section=bar)
 
     crossed = [stick((-w, 0.06, z), (w, 0.60, z + 0.03 * s)) for s, z in ((1, -d), (1, d))] + [

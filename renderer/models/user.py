@@ -11,7 +11,9 @@ from importlib import import_module
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools
 from seethrough.renderer.models.files.part import GREY, MOST_TRIANGLES, Array, Found, to_shown
 from seethrough.renderer.models.files.refine import Carried, refined
 from seethrough.renderer.models.files.source import Refused, Source
@@ -184,7 +186,7 @@ def _without_hidden(surface: Surface, found: Found) -> Surface:
     return surface.take(~hidden)
 
 
-def _with_holes(surface: Surface) -> Array:
+def _with_holes(surface: Surface) -> Bools:
     """(m,) triangles whose texture may hide a part of them, so that their backs show."""
     hiding = np.array([bool((t.levels[0][..., 3] < 1).any()) for t in surface.textures] + [False])
     return hiding[surface.texture] & (surface.cutoff >= 0)
@@ -217,7 +219,7 @@ def _mesh(surface: Surface, normals: Array) -> Mesh:
     )
 
 
-def _standing(vertices: Array, triangles: Array, axis: str) -> float:
+def _standing(vertices: Array, triangles: NDArray[np.int64], axis: str) -> float:
     """Share of the footprint that touches the ground if `axis` points up: the area of triangles
     that lie within a fiftieth of its height, seen from below, of the rectangle about it all."""
     k = "xyz".index(axis)

@@ -17,8 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.distance import centers
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons, check
+from seethrough.renderer.polygons.polygons import Polygons, check
 from seethrough.renderer.polygons.prepared import Drawable, Stats, drawable, viewpoint
 from seethrough.renderer.polygons.tree import EVERYTHING, Tree, tree
 
@@ -47,7 +48,7 @@ def prepare(polygons: Polygons) -> PreparedAxisTree:
     return PreparedAxisTree(drawn, tree(planes, children, items, EVERYTHING, depth), stats)
 
 
-def _grow(points: Floats) -> tuple[Floats, Integers, Integers, Integers, int]:
+def _grow(points: Floats) -> tuple[Floats, Whole, Whole, Whole, int]:
     """Nodes level by level: planes, children, polygons of each node, their indices, and depth."""
     members = np.arange(len(points))
     sizes = np.array([len(points)])

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.polygons.polygons import Floats, Polygons
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.polygons.polygons import Polygons
 
 # Corner k lies at +1 along axis i where bit i of k is set. Face 2 i looks along +axis i, face
 # 2 i + 1 along -axis i; bit f of a code says that face f is visible.
@@ -89,13 +90,18 @@ def _fit_one(polygons: Polygons) -> tuple[Floats, Floats, Floats]:
             frames.append(
                 np.stack([v / n for v, n in zip((along, across, normal), lengths, strict=True)])
             )
-    best = None
-    for frame in frames:
-        local = polygons.vertices @ frame.T
-        low, high = local.min(axis=0), local.max(axis=0)
-        # Area decides, since a panel's volume is zero in many frames.
-        u, v, w = high - low
-        size = u * v + v * w + w * u
-        if best is None or size < best[0] * (1 - 1e-9):
-            best = (size, (low + high) / 2 @ frame, frame, (high - low) / 2)
-    return best[1], best[2], best[3]
+    best = _about(polygons.vertices, frames[0])
+    for frame in frames[1:]:
+        other = _about(polygons.vertices, frame)
+        if other[0] < best[0] * (1 - 1e-9):
+            best = other
+    return best[1:]
+
+
+def _about(points: Floats, frame: Floats) -> tuple[float, Floats, Floats, Floats]:
+    """A box's size, centre, axes and half lengths, about points (n, 3) in a frame."""
+    local = points @ frame.T
+    low, high = local.min(axis=0), local.max(axis=0)
+    # Area decides, since a panel's volume is zero in many frames.
+    u, v, w = high - low
+    return u * v + v * w + w * u, (low + high) / 2 @ frame, frame, (high - low) / 2

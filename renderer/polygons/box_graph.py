@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from seethrough.renderer.polygons.polygons import Floats, Integers
+from seethrough.renderer.arrays import Bools, Floats, Ints, Whole
 
 # (p,) how much of the view the first and the second objects (p,) of pairs share.
-Shared = Callable[[Integers, Integers], Floats]
+Shared = Callable[[Whole, Whole], Floats]
 # Circles of more objects than this are not untied one relation at a time.
 LARGE = 64
 
 
 def draw_order(
-    relations: NDArray[np.int8], corners: Floats, point: Floats, shared: Shared
-) -> tuple[Integers, Integers, tuple[tuple[int, ...], ...], tuple[tuple[int, int], ...]]:
+    relations: Whole, corners: Floats, point: Floats, shared: Shared
+) -> tuple[Whole, Whole, tuple[tuple[int, ...], ...], tuple[tuple[int, int], ...]]:
     """Objects from back to front, their layers, the circles, and the relations given up.
 
     `relations` (b, b): 1 where i is in front of j, 2 where j is in front of i (i < j). `shared`
@@ -43,7 +43,7 @@ def draw_order(
 
 
 @numba.njit(cache=True)
-def _peel(relations):
+def _peel(relations: Whole) -> tuple[Ints, Ints, Bools]:
     """Draw what has nothing left behind it, again and again.
 
     Returns the objects in order, the layer of each (one more than the highest behind it), and
@@ -81,7 +81,7 @@ def _peel(relations):
     return objects[:filled], layers, left
 
 
-def _circles(relations: NDArray[np.int8], left: NDArray[np.bool_]) -> list[tuple[int, ...]]:
+def _circles(relations: Whole, left: NDArray[np.bool_]) -> list[tuple[int, ...]]:
     """Strongly connected sets of two or more objects."""
     i, j = np.nonzero(relations)
     first = relations[i, j] == 1
@@ -94,9 +94,12 @@ def _circles(relations: NDArray[np.int8], left: NDArray[np.bool_]) -> list[tuple
 
 
 def _given_up(
-    relations: NDArray[np.int8], circle: tuple[int, ...], corners: Floats, point: Floats,
+    relations: Whole,
+    circle: tuple[int, ...],
+    corners: Floats,
+    point: Floats,
     shared: Shared,
-) -> list[tuple[int, int]]:  # fmt: skip
+) -> list[tuple[int, int]]:
     """(behind, front) of what a circle must lose: the pair that shares least of the view.
 
     A large circle loses all that the order of its nearest corners contradicts.

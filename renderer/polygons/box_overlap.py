@@ -5,11 +5,22 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.box_relations import contour, face_code
 
 
 @numba.njit(cache=True)
-def shared_views(centers, axes, halves, corners, point, table, sizes, first, second):
+def shared_views(
+    centers: Floats,
+    axes: Floats,
+    halves: Floats,
+    corners: Floats,
+    point: Floats,
+    table: Whole,
+    sizes: Whole,
+    first: Whole,
+    second: Whole,
+) -> Floats:
     """(p,) what the contours of pairs of boxes share, seen from a homogeneous point (4,).
 
     From an eye: a solid angle in steradians, so it does not depend on where the camera looks; a
@@ -46,16 +57,16 @@ def shared_views(centers, axes, halves, corners, point, table, sizes, first, sec
     return result
 
 
-@numba.njit
-def _copy(loop, count, out):
+@numba.njit()
+def _copy(loop: Floats, count: int, out: Floats) -> None:
     # Element by element: numba takes seconds to compile the assignment of rows.
     for c in range(count):
         for k in range(3):
             out[c, k] = loop[c, k]
 
 
-@numba.njit
-def _clip(polygon, count, edge, out):
+@numba.njit()
+def _clip(polygon: Floats, count: int, edge: Floats, out: Floats) -> int:
     """The part of a loop of rays on the inner side of an edge's plane."""
     made = 0
     for c in range(count):
@@ -74,21 +85,21 @@ def _clip(polygon, count, edge, out):
     return made
 
 
-@numba.njit
-def _triple(a, b, c):
+@numba.njit()
+def _triple(a: Floats, b: Floats, c: Floats) -> float:
     """Determinant of three rows."""
     total = a[0] * (b[1] * c[2] - b[2] * c[1])
     total += a[1] * (b[2] * c[0] - b[0] * c[2])
     return total + a[2] * (b[0] * c[1] - b[1] * c[0])
 
 
-@numba.njit
-def _dot(a, b):
+@numba.njit()
+def _dot(a: Floats, b: Floats) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@numba.njit
-def _area(polygon, count, point):
+@numba.njit()
+def _area(polygon: Floats, count: int, point: Floats) -> float:
     """Of a loop of corners, seen along the view vector."""
     total = 0.0
     for c in range(count):
@@ -96,8 +107,8 @@ def _area(polygon, count, point):
     return abs(total) / (2.0 * np.sqrt(point[0] ** 2 + point[1] ** 2 + point[2] ** 2))
 
 
-@numba.njit
-def _angle(polygon, count):
+@numba.njit()
+def _angle(polygon: Floats, count: int) -> float:
     """Of a loop of rays: Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983."""
     total = 0.0
     for i in range(2, count):

@@ -5,12 +5,23 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from seethrough.renderer.arrays import Floats, Whole
+
 # What two boxes are to each other: apart on the screen, i in front, j in front, intersecting.
 APART, FIRST, SECOND, INTERSECTING = 0, 1, 2, 3
 
 
 @numba.njit(cache=True)
-def relate(centers, axes, halves, corners, point, table, sizes, exact):
+def relate(
+    centers: Floats,
+    axes: Floats,
+    halves: Floats,
+    corners: Floats,
+    point: Floats,
+    table: Whole,
+    sizes: Whole,
+    exact: bool,
+) -> tuple[Whole, int]:
     """(b, b) relations of boxes seen from a homogeneous point (4,), and the pairs tested.
 
     Only i < j is filled in. `exact`: by a plane between the two; otherwise by the paper's rule.
@@ -47,8 +58,8 @@ def relate(centers, axes, halves, corners, point, table, sizes, exact):
     return relations, tested
 
 
-@numba.njit
-def face_code(center, axes, halves, point):
+@numba.njit()
+def face_code(center: Floats, axes: Floats, halves: Floats, point: Floats) -> int:
     """Six bits: which faces the eye sees."""
     code = 0
     for axis in range(3):
@@ -63,8 +74,10 @@ def face_code(center, axes, halves, point):
     return code
 
 
-@numba.njit
-def contour(corners, loop, length, point, rays, edges):
+@numba.njit()
+def contour(
+    corners: Floats, loop: Whole, length: int, point: Floats, rays: Floats, edges: Floats
+) -> None:
     """Rays from the eye to the contour's corners, and normals of the planes through its edges.
 
     For a view vector the rays are the corners themselves, shifted along it: the planes contain
@@ -104,8 +117,8 @@ def contour(corners, loop, length, point, rays, edges):
         edges[c, 3] = base * turn if inner != 0.0 else -np.inf
 
 
-@numba.njit
-def _picture(centers, point):
+@numba.njit()
+def _picture(centers: Floats, point: Floats) -> Floats:
     """Rows: across, up and into a picture that looks at the middle of all boxes."""
     frame = np.zeros((3, 3))
     for k in range(3):
@@ -124,8 +137,8 @@ def _picture(centers, point):
     return frame
 
 
-@numba.njit
-def _extent(rays, length, w, frame, extent):
+@numba.njit()
+def _extent(rays: Floats, length: int, w: float, frame: Floats, extent: Floats) -> None:
     """A contour's extent in the picture, along four directions: what may overlap at all.
 
     Without bounds where the eye is inside, or a corner lies beside or behind the eye.
@@ -154,8 +167,8 @@ def _extent(rays, length, w, frame, extent):
             extent[k], extent[k + 1] = -np.inf, np.inf
 
 
-@numba.njit
-def _overlap(rays, edges, length, i, j):
+@numba.njit()
+def _overlap(rays: Floats, edges: Floats, length: Whole, i: int, j: int) -> bool:
     """Whether two convex contours overlap: no edge of either has the other wholly outside."""
     for swap in range(2):
         one, other = (i, j) if swap == 0 else (j, i)
@@ -176,8 +189,8 @@ def _overlap(rays, edges, length, i, j):
     return True
 
 
-@numba.njit
-def _reach(axes, halves, i, x, y, z):
+@numba.njit()
+def _reach(axes: Floats, halves: Floats, i: int, x: float, y: float, z: float) -> float:
     """Half of a box's extent along a direction."""
     total = 0.0
     for axis in range(3):
@@ -187,8 +200,8 @@ def _reach(axes, halves, i, x, y, z):
     return total
 
 
-@numba.njit
-def _by_plane(centers, axes, halves, i, j, point):
+@numba.njit()
+def _by_plane(centers: Floats, axes: Floats, halves: Floats, i: int, j: int, point: Floats) -> int:
     """The exact rule: a plane between the boxes, and the eye's side of it.
 
     Two convex bodies that don't intersect have a plane between them across a face normal of one,
@@ -229,8 +242,10 @@ def _by_plane(centers, axes, halves, i, j, point):
     return result if best >= -1e-12 * scale else 3
 
 
-@numba.njit
-def _by_paper(centers, axes, halves, corners, i, j, point):
+@numba.njit()
+def _by_paper(
+    centers: Floats, axes: Floats, halves: Floats, corners: Floats, i: int, j: int, point: Floats
+) -> int:
     """The paper's rule: count the planes of j that have all of i in front."""
     planes = 0
     result = 0
@@ -253,8 +268,8 @@ def _by_paper(centers, axes, halves, corners, i, j, point):
     return 1 if _nearest(corners[i], point) < _nearest(corners[j], point) else 2
 
 
-@numba.njit
-def _nearest(corners, point):
+@numba.njit()
+def _nearest(corners: Floats, point: Floats) -> float:
     """Squared distance of the nearest corner; along the view, its depth."""
     least = np.inf
     for c in range(8):

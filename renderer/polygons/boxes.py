@@ -25,11 +25,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.box_geometry import Boxes, contour_table, fit
 from seethrough.renderer.polygons.box_graph import draw_order
 from seethrough.renderer.polygons.box_overlap import shared_views
 from seethrough.renderer.polygons.box_relations import FIRST, INTERSECTING, SECOND, relate
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons, check
+from seethrough.renderer.polygons.polygons import Polygons, check
 from seethrough.renderer.polygons.predicates import plane_corners, plane_rows
 from seethrough.renderer.polygons.prepared import Drawable, Stats, drawable, viewpoint
 
@@ -46,8 +47,8 @@ class BoxOrder:
     picture. `tested` pairs overlapped.
     """
 
-    objects: Integers
-    layers: Integers
+    objects: Whole
+    layers: Whole
     cycles: tuple[tuple[int, ...], ...]
     broken: tuple[tuple[int, int], ...]
     intersecting: tuple[tuple[int, int], ...]
@@ -90,7 +91,7 @@ class PreparedBoxes:
         pairs = tuple((int(i), int(j)) for i, j in crossed)
         return BoxOrder(objects, layers, cycles, broken, pairs, int(tested))
 
-    def _shared(self, first: Integers, second: Integers, point: Floats) -> Floats:
+    def _shared(self, first: Whole, second: Whole, point: Floats) -> Floats:
         boxes = self.boxes
         return shared_views(
             boxes.centers, boxes.axes, boxes.halves, self._corners, point, self._table,

@@ -17,9 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.bsp_kernels import choose, deal
 from seethrough.renderer.polygons.fragments import CUT, MOST_PIECES, Fragments
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons
+from seethrough.renderer.polygons.polygons import Polygons
 from seethrough.renderer.polygons.prepared import Drawable, Stats, drawable, viewpoint
 from seethrough.renderer.polygons.tree import AGAINST, ALONG, EITHER, EVERYTHING, Tree, tree
 
@@ -83,7 +84,7 @@ class _Rule:
         self.name, self.candidates, self.rng = name, candidates, rng
         self.relations = 0
 
-    def __call__(self, fragments: Fragments, active: Integers, bounds: Integers) -> Integers:
+    def __call__(self, fragments: Fragments, active: Whole, bounds: Whole) -> Whole:
         """Positions in `active` of the splitter of each group."""
         if self.name == "first":
             self.relations += len(active) - (len(bounds) - 1)
@@ -104,15 +105,15 @@ class _Rule:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Level:
-    splitters: Integers
-    own: Integers
-    own_bounds: Integers
-    children: Integers
+    splitters: Whole
+    own: Whole
+    own_bounds: Whole
+    children: Whole
 
 
 def _grow(fragments: Fragments, rule: _Rule) -> list[_Level]:
     """All nodes of a depth at once: no recursion, and few calls however many nodes there are."""
-    active = np.flatnonzero(fragments.solid).astype(np.int32)
+    active: Whole = np.flatnonzero(fragments.solid).astype(np.int32)
     bounds = np.array([0, len(active)])
     levels = []
     while len(active):
@@ -174,7 +175,7 @@ def _assemble(
     )
 
 
-def _ways(fragments: Fragments, own: Integers, planes: Floats) -> NDArray[np.uint8]:
+def _ways(fragments: Fragments, own: Whole, planes: Floats) -> NDArray[np.uint8]:
     """(m,) which way fragments face, against the planes (m, 4) of their nodes."""
     normals = fragments.planes[fragments.source[own], 3:6]
     along = (normals * planes[:, :3]).sum(axis=1)
@@ -190,7 +191,7 @@ def _marked(parents: NDArray[np.int32]) -> NDArray[np.bool_]:
     return cut
 
 
-def _node_planes(fragments: Fragments, splitters: list[Integers]) -> Floats:
+def _node_planes(fragments: Fragments, splitters: list[Whole]) -> Floats:
     """(nodes, 4) planes as rows for a homogeneous eye; the first has nothing to decide."""
     rows = fragments.planes
     offsets = (rows[:, 3:6] * rows[:, :3]).sum(axis=1)

@@ -5,12 +5,24 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.cutting import COUNT, PLANE, SOURCE, START
 from seethrough.renderer.polygons.predicates import loop_heights, loop_limit
 
 
 @numba.njit(cache=True)
-def choose(active, bounds, draws, sample, balance, shape, rows, planes, plane_of, slack):
+def choose(
+    active: Whole,
+    bounds: Whole,
+    draws: Floats,
+    sample: int,
+    balance: float,
+    shape: Whole,
+    rows: Floats,
+    planes: Floats,
+    plane_of: Whole,
+    slack: Floats,
+) -> tuple[Whole, int]:
     """The best of some random candidates in each group of fragments.
 
     Group g is active[bounds[g] : bounds[g + 1]]; `draws` (groups, k) are uniform numbers, one for
@@ -56,7 +68,9 @@ def choose(active, bounds, draws, sample, balance, shape, rows, planes, plane_of
 
 
 @numba.njit(inline="always")
-def _rough_side(f, s, shape, rows, planes, plane_of, slack):
+def _rough_side(
+    f: int, s: int, shape: Whole, rows: Floats, planes: Floats, plane_of: Whole, slack: Floats
+) -> int:
     """0 on, 1 front, 2 back, 3 both; corners too near to tell count as on the plane."""
     if shape[f, PLANE] == plane_of[s]:
         return 0
@@ -67,7 +81,9 @@ def _rough_side(f, s, shape, rows, planes, plane_of, slack):
 
 
 @numba.njit(cache=True)
-def deal(active, bounds, code, pieces, piece_of, piece_side):
+def deal(
+    active: Whole, bounds: Whole, code: Whole, pieces: Whole, piece_of: Whole, piece_side: Whole
+) -> tuple[Whole, Whole, Whole, Whole, Whole]:
     """Fragments of each group to its plane, its front and its back.
 
     Returns what lies in the planes with its bounds (groups + 1), the next level's fragments with

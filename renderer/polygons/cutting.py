@@ -13,6 +13,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from seethrough.renderer.arrays import Bools, Floats, Real, Whole
 from seethrough.renderer.polygons.predicates import (
     ROUNDING,
     distance_row,
@@ -26,7 +27,19 @@ START, COUNT, SOURCE, PLANE = 0, 1, 2, 3
 
 
 @numba.njit(cache=True)
-def classify(fragments, splitters, shape, rows, fresh, planes, plane_of, slack, sign, code, open_):
+def classify(
+    fragments: Whole,
+    splitters: Whole,
+    shape: Whole,
+    rows: Floats,
+    fresh: Bools,
+    planes: Floats,
+    plane_of: Whole,
+    slack: Floats,
+    sign: Whole,
+    code: Whole,
+    open_: Whole,
+) -> int:
     """Side of every corner, and of every fragment: 0 in the plane, 1 front, 2 back, 3 both.
 
     `open_` (2, room) receives row and position of what the filter leaves undecided; returns how
@@ -71,7 +84,7 @@ def classify(fragments, splitters, shape, rows, fresh, planes, plane_of, slack, 
 
 
 @numba.njit(inline="always")
-def corner_side(planes, slack, s, rows, fresh, v):
+def corner_side(planes: Floats, slack: Floats, s: int, rows: Floats, fresh: Bools, v: int) -> int:
     """What the filter makes of a corner against a plane: see `predicates.filtered_side`."""
     x, y, z = rows[v, 0], rows[v, 1], rows[v, 2]
     reach = slack[s]
@@ -81,14 +94,28 @@ def corner_side(planes, slack, s, rows, fresh, v):
 
 
 @numba.njit(inline="always")
-def point_slack(x, y, z):
+def point_slack(x: float, y: float, z: float) -> float:
     """What rounding a cut point costs: a distance."""
     return ROUNDING * max(abs(x), abs(y), abs(z))
 
 
 @numba.njit(cache=True)
-def cut(fragments, splitters, halves, shape, rows, fresh, edge, along, planes, sign, used, parent,
-        cutter, out):  # fmt: skip
+def cut(
+    fragments: Whole,
+    splitters: Whole,
+    halves: bool,
+    shape: Whole,
+    rows: Floats,
+    fresh: Bools,
+    edge: Whole,
+    along: Floats,
+    planes: Floats,
+    sign: Whole,
+    used: Whole,
+    parent: Whole,
+    cutter: Whole,
+    out: Whole,
+) -> int:
     """Cut fragments by planes; append the pieces. Corner signs must be those of `classify`.
 
     `used` (2,) counts rows and fragments and is moved on. `edge` (rows, 2) and `along` (rows,)
@@ -147,8 +174,21 @@ def cut(fragments, splitters, halves, shape, rows, fresh, edge, along, planes, s
     return made
 
 
-@numba.njit
-def _ring(f, s, shape, rows, fresh, planes, sign, ring, ends, between, side, young):
+@numba.njit()
+def _ring(
+    f: int,
+    s: int,
+    shape: Whole,
+    rows: Floats,
+    fresh: Bools,
+    planes: Floats,
+    sign: Whole,
+    ring: Floats,
+    ends: Whole,
+    between: Floats,
+    side: Whole,
+    young: Bools,
+) -> int:
     """The loop with its crossing points inserted; returns its length."""
     size = 0
     begin, n = shape[f, START], shape[f, COUNT]
@@ -169,8 +209,10 @@ def _ring(f, s, shape, rows, fresh, planes, sign, ring, ends, between, side, you
     return size
 
 
-@numba.njit
-def _crossing(rows, u, v, plane, ring, ends, between, at):
+@numba.njit()
+def _crossing(
+    rows: Floats, u: int, v: int, plane: Floats, ring: Floats, ends: Whole, between: Floats, at: int
+) -> None:
     """Where the edge from row u to row v meets the plane: the same point for v to u."""
     low, high = u, v
     for axis in range(3):
@@ -191,7 +233,7 @@ def _crossing(rows, u, v, plane, ring, ends, between, at):
 
 
 @numba.njit(cache=True)
-def interpolate(column, edge, along, inputs, values):
+def interpolate(column: Real, edge: Whole, along: Floats, inputs: int, values: Floats) -> None:
     """One attribute of all rows into `values`: the inputs' from `column`, then row by row."""
     for r in range(inputs):
         values[r] = column[r]
@@ -200,8 +242,8 @@ def interpolate(column, edge, along, inputs, values):
         values[r] = low + along[r] * (high - low)
 
 
-@numba.njit
-def _chains(size, side, wanted, first, last):
+@numba.njit()
+def _chains(size: int, side: Whole, wanted: int, first: Whole, last: Whole) -> int:
     """Runs of corners on the wanted side; `first` and `last` are the corners on the line."""
     origin = 0
     while side[origin] == wanted:
@@ -222,8 +264,17 @@ def _chains(size, side, wanted, first, last):
     return chains
 
 
-@numba.njit
-def _link(chains, first, last, ring, own, plane, wanted, follow):
+@numba.njit()
+def _link(
+    chains: int,
+    first: Whole,
+    last: Whole,
+    ring: Floats,
+    own: Floats,
+    plane: Floats,
+    wanted: int,
+    follow: Whole,
+) -> None:
     """Which chain goes on where a chain meets the cut line.
 
     Along the line, with the wanted side on the left, chain ends and chain starts alternate; so
@@ -254,8 +305,10 @@ def _link(chains, first, last, ring, own, plane, wanted, follow):
         ends[end], starts[begin] = np.inf, np.inf
 
 
-@numba.njit
-def _loop(c, first, last, follow, done, size, loop):
+@numba.njit()
+def _loop(
+    c: int, first: Whole, last: Whole, follow: Whole, done: Bools, size: int, loop: Whole
+) -> int:
     """Corners of the piece that chain c belongs to; returns how many."""
     length = 0
     chain = c
@@ -276,8 +329,8 @@ def _loop(c, first, last, follow, done, size, loop):
     return length
 
 
-@numba.njit
-def _shorter_diagonal(ring, loop):
+@numba.njit()
+def _shorter_diagonal(ring: Floats, loop: Whole) -> int:
     """Corner from which the shorter diagonal of four corners starts: 0 or 1."""
     squares = np.zeros(2)
     for d in range(2):

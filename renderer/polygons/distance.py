@@ -13,7 +13,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons, check
+from seethrough.renderer.arrays import Floats, Whole
+from seethrough.renderer.polygons.polygons import Polygons, check
 from seethrough.renderer.polygons.prepared import Stats, drawable, viewpoint
 
 METRICS = ("distance", "depth")
@@ -28,6 +29,7 @@ class PreparedDistance:
         check(polygons)
         self.metric = metric
         self.sorts = 0
+        self._camera: tuple[bytes, bytes | None] | None = None
         self._set(polygons)
 
     def order(self, eye: Floats | None = None, view: Floats | None = None) -> NDArray[np.int32]:
@@ -48,7 +50,7 @@ class PreparedDistance:
             self.sorts += 1
         return self._order
 
-    def add(self, polygons: Polygons) -> Integers:
+    def add(self, polygons: Polygons) -> Whole:
         """Take in more polygons; returns their indices. Raises ValueError as `check` does."""
         check(polygons)
         old = self.drawable.polygons
@@ -63,7 +65,7 @@ class PreparedDistance:
         )
         return np.arange(begin, begin + len(polygons))
 
-    def move(self, indices: Integers, vertices: Floats) -> None:
+    def move(self, indices: Whole, vertices: Floats) -> None:
         """Give the polygons at `indices` new corners, one after the other in `vertices` (n, 3)."""
         old = self.drawable.polygons
         indices = np.asarray(indices, np.int64)
@@ -82,7 +84,7 @@ class PreparedDistance:
         self.drawable = drawable(polygons, np.arange(len(polygons)))
         self.stats = Stats(inputs=len(polygons), outputs=len(polygons))
         self._centers = centers(polygons)
-        self._camera: tuple[bytes, bytes | None] | None = None
+        self._camera = None
         self._order = np.empty(0, np.int32)
 
     def _sorted(self, eye: Floats | None, view: Floats | None) -> NDArray[np.int32]:

@@ -23,12 +23,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.feudal_list import Program, program
 from seethrough.renderer.polygons.feudal_lookahead import Lookahead
 from seethrough.renderer.polygons.feudal_relations import Relations
 from seethrough.renderer.polygons.feudal_tree import Cheapest, Node, build_dynamic, build_static
 from seethrough.renderer.polygons.fragments import MOST_PIECES, Fragments
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons
+from seethrough.renderer.polygons.polygons import Polygons
 from seethrough.renderer.polygons.prepared import Drawable, Stats, drawable, viewpoint
 
 VERSIONS = ("static", "dynamic")
@@ -50,7 +51,7 @@ class PreparedFeudal:
         """Triangle indices from back to front; of a closed volume, the faces towards the eye."""
         return self.program.order(viewpoint(eye, view))
 
-    def classes(self, eye: Floats | None = None, view: Floats | None = None) -> list[Integers]:
+    def classes(self, eye: Floats | None = None, view: Floats | None = None) -> list[Whole]:
         """The rendering priority list: output polygons in classes, from back to front."""
         return self.program.classes(viewpoint(eye, view))
 

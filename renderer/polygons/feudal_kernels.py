@@ -9,10 +9,30 @@ what whole rows would have shown.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numba
 import numpy as np
 
+from seethrough.renderer.arrays import Bools, Floats, Whole
 from seethrough.renderer.polygons.cutting import COUNT, START, corner_side
+
+
+class Geometry(NamedTuple):
+    """What relations are tested on: see `fragments.Fragments`.
+
+    `row_of` (fragments,) is each one's plane; `tested` (1,) counts.
+    """
+
+    shape: Whole
+    rows: Floats
+    fresh: Bools
+    planes: Floats
+    corners: Floats
+    slack: Floats
+    row_of: Whole
+    tested: Whole
+
 
 COPLANAR, IN_FRONT, BEHIND, CUT = 0, 1, 2, 3
 # A relation nobody asked for yet; one that only exact arithmetic can tell; a row without cuts.
@@ -20,7 +40,7 @@ UNKNOWN, OPEN, CLEAN = -1, -2, -1
 
 
 @numba.njit(inline="always")
-def _exact_side(corners, x, y, z):
+def _exact_side(corners: Floats, x: float, y: float, z: float) -> int:
     """Sides that need no arithmetic: the plane's own corners, and planes across an axis."""
     for k in range(3):
         if x == corners[k, 0] and y == corners[k, 1] and z == corners[k, 2]:
@@ -35,21 +55,23 @@ def _exact_side(corners, x, y, z):
 
 
 @numba.njit(cache=True)
-def look(codes, r, f, shape, planes, corners, slack, row_of, tested):
-    """Relation of fragment f to plane r: from the table, or tested and kept. May be OPEN.
-
-    `shape` holds the fragments' shape, rows and fresh (see `fragments.Fragments`).
-    """
+def look(
+    codes: Whole,
+    r: int,
+    f: int,
+    geometry: Geometry,
+) -> int:
+    """Relation of fragment f to plane r: from the table, or tested and kept. May be OPEN."""
     code = codes[r, f]
     if code != UNKNOWN:
         return code
     code = 0
-    if row_of[f] != r:
-        loops, rows, fresh = shape
-        for v in range(loops[f, START], loops[f, START] + loops[f, COUNT]):
-            side = corner_side(planes, slack, r, rows, fresh, v)
+    if geometry.row_of[f] != r:
+        rows, begin = geometry.rows, geometry.shape[f, START]
+        for v in range(begin, begin + geometry.shape[f, COUNT]):
+            side = corner_side(geometry.planes, geometry.slack, r, rows, geometry.fresh, v)
             if side == 2:
-                side = _exact_side(corners[r], rows[v, 0], rows[v, 1], rows[v, 2])
+                side = _exact_side(geometry.corners[r], rows[v, 0], rows[v, 1], rows[v, 2])
             if side == 1:
                 code |= 1
             elif side == -1:
@@ -58,14 +80,20 @@ def look(codes, r, f, shape, planes, corners, slack, row_of, tested):
                 return OPEN
             if code == CUT:
                 break
-    tested[0] += 1
+    geometry.tested[0] += 1
     codes[r, f] = code
     return code
 
 
 @numba.njit(cache=True)
-def first_usable(codes, group, by_size, witness, alive, shape, planes, corners, slack, row_of,
-                 tested):  # fmt: skip
+def first_usable(
+    codes: Whole,
+    group: Whole,
+    by_size: Whole,
+    witness: Whole,
+    alive: Bools,
+    geometry: Geometry,
+) -> tuple[int, int]:
     """Position in `group` of the first polygon whose plane cuts none of the group, or -1.
 
     `witness` (rows,) is a polygon each plane is known to cut, or -1; `alive` (fragments,) says
@@ -73,12 +101,12 @@ def first_usable(codes, group, by_size, witness, alive, shape, planes, corners, 
     whose relation to that plane is OPEN, or -1.
     """
     for i in range(len(group)):
-        r = row_of[group[i]]
+        r = geometry.row_of[group[i]]
         if witness[r] >= 0 and alive[witness[r]]:
             continue
         cut = False
         for f in by_size:
-            code = look(codes, r, f, shape, planes, corners, slack, row_of, tested)
+            code = look(codes, r, f, geometry)
             if code == OPEN:
                 return i, f
             if code == CUT:
@@ -91,8 +119,15 @@ def first_usable(codes, group, by_size, witness, alive, shape, planes, corners, 
 
 
 @numba.njit(cache=True)
-def clean_rows(codes, members, by_size, witness, alive, shape, planes, corners, slack, row_of,
-               tested, open_):  # fmt: skip
+def clean_rows(
+    codes: Whole,
+    members: Whole,
+    by_size: Whole,
+    witness: Whole,
+    alive: Bools,
+    geometry: Geometry,
+    open_: Whole,
+) -> int:
     """Look at the planes `members` until each has cut something of the group or nothing at all.
 
     `open_` (2, members) receives the relations that are OPEN; returns how many. When none is,
@@ -104,7 +139,7 @@ def clean_rows(codes, members, by_size, witness, alive, shape, planes, corners, 
             continue
         witness[r] = -1
         for f in by_size:
-            code = look(codes, r, f, shape, planes, corners, slack, row_of, tested)
+            code = look(codes, r, f, geometry)
             if code == OPEN:
                 open_[0, waiting], open_[1, waiting] = r, f
                 waiting += 1
@@ -116,8 +151,15 @@ def clean_rows(codes, members, by_size, witness, alive, shape, planes, corners, 
 
 
 @numba.njit(cache=True)
-def cheapest(codes, members, by_size, counts, place, weight, shape, planes, corners, slack,
-             row_of, tested):  # fmt: skip
+def cheapest(
+    codes: Whole,
+    members: Whole,
+    by_size: Whole,
+    counts: Whole,
+    place: Whole,
+    weight: float,
+    geometry: Geometry,
+) -> tuple[int, int]:
     """Look at the planes `members` until the cheapest splitting plane is known.
 
     A plane costs its cuts less `weight` times the binary logarithm of the smaller side. The plane
@@ -142,7 +184,7 @@ def cheapest(codes, members, by_size, counts, place, weight, shape, planes, corn
         r = members[best]
         while place[best] < n:
             f = by_size[place[best]]
-            code = look(codes, r, f, shape, planes, corners, slack, row_of, tested)
+            code = look(codes, r, f, geometry)
             if code == OPEN:
                 return r, f
             place[best] += 1
@@ -154,7 +196,7 @@ def cheapest(codes, members, by_size, counts, place, weight, shape, planes, corn
 
 
 @numba.njit(inline="always")
-def _least_cost(counts, left, weight):
+def _least_cost(counts: Whole, left: int, weight: float) -> float:
     """What a plane costs at least, with so many polygons left to look at."""
     smaller = min(counts[0], counts[1]) + left
     smaller = min(smaller, (counts[0] + counts[1] + left) // 2)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Whole
 from seethrough.renderer.polygons.feudal_stretches import Lists, Stretches, write_out
 from seethrough.renderer.polygons.feudal_tree import Node
-from seethrough.renderer.polygons.polygons import Floats, Integers
 
 DOWN, SWITCH, UP = 0, 1, 2
 
@@ -30,7 +30,7 @@ class Program:
     """
 
     planes: Floats
-    toward: Integers
+    toward: Whole
     lists: Lists
     breaks: NDArray[np.bool_]
     stretches: Stretches
@@ -40,18 +40,18 @@ class Program:
         """Triangles from back to front, seen from a homogeneous point (4,)."""
         return self.stretches.order(point)
 
-    def stretches_of(self, bounds: Integers) -> Stretches:
+    def stretches_of(self, bounds: Whole) -> Stretches:
         """The lists written out with polygon p as the items bounds[p] to bounds[p + 1]."""
         return write_out(self.lists, self.planes, self.toward, bounds)
 
-    def classes(self, point: Floats) -> list[Integers]:
+    def classes(self, point: Floats) -> list[Whole]:
         """Polygons in classes, from back to front."""
         front = self.planes @ point > 0
         return priority_list(self, np.concatenate([front, ~front])[self.toward])
 
 
 def program(
-    nodes: list[Node], planes: Floats, toward: Integers, bounds: Integers, flat: Integers,
+    nodes: list[Node], planes: Floats, toward: Whole, bounds: Whole, flat: Whole,
     closed: bool,
 ) -> Program:  # fmt: skip
     """Flatten a tree. `toward` (m,) and `bounds` (m + 1,), its triangles, are output polygons'.
@@ -64,7 +64,7 @@ def program(
     spans = np.zeros((len(nodes), 4), np.int64)
     either = 1 if closed else 2
 
-    def put(polygons: Integers, way: int, first: bool) -> None:
+    def put(polygons: Whole, way: int, first: bool) -> None:
         if way == 0 and closed:
             return
         for i, polygon in enumerate(polygons):
@@ -107,7 +107,7 @@ def _depth(nodes: list[Node]) -> int:
     return max(depth)
 
 
-def priority_list(made: Program, toward: NDArray[np.bool_]) -> list[Integers]:
+def priority_list(made: Program, toward: NDArray[np.bool_]) -> list[Whole]:
     """Classes of polygons from back to front, `toward` (m,) saying which face the eye."""
     classes: list[list[int]] = []
     fresh = True

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seethrough.renderer.arrays import Whole
 from seethrough.renderer.polygons.feudal_relations import Relations
 from seethrough.renderer.polygons.feudal_tree import Cheapest, Node, divide, settle
-from seethrough.renderer.polygons.polygons import Integers
 
 # What balance is worth in cuts: to the rules that propose, and to those that build the subtrees.
 WEIGHTS = (0.0, 0.5, 1.0, 2.0)
@@ -29,7 +29,7 @@ class Lookahead:
     balance: float
     most: int
 
-    def __call__(self, relations: Relations, group: Integers) -> int:
+    def __call__(self, relations: Relations, group: Whole) -> int:
         """The polygon to split by."""
         weights = sorted({*WEIGHTS, self.balance})
         proposed = [relations.candidates(group, weight, self.most) for weight in weights]
@@ -40,7 +40,7 @@ class Lookahead:
         return best[2]
 
 
-def _added(relations: Relations, group: Integers, switch: int, weight: float) -> tuple[int, int]:
+def _added(relations: Relations, group: Whole, switch: int, weight: float) -> tuple[int, int]:
     """Polygons that a switch and the tree below it add to a group, and splits."""
     fragments = relations.fragments
     before = fragments.used.copy()

@@ -5,18 +5,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Whole
 from seethrough.renderer.polygons.feudal_kernels import (
     BEHIND,
     COPLANAR,
     CUT,
     IN_FRONT,
     UNKNOWN,
+    Geometry,
     cheapest,
     clean_rows,
     first_usable,
 )
 from seethrough.renderer.polygons.fragments import Fragments
-from seethrough.renderer.polygons.polygons import Integers
 
 # What a row says where the two polygons' normals point opposite ways.
 REVERSED = np.array([COPLANAR, BEHIND, IN_FRONT, CUT], np.int8)
@@ -49,39 +50,39 @@ class Relations:
         """Relations computed."""
         return int(self.count[0])
 
-    def row(self, polygon: int, group: Integers) -> NDArray[np.int8]:
+    def row(self, polygon: int, group: Whole) -> NDArray[np.int8]:
         """(g,) relations of a group to a polygon's plane, seen from its own front: all known."""
         codes = self.codes[self.row_of[polygon], group]
         return REVERSED[codes] if self.flipped[polygon] else codes
 
-    def compute_all(self, group: Integers) -> None:
+    def compute_all(self, group: Whole) -> None:
         """The whole table of a group: what the static version begins with."""
         for row in np.unique(self.row_of[group]):
             self._decide(np.full(len(group), row), group)
 
-    def usable(self, group: Integers) -> int:
+    def usable(self, group: Whole) -> int:
         """Position of the first polygon whose plane cuts none of the group; -1 if each cuts one."""
         large_first = self._enter(group)
         while True:
             at, other = first_usable(
-                self.codes, group, large_first, self.witness, self.alive, *self._geometry()
+                self.codes, group, large_first, self.witness, self.alive, self._geometry()
             )
             if other < 0:
                 return int(at)
             self._decide(self.row_of[group[at : at + 1]], np.array([other]))
 
-    def clean(self, group: Integers) -> NDArray[np.bool_]:
+    def clean(self, group: Whole) -> NDArray[np.bool_]:
         """(g,) whether a polygon's plane cuts none of the group; those rows are known then."""
         large_first = self._enter(group)
         members = np.unique(self.row_of[group])
         open_ = np.empty((2, len(members)), np.int64)
         while waiting := clean_rows(
-            self.codes, members, large_first, self.witness, self.alive, *self._geometry(), open_
+            self.codes, members, large_first, self.witness, self.alive, self._geometry(), open_
         ):
             self._decide(*open_[:, :waiting])
         return self.witness[self.row_of[group]] < 0
 
-    def splitter(self, group: Integers, weight: float) -> int:
+    def splitter(self, group: Whole, weight: float) -> int:
         """The polygon to split a group by: see `feudal_kernels.cheapest`.
 
         Of equally good ones the most balanced, then the first by number.
@@ -92,7 +93,7 @@ class Relations:
         place = np.zeros(len(members), np.int64)
         while True:
             plane, other = cheapest(
-                self.codes, members, large_first, counts, place, weight, *self._geometry()
+                self.codes, members, large_first, counts, place, weight, self._geometry()
             )
             if other < 0:
                 break
@@ -101,7 +102,7 @@ class Relations:
         cost[place < len(group)] = np.inf
         return int(group[np.lexsort((group, lean[at], cost[at]))[0]])
 
-    def candidates(self, group: Integers, weight: float, most: int) -> Integers:
+    def candidates(self, group: Whole, weight: float, most: int) -> Whole:
         """The first few polygons, of a plane each, as `splitter` ranks them."""
         self.compute_all(group)
         members, first = np.unique(self.row_of[group], return_index=True)
@@ -111,14 +112,14 @@ class Relations:
         cost, lean = costs(counts, weight)
         return group[first][np.lexsort((group[first], lean, cost))[:most]]
 
-    def forget(self, fragments: Integers) -> None:
+    def forget(self, fragments: Whole) -> None:
         """Undo all cuts since there were `fragments` (rows, fragments) in use."""
         self.fragments.used[:] = fragments
         self.codes[:, fragments[1] :] = UNKNOWN
         gone = self.witness >= fragments[1]
         self.witness[gone] = -1
 
-    def split(self, polygon: int, through: Integers) -> tuple[Integers, Integers, Integers]:
+    def split(self, polygon: int, through: Whole) -> tuple[Whole, Whole, Whole]:
         """Cut the polygons `through` by the plane of a polygon: pieces, their parents, sides.
 
         A piece lies in its parent's plane, so it has its row; where the parent lies on one side
@@ -136,30 +137,31 @@ class Relations:
         self.codes[self.row_of[polygon], pieces] = np.where(side > 0, IN_FRONT, BEHIND)
         return pieces, parents, -side if self.flipped[polygon] else side
 
-    def _enter(self, group: Integers) -> Integers:
+    def _enter(self, group: Whole) -> Whole:
         """Mark who is in the group; returns it with large polygons first."""
         self.alive[:] = False
         self.alive[group] = True
         return group[np.lexsort((group, -self.size[group]))]
 
-    def _geometry(self) -> tuple:
+    def _geometry(self) -> Geometry:
         f = self.fragments
-        shape = (f.shape, f.rows, f.fresh)
-        return shape, f.planes, f.corners, f.slack, self.row_of, self.count
+        return Geometry(
+            f.shape, f.rows, f.fresh, f.planes, f.corners, f.slack, self.row_of, self.count
+        )
 
-    def _decide(self, rows: Integers, polygons: Integers) -> None:
+    def _decide(self, rows: Whole, polygons: Whole) -> None:
         """Test relations that are still unknown, exactly."""
         new = self.codes[rows, polygons] == UNKNOWN
         rows, polygons = rows[new], polygons[new]
         self.codes[rows, polygons] = self.fragments.classify(polygons, rows)
         self.count[0] += len(rows)
 
-    def _against(self, polygons: Integers) -> NDArray[np.bool_]:
+    def _against(self, polygons: Whole) -> NDArray[np.bool_]:
         f = self.fragments
         mine, row = f.planes[f.source[polygons], 3:6], f.planes[self.row_of[polygons], 3:6]
         return (mine * row).sum(axis=1) < 0
 
-    def _sizes(self, polygons: Integers) -> NDArray[np.float64]:
+    def _sizes(self, polygons: Whole) -> NDArray[np.float64]:
         """(p,) squared diagonals of polygons' bounds."""
         f = self.fragments
         parts = [f.rows[f.start[p] : f.start[p] + f.count[p], :3] for p in polygons]
@@ -175,7 +177,7 @@ class Relations:
             setattr(self, name, np.pad(getattr(self, name), (0, more)))
 
 
-def costs(counts: Integers, weight: float) -> tuple[NDArray[np.float64], Integers]:
+def costs(counts: Whole, weight: float) -> tuple[NDArray[np.float64], Whole]:
     """What planes cost and how they lean, from counts (p, 3) in front, behind and cut."""
     front, back, cut = counts.T
     return cut - weight * np.log2(1.0 + np.minimum(front, back)), np.abs(front - back)

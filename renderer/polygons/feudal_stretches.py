@@ -16,7 +16,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.polygons.polygons import Floats, Integers
+from seethrough.renderer.arrays import Floats, Ints32, Whole
 
 # Switches of a knot: its order is written out 2^SWITCHES times. `emit` unrolls this number.
 SWITCHES = 5
@@ -56,7 +56,9 @@ class Stretches:
         return out[: emit(*self.arguments, point, out)]
 
     @property
-    def arguments(self) -> tuple:
+    def arguments(
+        self,
+    ) -> tuple[Floats, NDArray[np.uint64], NDArray[np.int32], Indices, Indices, Indices, int]:
         """What `emit` takes before the point."""
         return (
             self.planes, self.entries, self.spans, self.firsts, self.knots, self.asked, self.depth,
@@ -67,14 +69,14 @@ class Stretches:
 class Lists:
     """A tree as lists of polygons for each node: see `feudal_list.Program`."""
 
-    entries: Integers
+    entries: Whole
     wanted: NDArray[np.uint8]
-    spans: Integers
-    children: Integers
-    switches: Integers
+    spans: Whole
+    children: Whole
+    switches: Whole
 
 
-def knot_roots(children: Integers, switches: Integers, most: int = SWITCHES) -> NDArray[np.bool_]:
+def knot_roots(children: Whole, switches: Whole, most: int = SWITCHES) -> NDArray[np.bool_]:
     """(n,) whether a knot begins at a node: as few knots as can be, of `most` switches at most.
 
     From the leaves up, a node joins its children's knots; where that is too many, the larger
@@ -98,7 +100,7 @@ def knot_roots(children: Integers, switches: Integers, most: int = SWITCHES) -> 
 class _Writer:
     """Writes out the orders of knots."""
 
-    def __init__(self, lists: Lists, bounds: Integers, toward: Integers, planes: int) -> None:
+    def __init__(self, lists: Lists, bounds: Whole, toward: Whole, planes: int) -> None:
         self.spans, self.children, self.switches = lists.spans, lists.children, lists.switches
         self.root = knot_roots(lists.children, lists.switches)
         self.number = np.cumsum(self.root) - 1
@@ -111,7 +113,7 @@ class _Writer:
         items = np.repeat(bounds[lists.entries], counts) + step
         self.rows = _packed(items, np.repeat(condition, counts))
         self.filler = _packed(np.zeros(1, np.int64), np.array([2 * planes + 1]))
-        self.written: list[NDArray] = []
+        self.written: list[NDArray[np.uint64]] = []
         self.length = 0
         self.stretches: list[tuple[int, int, int]] = []
 
@@ -131,7 +133,7 @@ class _Writer:
 
     def _order(self, root: int, front: dict[int, int]) -> None:
         """Each node on the way down, between its children (the far one first), and back up."""
-        parts: list[NDArray] = []
+        parts: list[NDArray[np.uint64]] = []
         stack = [(root, 0)]
         while stack:
             node, step = stack.pop()
@@ -150,7 +152,7 @@ class _Writer:
                     stack.append((child, 0))
         self._stretch(parts, NONE)
 
-    def _stretch(self, parts: list[NDArray], below: int) -> None:
+    def _stretch(self, parts: list[NDArray[np.uint64]], below: int) -> None:
         rows = np.concatenate([*parts, self.filler[:0]])
         fill = np.repeat(self.filler, -len(rows) % BLOCK)
         self.written += [rows, fill]
@@ -159,11 +161,11 @@ class _Writer:
         self.stretches.append((begin, self.length, below))
 
 
-def _packed(items: Integers, conditions: Integers) -> NDArray[np.uint64]:
+def _packed(items: Whole, conditions: Whole) -> NDArray[np.uint64]:
     return (items.astype(np.uint64) << np.uint64(SHIFT)) | conditions.astype(np.uint64)
 
 
-def write_out(lists: Lists, planes: Floats, toward: Integers, bounds: Integers) -> Stretches:
+def write_out(lists: Lists, planes: Floats, toward: Whole, bounds: Whole) -> Stretches:
     """Stretches of a tree. `toward` (m,) is the condition that a polygon faces the eye.
 
     Polygon p is drawn as the items bounds[p] to bounds[p + 1].
@@ -194,7 +196,17 @@ def write_out(lists: Lists, planes: Floats, toward: Integers, bounds: Integers) 
 
 
 @numba.njit(cache=True)
-def emit(planes, entries, spans, firsts, knots, asked, depth, point, out):
+def emit(
+    planes: Floats,
+    entries: NDArray[np.uint64],
+    spans: Ints32,
+    firsts: Indices,
+    knots: Indices,
+    asked: Indices,
+    depth: int,
+    point: Floats,
+    out: Ints32,
+) -> np.uint64:
     """Write what is drawn into `out`, which has BLOCK places to spare; returns how much.
 
     Indices are unsigned throughout: numba tests signed ones for counting from the end.

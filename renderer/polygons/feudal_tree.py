@@ -7,9 +7,9 @@ from typing import Protocol
 
 import numpy as np
 
+from seethrough.renderer.arrays import Whole
 from seethrough.renderer.polygons.feudal_kernels import BEHIND, COPLANAR, CUT, IN_FRONT
 from seethrough.renderer.polygons.feudal_relations import Relations
-from seethrough.renderer.polygons.polygons import Integers
 
 
 @dataclass(slots=True)
@@ -21,19 +21,19 @@ class Node:
     the connecting nodes in front of it and behind. -1: none.
     """
 
-    levels: list[tuple[Integers, Integers]] = field(default_factory=list)
+    levels: list[tuple[Whole, Whole]] = field(default_factory=list)
     switch: int = -1
-    coplanar: Integers = field(default_factory=lambda: np.empty(0, np.int64))
+    coplanar: Whole = field(default_factory=lambda: np.empty(0, np.int64))
     children: list[int] = field(default_factory=lambda: [-1, -1])
 
 
-Work = list[tuple[int, Integers]]
+Work = list[tuple[int, Whole]]
 
 
 class Rule(Protocol):
     """Chooses the polygon whose plane splits a group that none separates."""
 
-    def __call__(self, relations: Relations, group: Integers) -> int: ...
+    def __call__(self, relations: Relations, group: Whole) -> int: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ class Cheapest:
 
     balance: float = 0.0
 
-    def __call__(self, relations: Relations, group: Integers) -> int:
+    def __call__(self, relations: Relations, group: Whole) -> int:
         """The polygon to split by."""
         return relations.splitter(group, self.balance)
 
@@ -50,7 +50,7 @@ class Cheapest:
 PAPER = Cheapest()
 
 
-def build_static(relations: Relations, group: Integers, rule: Rule = PAPER) -> list[Node]:
+def build_static(relations: Relations, group: Whole, rule: Rule = PAPER) -> list[Node]:
     """The whole table first, then the tree (002, "The Static Preprocessing Phase")."""
     relations.compute_all(group)
     nodes = [Node()]
@@ -58,7 +58,7 @@ def build_static(relations: Relations, group: Integers, rule: Rule = PAPER) -> l
     return nodes
 
 
-def build_dynamic(relations: Relations, order: Integers, rule: Rule = PAPER) -> list[Node]:
+def build_dynamic(relations: Relations, order: Whole, rule: Rule = PAPER) -> list[Node]:
     """A row at a time, using each as soon as it is there (002, "The Dynamic Preprocessing Phase").
 
     `order` is the input in the random order the paper asks for.
@@ -102,15 +102,13 @@ def settle(relations: Relations, nodes: list[Node], work: Work, rule: Rule) -> N
         work += divide(relations, nodes, node, switch, group)
 
 
-def _sides(relations: Relations, polygon: int, group: Integers) -> tuple[int, int]:
+def _sides(relations: Relations, polygon: int, group: Whole) -> tuple[int, int]:
     """How many of a group lie in front of a polygon and behind it."""
     row = relations.row(polygon, group)
     return int(np.count_nonzero(row == IN_FRONT)), int(np.count_nonzero(row == BEHIND))
 
 
-def divide(
-    relations: Relations, nodes: list[Node], node: Node, switch: int, group: Integers
-) -> Work:
+def divide(relations: Relations, nodes: list[Node], node: Node, switch: int, group: Whole) -> Work:
     """Put a switch under a connecting node; returns the new nodes with their groups."""
     row = relations.row(switch, group)
     node.switch, node.coplanar = switch, group[row == COPLANAR]
@@ -131,7 +129,7 @@ def divide(
     return work
 
 
-def _peel(relations: Relations, node: Node, group: Integers) -> tuple[int, Integers]:
+def _peel(relations: Relations, node: Node, group: Whole) -> tuple[int, Whole]:
     """Rows of a group in turn: absolute priority leaves at once, a separating plane ends it.
 
     Returns the separating polygon, or -1 when every plane cuts some of the group, and the group.

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Whole
 from seethrough.renderer.polygons.cutting import COUNT, SOURCE, START, classify, cut, interpolate
-from seethrough.renderer.polygons.polygons import Integers, Polygons, check
+from seethrough.renderer.polygons.polygons import Polygons, check
 from seethrough.renderer.polygons.predicates import (
     has_area,
     plane_corners,
@@ -85,7 +86,7 @@ class Fragments:
         """Input polygon of each fragment."""
         return self.shape[:, SOURCE]
 
-    def classify(self, fragments: Integers, splitters: Integers) -> NDArray[np.int8]:
+    def classify(self, fragments: Whole, splitters: Whole) -> NDArray[np.int8]:
         """COPLANAR, IN_FRONT, BEHIND or CUT of each fragment against its splitter."""
         code = np.empty(len(fragments), np.int8)
         # Few corners are undecided as a rule; if more are, once more with room for all.
@@ -110,7 +111,7 @@ class Fragments:
             np.bitwise_or.at(code, who, bits.astype(np.int8))
         return code
 
-    def cut(self, fragments: Integers, splitters: Integers) -> tuple[Integers, Integers, Integers]:
+    def cut(self, fragments: Whole, splitters: Whole) -> tuple[Whole, Whole, Whole]:
         """Cut what `classify` just found CUT by the same splitters.
 
         Returns the pieces, the position of each piece's parent in `fragments`, and its side.
@@ -136,7 +137,7 @@ class Fragments:
             )
         return np.arange(begin, begin + made), out[0, :made].copy(), out[1, :made].copy()
 
-    def polygons(self, fragments: Integers) -> Polygons:
+    def polygons(self, fragments: Whole) -> Polygons:
         """Some fragments, as polygons, their attributes interpolated."""
         first, counts = self.start[fragments].astype(np.int64), self.count[fragments]
         starts = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
@@ -153,7 +154,7 @@ class Fragments:
         )
         return self._unit_normals(made, rows, np.repeat(source, counts))
 
-    def _unit_normals(self, made: Polygons, rows: Integers, source: Integers) -> Polygons:
+    def _unit_normals(self, made: Polygons, rows: Whole, source: Whole) -> Polygons:
         """Vertex normals of cut points as long as one again; where they cancel, the plane's."""
         at = made.normals
         cut = np.flatnonzero(self.fresh[rows])
@@ -179,7 +180,7 @@ class Fragments:
                 setattr(self, name, _grown(getattr(self, name), needed))
 
 
-def _grown(array: NDArray, needed: int) -> NDArray:
+def _grown(array: NDArray[np.generic], needed: int) -> NDArray[np.generic]:
     larger = np.empty((max(needed, len(array) * 5 // 4), *array.shape[1:]), array.dtype)
     larger[: len(array)] = array
     return larger

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from seethrough.renderer.arrays import Floats, Whole
 
 # Coordinates beyond this overflow in the cubic terms of a side test.
 LARGEST = 1e90
@@ -31,24 +30,24 @@ class Polygons:
     """
 
     vertices: Floats
-    starts: Integers
+    starts: Whole
     attributes: Floats
-    objects: Integers
+    objects: Whole
     normals: int = -1
 
     def __len__(self) -> int:
         return len(self.starts) - 1
 
     @property
-    def counts(self) -> Integers:
+    def counts(self) -> Whole:
         """(m,) corners of each polygon."""
         return np.diff(self.starts)
 
-    def corners(self, index: int) -> Floats:
+    def corners(self, index: int | np.integer) -> Floats:
         """(c, 3) corners of one polygon."""
         return self.vertices[self.starts[index] : self.starts[index + 1]]
 
-    def take(self, indices: Integers) -> Polygons:
+    def take(self, indices: Whole) -> Polygons:
         """The polygons at `indices`, in that order."""
         indices = np.asarray(indices, np.int64)
         counts = self.counts[indices]
@@ -62,7 +61,7 @@ class Polygons:
 def polygons_from(
     faces: Sequence[Sequence[Sequence[float]] | Floats],
     attributes: Sequence[Floats] | None = None,
-    objects: Integers | None = None,
+    objects: Whole | None = None,
 ) -> Polygons:
     """Polygons from a list of (c, 3) corners each. Raises ValueError as `check` does."""
     loops = [np.asarray(face, np.float64).reshape(-1, 3) for face in faces]
@@ -84,7 +83,7 @@ def triangles_from(
     vertices: Floats,
     triangles: NDArray[np.integer],
     attributes: Floats | None = None,
-    objects: Integers | None = None,
+    objects: Whole | None = None,
 ) -> Polygons:
     """Polygons from (v, 3) vertices, (m, 3) vertex indices and (v, k) vertex attributes."""
     triangles = np.asarray(triangles, np.int64).reshape(-1, 3)
@@ -142,11 +141,10 @@ def check(polygons: Polygons) -> None:
     if len(polygons) == 0:
         return
     with np.errstate(invalid="ignore"):
-        usable = np.abs(polygons.vertices) < LARGEST
-    _refuse(polygons, usable.all(axis=1), polygons.vertices, f"finite and below {LARGEST:g}")
-    _refuse(
-        polygons, np.isfinite(polygons.attributes).all(axis=1), polygons.attributes, "finite values"
-    )
+        usable = np.all(np.abs(polygons.vertices) < LARGEST, axis=1)
+    _refuse(polygons, usable, polygons.vertices, f"finite and below {LARGEST:g}")
+    finite = np.all(np.isfinite(polygons.attributes), axis=1)
+    _refuse(polygons, finite, polygons.attributes, "finite values")
     _check_flatness(polygons)
 
 

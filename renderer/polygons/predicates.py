@@ -17,7 +17,8 @@ import numpy as np
 from igl import predicates as igl_predicates
 from numpy.typing import NDArray
 
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons, newell
+from seethrough.renderer.arrays import Floats, Whole
+from seethrough.renderer.polygons.polygons import Polygons, newell
 
 # (7 + 56 eps) eps with eps = 2^-53: ORIENT3D's bound A, relative to the permanent.
 ERROR_BOUND = (7.0 + 56.0 * 2.0**-53) * 2.0**-53
@@ -115,7 +116,7 @@ def exact_sides(corners: Floats, points: Floats) -> NDArray[np.int8]:
 def has_area(corners: Floats) -> NDArray[np.bool_]:
     """(m,) whether planes (m, 3, 3) are planes at all: exact, by the three axis projections."""
     rows = plane_rows(corners)
-    spread = (np.abs(rows[:, 3:6]) > 2 * ERROR_BOUND * rows[:, 6:9]).any(axis=1)
+    spread = np.any(np.abs(rows[:, 3:6]) > 2 * ERROR_BOUND * rows[:, 6:9], axis=1)
     doubtful = np.flatnonzero(~spread)
     for axis in range(3):
         # Flattened along an axis, the corners turn iff a point above their plane is off it.
@@ -163,7 +164,7 @@ def thickness(polygons: Polygons, corners: Floats) -> Floats:
 
 
 def paper_sides(
-    corners: Floats, points: Floats, tolerance: float = 1e-3, dtype: type = np.float32
+    corners: Floats, points: Floats, tolerance: float = 1e-3, dtype: type[np.floating] = np.float32
 ) -> NDArray[np.int8]:
     """The side test as paper 001 writes it: (x - p) · n against a fixed threshold.
 
@@ -179,7 +180,7 @@ def paper_sides(
     return np.where(np.abs(distance) <= tolerance, 0, np.sign(distance)).astype(np.int8)
 
 
-def plane_ids(polygons: Polygons, corners: Floats, slack: Floats) -> Integers:
+def plane_ids(polygons: Polygons, corners: Floats, slack: Floats) -> Whole:
     """(m,) a number for each distinct plane, whichever way a polygon faces.
 
     Two polygons share a number only if every corner of one lies in the other's plane: exactly,
@@ -210,7 +211,7 @@ def plane_ids(polygons: Polygons, corners: Floats, slack: Floats) -> Integers:
     return ids
 
 
-def _rounded_planes(corners: Floats) -> Integers:
+def _rounded_planes(corners: Floats) -> Whole:
     """(m,) hashes of coefficients rounded to six digits, facing one way."""
     normal = plane_rows(corners)[:, 3:6]
     length = np.linalg.norm(normal, axis=1, keepdims=True)

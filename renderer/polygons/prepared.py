@@ -8,7 +8,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons
+from seethrough.renderer.arrays import Floats, Whole
+from seethrough.renderer.polygons.polygons import Polygons
 from seethrough.renderer.polygons.predicates import plane_corners, plane_rows
 from seethrough.renderer.polygons.triangulation import triangulate
 
@@ -54,23 +55,23 @@ class Drawable:
     """
 
     polygons: Polygons
-    source: Integers
+    source: Whole
     triangles: NDArray[np.int32]
-    bounds: Integers
+    bounds: Whole
 
     @property
-    def owner(self) -> Integers:
+    def owner(self) -> Whole:
         """(t,) output polygon of each triangle."""
         return np.repeat(np.arange(len(self.polygons)), np.diff(self.bounds))
 
-    def triangle_order(self, polygons: Integers) -> NDArray[np.int32]:
+    def triangle_order(self, polygons: Whole) -> NDArray[np.int32]:
         """Triangle indices of output polygons in the order given."""
         first, counts = self.bounds[polygons], np.diff(self.bounds)[polygons]
         starts = np.cumsum(counts) - counts
         return (np.repeat(first - starts, counts) + np.arange(counts.sum())).astype(np.int32)
 
 
-def drawable(polygons: Polygons, source: Integers, planes: Floats | None = None) -> Drawable:
+def drawable(polygons: Polygons, source: Whole, planes: Floats | None = None) -> Drawable:
     """Output polygons as triangles; `planes` are `plane_rows` of the source polygons."""
     if planes is None:
         planes = plane_rows(plane_corners(polygons))
@@ -84,8 +85,13 @@ def drawable(polygons: Polygons, source: Integers, planes: Floats | None = None)
 class Prepared(Protocol):
     """A set of polygons that can be ordered for any eye."""
 
-    drawable: Drawable
-    stats: Stats
+    @property
+    def drawable(self) -> Drawable:
+        """What comes out, and is drawn."""
+
+    @property
+    def stats(self) -> Stats:
+        """What it cost."""
 
     def order(self, eye: Floats | None = None, view: Floats | None = None) -> NDArray[np.int32]:
         """(t,) indices into `drawable.triangles`, from back to front.

@@ -8,7 +8,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.polygons.polygons import Floats, Integers
+from seethrough.renderer.arrays import Bytes, Floats, Ints32, Whole
 
 Indices = NDArray[np.uint32]
 # Which way an item faces: away from its node's normal, along it, or it is drawn either way.
@@ -40,13 +40,13 @@ class Tree:
         return out[: emit(*self.arguments, point, out)]
 
     @property
-    def arguments(self) -> tuple:
+    def arguments(self) -> tuple[Floats, Indices, Indices, Indices, Bytes]:
         """What `emit` takes before the point."""
         return self.planes, self.children, self.items, self.sizes, self.facing
 
 
 def tree(
-    planes: Floats, children: Integers, items: Integers, facing: NDArray[np.uint8], depth: int
+    planes: Floats, children: Whole, items: Whole, facing: NDArray[np.uint8], depth: int
 ) -> Tree:
     """A tree from nodes whose `children` are -1 where there is none."""
     n = len(planes)
@@ -56,7 +56,7 @@ def tree(
 
 
 @numba.njit(cache=True)
-def _subtree_sizes(children, own):
+def _subtree_sizes(children: Indices, own: Indices) -> Indices:
     sizes = own.copy()
     for node in range(len(children) - 1, -1, -1):
         sizes[node] += sizes[children[node, 0]] + sizes[children[node, 1]]
@@ -64,7 +64,15 @@ def _subtree_sizes(children, own):
 
 
 @numba.njit(cache=True)
-def emit(planes, children, items, sizes, facing, point, out):
+def emit(
+    planes: Floats,
+    children: Indices,
+    items: Indices,
+    sizes: Indices,
+    facing: Bytes,
+    point: Floats,
+    out: Ints32,
+) -> np.uint64:
     """Write what is drawn into `out`; returns how much.
 
     One pass over the nodes: a node's place in the order is known when its parent's is. Which

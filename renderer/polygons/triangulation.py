@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.polygons.polygons import Floats, Integers, Polygons, newell
+from seethrough.renderer.arrays import Floats, Whole
+from seethrough.renderer.polygons.polygons import Polygons, newell
 
 
-def triangulate(polygons: Polygons, normals: Floats) -> tuple[NDArray[np.int32], Integers]:
+def triangulate(polygons: Polygons, normals: Floats) -> tuple[NDArray[np.int32], Whole]:
     """(t, 3) corner rows of all triangles, polygon by polygon, and (m + 1,) where each begins.
 
     `normals` (m, 3) are those of the source planes. A polygon of c corners gives c - 2 triangles.

@@ -8,6 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools, Floats, Ints
 from seethrough.renderer.scene import lighting, projection
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object, Scene
@@ -49,7 +50,7 @@ def fragments(scene: Scene, camera: Camera, size: tuple[int, int]) -> Fragments:
     return Fragments(depth, color, surface, tuple(outlines), near_edge)
 
 
-def _lit(depth, normals, points, colors, camera):  # type: ignore[no-untyped-def]
+def _lit(depth: Floats, normals: Floats, points: Floats, colors: Floats, camera: Camera) -> Floats:
     """Colours of one object's surface; its normals and points are in camera coordinates."""
     there = np.isfinite(depth)
     lit = np.zeros_like(colors)
@@ -115,7 +116,16 @@ def _clipped(
 
 
 @njit(cache=True)
-def _rasterise(pieces, owners, depth, normals, points, colors, surface, near_edge):  # type: ignore[no-untyped-def]
+def _rasterise(
+    pieces: Floats,
+    owners: Ints,
+    depth: Floats,
+    normals: Floats,
+    points: Floats,
+    colors: Floats,
+    surface: Ints,
+    near_edge: Bools,
+) -> None:
     """Keep the nearest surface of one object at each pixel centre."""
     height, width = depth.shape
     for t in range(len(pieces)):
@@ -149,7 +159,7 @@ def _rasterise(pieces, owners, depth, normals, points, colors, surface, near_edg
 
 
 @njit(cache=True)
-def to_edges(p, x, y):  # type: ignore[no-untyped-def]
+def to_edges(p: Floats, x: float, y: float) -> float:
     """Distance from (x, y) to the nearest edge of a triangle."""
     best = np.inf
     for k in range(3):
@@ -162,7 +172,7 @@ def to_edges(p, x, y):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def covered(outline, height, width):  # type: ignore[no-untyped-def]
+def covered(outline: Floats, height: int, width: int) -> Bools:
     """(height, width) whether a pixel's centre lies in one of the (k, 3, 2) triangles."""
     found = np.zeros((height, width), np.bool_)
     for t in range(len(outline)):
@@ -181,7 +191,7 @@ def covered(outline, height, width):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def distances(outline, height, width, reach):  # type: ignore[no-untyped-def]
+def distances(outline: Floats, height: int, width: int, reach: float) -> Floats:
     """(height, width) distance of pixel centres to the nearest triangle's edge, inf if > reach."""
     distance = np.full((height, width), np.inf)
     for t in range(len(outline)):

@@ -79,7 +79,9 @@ def _composed(seen: Surfaces, look: Look, edges: Bools) -> ExactPicture:
     shape = (n, height, width)
     return ExactPicture(
         picture.reshape(height, width, 3),
-        *(array.reshape(shape) for array in (weights, left, depth)),
+        weights.reshape(shape),
+        left.reshape(shape),
+        depth.reshape(shape),
         near.reshape(height, width),
     )
 

@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools, Floats
 from seethrough.renderer.reference.pixel_fragments import to_edges, triangles
 from seethrough.renderer.techniques.base import Shot, Surfaces
 
@@ -44,10 +45,11 @@ def surfaces(shot: Shot) -> tuple[Surfaces, NDArray[np.bool_]]:
         starts=np.searchsorted(pixel, np.arange(width * height + 1)),
         outlines=tuple(outlines),
         edge=near_edge[0].ravel(),
+        edges=near_edge.any(axis=0).ravel(),
     ), near_edge
 
 
-def _converted(pieces, front, width, near_edge):  # type: ignore[no-untyped-def]
+def _converted(pieces: Floats, front: Bools, width: int, near_edge: Bools) -> Floats:
     """(m, 14) pixel, piece, whether it faces the eye, depth, slack, then normal, point and colour
     in camera coordinates, of one object's surfaces."""
     count = _scan(pieces, front, width, near_edge, np.zeros((0, 14)))
@@ -57,7 +59,7 @@ def _converted(pieces, front, width, near_edge):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _scan(pieces, front, width, near_edge, rows):  # type: ignore[no-untyped-def]
+def _scan(pieces: Floats, front: Bools, width: int, near_edge: Bools, rows: Floats) -> int:
     """Put a row for each piece and pixel whose middle it covers, where there is room for rows.
     Returns how many there are."""
     height = near_edge.shape[1]

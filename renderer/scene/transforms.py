@@ -26,7 +26,7 @@ def rotation(axis: ArrayLike, angle: float) -> NDArray[np.float64]:
     direction = np.asarray(axis, float)
     length = np.linalg.norm(direction)
     if not (np.isfinite(length) and length > 0):
-        raise ValueError(f"axis = {axis}, expected a direction of length > 0")
+        raise ValueError(f"axis = {axis!s}, expected a direction of length > 0")
     x, y, z = direction / length
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     matrix = np.eye(4)

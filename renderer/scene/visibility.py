@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Bytes, Floats, Ints
+from seethrough.renderer.arrays import Bytes, Floats, Ints, Real
 
 # An object with less than this share of a pixel is not seen there: 1 in 64 changes a display's
 # colour by at most 4 of 255 steps, about the smallest difference people notice side by side.
@@ -84,17 +84,17 @@ def visibility_of_shares(
     return _measured(which, pixel, share, picture, objects)
 
 
-def _measured(which: Ints, pixel: Ints, share: Floats, picture: Bytes, objects: int) -> Visibility:
+def _measured(which: Ints, pixel: Ints, share: Real, picture: Bytes, objects: int) -> Visibility:
     height, width = picture.shape[:2]
     row, column = np.divmod(pixel, width)
     count = np.bincount(which, minlength=objects)
-    total = np.bincount(which, share, objects)
+    total = np.bincount(which, share, objects).astype(float, copy=False)
     with np.errstate(invalid="ignore"):
         x = np.bincount(which, share * (column + 0.5), objects) / total / height
         y = np.bincount(which, share * (row + 0.5), objects) / total / height
         weight = np.where(count > 0, total / np.maximum(count, 1), 0.0)
     colors = picture.reshape(-1, 3)[pixel] / 255.0
-    own = np.stack([np.bincount(which, share * colors[:, k], objects) for k in range(3)], 1)
+    own: Floats = np.stack([np.bincount(which, share * colors[:, k], objects) for k in range(3)], 1)
     contrast = _contrast(which, row, column, own, total, picture)
     return Visibility(count, weight, np.stack([x, y], axis=1), contrast, total / (width * height))
 

@@ -15,7 +15,7 @@ uniform float lens;    // pixels for a slope of 1
 
 layout(location = 0) out vec4 picture;
 #ifdef PEELED
-layout(location = 1) out vec2 place;  // depth as the depth buffer has it, the object's number + 1
+layout(location = 1) out vec4 place;  // the buffer's depth, the object's number + 1, the normal
 #elif defined(WITH_IDS)
 layout(location = 1) out float id;
 #endif
@@ -37,6 +37,7 @@ vec4 tinted = vec4(0.0);  // a rule may set a colour, and how much of it covers 
 
 #ifdef PEELED
 uniform bool nearest;       // whether this is the first layer
+uniform bool lined;         // whether layers get lines along their edges, which covered ones keep
 uniform sampler2D above;    // `place` of the layer before
 uniform sampler2D below;    // of what is opaque
 uniform sampler2D covered;  // colour and opacity of all layers before
@@ -48,7 +49,7 @@ void main() {
     vec2 before = texelFetch(above, texel, 0).xy;
     if (!nearest && (before.y == 0.0 || gl_FragCoord.z <= before.x)) discard;
     if (gl_FragCoord.z >= texelFetch(below, texel, 0).x) discard;
-    if (texelFetch(covered, texel, 0).a >= 0.9999) discard;
+    if (!lined && texelFetch(covered, texel, 0).a >= 0.9999) discard;
 #endif
     Surface s;
     s.offset = offset;
@@ -66,7 +67,9 @@ void main() {
     lit = mix(lit, tinted.rgb, tinted.a);
 #ifdef PEELED
     picture = vec4(lit * shown, shown);
-    place = vec2(gl_FragCoord.z, float(object + 1));
+    vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    place = vec4(gl_FragCoord.z, float(object + 1), n.z >= 0.0 ? n.xy : folded);
 #else
     picture = vec4(lit, 1.0);
 #endif

@@ -61,11 +61,11 @@ class Shot:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What stands there in this frame: the scene, perhaps with moved transforms; objects, meshes
-    and flags stay as they are. `traces` (k, 2, 3) are lines in the world, drawn where they show."""
+    """What stands there in this frame: the scene, perhaps with moved transforms. Its objects keep
+    their indices, meshes and flags; what a technique adds, as traces, comes after them. Where
+    nothing moves it is the scene itself."""
 
     scene: Scene
-    traces: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,8 @@ class Surfaces:
     color (m, 3) is unlit; slack (m,) is by how much its depth may differ where float32 and float64
     put edges 1/256 pixel apart. starts (h·w + 1,) says where each pixel's rows begin; outlines has
     for each object its front-facing triangles (k, 3, 2) in pixels, cut at the near plane; edge
-    (h·w,) are the pixels within 1/256 pixel of the edge of a triangle that faces the eye.
+    (h·w,) are the pixels within 1/256 pixel of the edge of a triangle that faces the eye,
+    `edges` of any triangle.
     """
 
     shot: Shot
@@ -95,6 +96,7 @@ class Surfaces:
     starts: Indices
     outlines: tuple[Floats, ...]
     edge: Bools
+    edges: Bools
 
     @property
     def targets(self) -> Bools:
@@ -140,7 +142,7 @@ class Look:
     """How each row of Surfaces shows: kept (m,); opacity (m,), of what is kept; tint (m, 4): a
     colour, and how much of it covers the lit one; doubt (m,): rows so near a border of the rule
     that float32 may decide otherwise, whose pixels are not compared. `additive`: opacities of a
-    line of sight add up (004 §III-A) instead of multiplying."""
+    line of sight add up (Elmqvist2009 §III-A) instead of multiplying."""
 
     kept: Bools
     opacity: Floats
@@ -203,11 +205,17 @@ class Technique(Protocol):
     def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
         """(n,) a number of each object's, the Surface's `number` in `glsl`."""
 
+    def drawn(self, p: Any, state: Any) -> Any:
+        """The parameters as the state has them, for a painter that knows parameters alone."""
+
     def sides(self, p: Any) -> bool:
         """Whether back faces can show."""
 
     def layers(self, p: Any) -> int | None:
         """How many layers are peeled at most; None: all."""
+
+    def edges(self, p: Any) -> Mapping[str, Any]:
+        """What shaders/edges.frag draws lines with along the edges of each layer; empty: none."""
 
     def looked_at(self, p: Any) -> Any:
         """The parameters with which `look` finds what is seen."""
@@ -268,6 +276,10 @@ class Plain:
         """1 what may be penetrated, 0 targets and what may not."""
         return (~(scene.targets | scene.impenetrable)).astype(np.int64)
 
+    def drawn(self, p: Any, state: Any) -> Any:
+        """As they are."""
+        return p
+
     def sides(self, p: Any) -> bool:
         """They can."""
         return True
@@ -275,6 +287,10 @@ class Plain:
     def layers(self, p: Any) -> int | None:
         """All."""
         return None
+
+    def edges(self, p: Any) -> Mapping[str, Any]:
+        """No lines."""
+        return {}
 
     def looked_at(self, p: Any) -> Any:
         """As it is drawn."""

@@ -8,6 +8,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints
+
 
 def least_of_greatest(
     functions: Sequence[NDArray[np.float64]], size: tuple[int, int]
@@ -33,21 +35,46 @@ def _above(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
     return bool((a[:, :, None] >= b[:, None, :]).all(axis=0).any(axis=0).all())
 
 
+TILE = 32
+
+
 @njit(cache=True)
-def _least_of_greatest(rows, starts, width, height):  # type: ignore[no-untyped-def]
+def _least_of_greatest(rows: Floats, starts: Ints, width: int, height: int) -> Floats32:
     out = np.empty((height, width), np.float32)
-    for r in range(height):
-        least = np.full(width, np.inf)
-        greatest = np.empty(width)
-        for s in range(len(starts) - 1):
-            greatest[:] = -np.inf
-            for k in range(starts[s], starts[s + 1]):
-                slope = rows[k, 0]
-                level = rows[k, 1] * (r + 0.5) + rows[k, 2] + 0.5 * slope
-                for c in range(width):
-                    greatest[c] = max(greatest[c], level + slope * c)
-            for c in range(width):
-                least[c] = min(least[c], greatest[c])
-        for c in range(width):
-            out[r, c] = 1.0 / least[c]
+    sets = len(starts) - 1
+    low, high = np.empty(sets), np.empty(sets)
+    kept = np.empty((len(rows), 3))
+    for top in range(0, height, TILE):
+        for left in range(0, width, TILE):
+            bottom, right = min(top + TILE, height), min(left + TILE, width)
+            # What the greatest of a set is at most and at least in the tile: at its corners.
+            for s in range(sets):
+                low[s], high[s] = -np.inf, -np.inf
+                for k in range(starts[s], starts[s + 1]):
+                    a, b, c = rows[k]
+                    x0, x1, y0, y1 = a * left, a * right, b * top, b * bottom
+                    low[s] = max(low[s], c + min(x0, x1) + min(y0, y1))
+                    high[s] = max(high[s], c + max(x0, x1) + max(y0, y1))
+            bound = high.min()
+            for r in range(top, bottom):
+                out[r, left:right] = np.inf
+            for s in range(sets):
+                if low[s] > bound:
+                    continue
+                count = 0
+                for k in range(starts[s], starts[s + 1]):
+                    a, b, c = rows[k]
+                    if c + max(a * left, a * right) + max(b * top, b * bottom) >= low[s]:
+                        kept[count] = rows[k]
+                        count += 1
+                for r in range(top, bottom):
+                    for c in range(left, right):
+                        greatest = -np.inf
+                        for k in range(count):
+                            value = kept[k, 0] * (c + 0.5) + kept[k, 1] * (r + 0.5) + kept[k, 2]
+                            greatest = max(greatest, value)
+                        out[r, c] = min(out[r, c], np.float32(greatest))
+            for r in range(top, bottom):
+                for c in range(left, right):
+                    out[r, c] = np.float32(1.0) / out[r, c]
     return out

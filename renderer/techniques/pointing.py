@@ -50,5 +50,5 @@ def followed(state: Pointing, event: Any, step: float) -> tuple[Pointing, bool]:
         factor = 1 + step if event.key == "e" else 1 / (1 + step)
         return replace(state, depth=state.depth * factor), True
     if kind == "Wheel":
-        return replace(state, depth=state.depth * (1 + step) ** event.steps), True
+        return replace(state, depth=state.depth * (1 + step) ** event.dy), True
     return state, False

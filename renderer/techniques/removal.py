@@ -106,7 +106,7 @@ def reached(shot: base.Shot, extents: Floats, depth: Floats) -> Bools:
         boxes = screen_boxes(scene.corners, shot.camera, shot.size)
         low = (boxes.extents[:, None, :2] <= extents[None, :, 2:]).all(axis=2)
         high = (boxes.extents[:, None, 2:] >= extents[None, :, :2]).all(axis=2)
-        found = (low & high & (boxes.near[:, None] <= depth)).any(axis=1)
+        found = np.any(low & high & (boxes.near[:, None] <= depth), axis=1)
     return found & ~scene.targets & ~scene.impenetrable
 
 

@@ -64,7 +64,8 @@ def new_ones(
         draw < forget if i in counted else draw >= mistake
         for i, draw in zip(red.tolist(), draws, strict=True)
     ]
-    return red[np.array(taken, dtype=bool)]
+    new: NDArray[np.int64] = red[np.array(taken, dtype=bool)]
+    return new
 
 
 STRATEGY = Strategy(

@@ -21,12 +21,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """What the participant should see now. `captured`: the pointer turns the viewer, unseen."""
+    """What the participant should see now. `captured`: the pointer turns the viewer, unseen.
+    `drawn`: what events have made of the technique's state, which the session keeps."""
 
     scene: Scene
     camera: Camera
     hud: tuple[Element, ...] = ()
     captured: bool = False
+    drawn: Any = None
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,8 @@ def _in_ring(mesh: Mesh, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     reach = np.hypot(mesh.vertices[:, 0], mesh.vertices[:, 2])
     radius, tube = (reach.max() + reach.min()) / 2, (reach.max() - reach.min()) / 2
     away = np.hypot(np.hypot(points[:, 0], points[:, 2]) - radius, points[:, 1])
-    return away <= tube + SLACK
+    inside: NDArray[np.bool_] = away <= tube + SLACK
+    return inside
 
 
 def enclosing_pairs(objects: list[Object] | tuple[Object, ...]) -> list[tuple[int, int]]:

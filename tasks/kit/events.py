@@ -46,6 +46,38 @@ class PointerRelease:
 
 
 @dataclass(frozen=True)
+class SecondPress:
+    """The right button went down. Only techniques that say so take it."""
+
+    time: float
+    x: float
+    y: float
+    within: float = 0.0
+
+
+@dataclass(frozen=True)
+class SecondRelease:
+    """The right button went up."""
+
+    time: float
+    x: float
+    y: float
+    within: float = 0.0
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """The wheel turned at (x, y) by `dy` steps, away from the user above 0. Only techniques that
+    say so take it."""
+
+    time: float
+    x: float
+    y: float
+    dy: float
+    within: float = 0.0
+
+
+@dataclass(frozen=True)
 class KeyPress:
     """A key went down."""
 
@@ -79,4 +111,15 @@ class Tick:
     time: float
 
 
-Event = PointerMove | PointerPress | PointerRelease | KeyPress | KeyRelease | FocusChange | Tick
+Event = (
+    PointerMove
+    | PointerPress
+    | PointerRelease
+    | SecondPress
+    | SecondRelease
+    | Wheel
+    | KeyPress
+    | KeyRelease
+    | FocusChange
+    | Tick
+)

@@ -20,7 +20,8 @@ MISTAKEN_SHAPE = 0.25  # of unclear red things, how many are taken for cones [ou
 ANGLES = np.arange(36) * (2 * np.pi / 36)
 
 # How one draws the five letters in one's mind: strokes between (x, z), top at z = −1.
-STROKES = {
+Stroke = tuple[tuple[float, float], tuple[float, float]]
+STROKES: dict[str, list[Stroke]] = {
     "C": [((0.6, -0.7), (0, -1)), ((0, -1), (-0.6, -0.7)), ((-0.6, -0.7), (-0.6, 0.7)),
           ((-0.6, 0.7), (0, 1)), ((0, 1), (0.6, 0.7))],
     "K": [((-0.6, -1), (-0.6, 1)), ((-0.6, 0), (0.6, -1)), ((-0.6, 0), (0.6, 1))],
@@ -68,7 +69,10 @@ def _cones(mood: Mood, glance: Glance, red: NDArray[np.int64]) -> NDArray[np.int
 
 
 def _remember(
-    mood: Mood, glance: Glance, cones: NDArray[np.int64], places: dict[int, list]
+    mood: Mood,
+    glance: Glance,
+    cones: NDArray[np.int64],
+    places: dict[int, list[NDArray[np.float64]]],
 ) -> None:
     """Where each cone seems to be on the floor of the world: sharp across the view, not along."""
     eye = glance.view.camera.eye

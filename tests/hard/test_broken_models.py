@@ -8,7 +8,7 @@ from model_cases import RGB, TRIANGLES, XYZ, mtl, plain
 from model_cases_gltf import pbr
 from model_files import CUBE, QUADS, Gltf, logo, obj, ply, png, stl
 
-from seethrough.renderer.models.user import load_model, read_model
+from seethrough.renderer.models.user import MOST_TRIANGLES, load_model, read_model
 
 LIST = [(("uchar", "int"), "vertex_indices")]
 
@@ -212,3 +212,19 @@ def test_copies_need_one_number_of_entries_and_not_too_many(tmp_path, counts, sa
         with pytest.raises(ValueError, match=says) as caught:
             load_model(path)
         assert "\n" not in str(caught.value)
+
+
+def test_triangles_are_counted_over_all_parts_of_a_scene(tmp_path):
+    """A mesh of a third of what may be, four times: no single part is too many."""
+    g = Gltf()
+    made = g.primitive([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    third = MOST_TRIANGLES // 3
+    # An accessor without a view is zeros: a file of a few bytes.
+    g.json["accessors"].append({"componentType": 5121, "count": 3 * third, "type": "SCALAR"})
+    made["indices"] = len(g.json["accessors"]) - 1
+    g.json["nodes"] = [{"mesh": 0} for _ in range(4)]
+    g.json["scenes"] = [{"nodes": [0, 1, 2, 3]}]
+    path = tmp_path / "large.glb"
+    path.write_bytes(g.binary())
+    with pytest.raises(ValueError, match=rf"{4 * third} triangles: expected at most"):
+        load_model(path)

@@ -1,4 +1,4 @@
-"""Changes the code in one place at a time and asks whether a test notices.
+r"""Changes the code in one place at a time and asks whether a test notices.
 
     python tests/support/mutations.py --sites 120 --seed 1 --coverage FILE [--out FILE]
 
@@ -6,9 +6,11 @@ Sites are drawn evenly from all places in the rooms where an operator applies (a
 or made strict, a sign, a constant, a condition, a call left out). FILE is the database of a run of
 the whole suite in which coverage.py noted which test passes each line:
 
-    python -m pytest -n2 --cov --cov-context=test --cov-report= && mv .coverage FILE
+    python -m pytest -n2 --dist loadscope -p forgetful --cov-context=test --cov-report= \
+      --cov=analysis --cov=experiment --cov=renderer --cov=tasks && mv .coverage FILE
 
-A site is tried in a copy of the checkout, on the tests that pass its line. Kernels are compiled, so
+A site is tried in a copy of the checkout, on the tests that pass its line, then on the others of
+their files, which may look at what the first of them made. Kernels are compiled, so
 coverage.py cannot see their lines, and what is run while a module is imported belongs to no test:
 for those, on all tests that pass any line of the files that use them, first of all those in files
 that name the module. A test that fails catches nothing unless it passes in an unchanged copy.
@@ -184,12 +186,15 @@ class Passed:
     def tests(self, site: Site) -> list[str]:
         """The tests to try, quick kinds first."""
         found = set(self.known.get(site.path, {}).get(site.line, ()))
-        first: set[str] = set()
+        first = found
         if not found or site.compiled:
             module = Path(site.path).with_suffix("").as_posix().replace("/", ".")
             for user in (site.path, *self._users(module)):
                 found |= set().union(*self.known.get(user, {}).values(), set())
             first = {test for test in found if self._names(test.partition("::")[0], module)}
+        else:  # what one test made for all of its file, the others look at
+            files = {test.partition("::")[0] for test in found}
+            found = found | {test for test in self.size if test.partition("::")[0] in files}
         kinds = ("tests/unit", "tests/hard", "tests/images", "tests/contract", "tests/study")
         rank = {kind: k for k, kind in enumerate(kinds)}
         ordered = sorted(

@@ -14,7 +14,16 @@ from seethrough.experiment.study.config import parse
 from seethrough.experiment.study.described import design_entry
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
+from seethrough.tasks.kit.events import (
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerPress,
+    SecondPress,
+    SecondRelease,
+    Tick,
+    Wheel,
+)
 
 FACTORS = {
     "transparency": {"levels": {
@@ -110,13 +119,28 @@ class Script:
         return {"button": "0"}
 
 
-def play_recorded(folder):
+class Handling(Script):
+    """Turns the wheel, presses the right button and keys as well."""
+
+    def events(self, view):
+        events = super().events(view)
+        now = self.clock.now()
+        more = {
+            2: [Wheel(now - 0.08, 0.5, 0.5, 3.0)],
+            4: [SecondPress(now - 0.09, 0.5, 0.5), SecondRelease(now - 0.08, 0.5, 0.5)],
+            5: [KeyPress(now - 0.09, "q"), KeyRelease(now - 0.08, "q")],
+            8: [KeyPress(now - 0.09, "e"), KeyRelease(now - 0.08, "e")],
+        }
+        return [*events[:-1], *more.get(self.frames, []), events[-1]]
+
+
+def play_recorded(folder, table=STUDY, script=Script):
     """Play participant P01's session into `folder`."""
-    study = parse(STUDY, "test")
+    study = parse(table, "test")
     clock = SimulatedClock(1000.0)
     display = DrawnDisplay(clock)
     who = Who(
         "t", "P01", "human", 1, provenance(study, display.describe()), design=design_entry(study)
     )
-    world = Surroundings(display, Script(clock), clock, FileRecorder(folder, who), TASKS)
+    world = Surroundings(display, script(clock), clock, FileRecorder(folder, who), TASKS)
     assert run_session(study, 1, world) == "complete"

@@ -64,8 +64,8 @@ def measured(rows: Iterable[Mapping[str, Any]]) -> dict[str, TimeMeasure]:
 
 
 def _measure(values: NDArray[np.float64]) -> TimeMeasure:
-    sds = values.std(axis=0, ddof=1)
-    r = float(np.corrcoef(values.T)[0, 1]) if (sds > 0).all() else 0.0
+    sds = np.std(values, axis=0, ddof=1)
+    r = float(np.asarray(np.corrcoef(values.T))[0, 1]) if (sds > 0).all() else 0.0
     means = values.mean(axis=0)
     return TimeMeasure((float(means[0]), float(means[1])), (float(sds[0]), float(sds[1])), r)
 

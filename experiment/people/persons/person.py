@@ -101,6 +101,7 @@ def _number(task: str) -> int:
 def _stream(rng: Generator, *key: int) -> Generator:
     """The stream of that name below the person's own; drawing from one moves no other."""
     own = rng.bit_generator.seed_seq
+    assert isinstance(own, np.random.SeedSequence)
     return np.random.default_rng(
         np.random.SeedSequence(own.entropy, spawn_key=(*own.spawn_key, *key))
     )

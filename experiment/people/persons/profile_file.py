@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, fields, replace
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.written import write_over
 from seethrough.experiment.errors import InputError, gathered, short, shown, unknown
@@ -47,7 +46,7 @@ def read(path: Path) -> Profile:
         raise InputError(f"{path}: profile.{error}") from None
 
 
-def _faults(values: Mapping[str, Any]) -> Iterator[str]:
+def _faults(values: Mapping[str, object]) -> Iterator[str]:
     """What is wrong with the keys of a profile, a line each."""
     known = sorted(f.name for f in fields(Profile))
     for key, value in values.items():
@@ -58,7 +57,7 @@ def _faults(values: Mapping[str, Any]) -> Iterator[str]:
             yield f"{key} = {shown(value)}: expected a {_word(wanted)}"
 
 
-def write(path: Path, profile: Profile, provenance: Mapping[str, Any]) -> None:
+def write(path: Path, profile: Profile, provenance: Mapping[str, object]) -> None:
     """Write what differs from the average profile, and where it comes from."""
     average = asdict(AVERAGE)
     lines = ["# A profile of simulated participants: a tool for planning studies, never evidence."]
@@ -69,11 +68,11 @@ def write(path: Path, profile: Profile, provenance: Mapping[str, Any]) -> None:
     write_over(path, "\n".join(lines) + "\n")
 
 
-def _word(kind: Any) -> str:
+def _word(kind: object) -> str:
     return "text" if kind is str else "number"
 
 
-def _toml(value: Any) -> str:
+def _toml(value: object) -> str:
     if isinstance(value, str):
         escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
         return f'"{escaped}"'

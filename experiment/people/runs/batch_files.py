@@ -15,7 +15,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.parquet import INSTALL, ParquetWriter
@@ -51,7 +50,9 @@ def chunk_name(slots: Slots) -> str:
     return f"S{slots[0]:05d}-S{slots[-1]:05d}"
 
 
-def render(about: Mapping[str, Any], study: Study, slots: Slots, played: Sequence[Played]) -> Chunk:
+def render(
+    about: Mapping[str, object], study: Study, slots: Slots, played: Sequence[Played]
+) -> Chunk:
     """A chunk's files: `about` is its sidecar, the same for every chunk of a run."""
     stem = stem_of(study.study.name, chunk_name(slots).replace("-", "to"))
     columns = columns_of(study)
@@ -77,7 +78,7 @@ def render(about: Mapping[str, Any], study: Study, slots: Slots, played: Sequenc
     return Chunk(tuple(slots), {**texts, f"{stem}_end.json": _json({**end, "seal": seal_of(end)})})
 
 
-def _plain(rows: Sequence[Mapping[str, Any]], columns: tuple[Column, ...]) -> str:
+def _plain(rows: Sequence[Mapping[str, object]], columns: tuple[Column, ...]) -> str:
     names = [c.name for c in columns]
     lines = [csv_line([cell(row.get(name)) for name in names]) for row in rows]
     return "\n".join([header_of(columns), *lines]) + "\n"
@@ -90,7 +91,7 @@ def columns_of(study: Study) -> dict[str, tuple[Column, ...]]:
 
 
 def _chained(
-    rows: Sequence[Mapping[str, Any]], columns: tuple[Column, ...], chain: str
+    rows: Sequence[Mapping[str, object]], columns: tuple[Column, ...], chain: str
 ) -> tuple[str, str]:
     """The trial table's text, and its chain's end."""
     names = [c.name for c in columns[:-1]]
@@ -102,14 +103,14 @@ def _chained(
     return "\n".join(lines) + "\n", chain
 
 
-def _json(content: Mapping[str, Any]) -> str:
+def _json(content: Mapping[str, object]) -> str:
     return json.dumps(content, indent=2) + "\n"
 
 
 class Results(AbstractContextManager["Results"]):
     """A data folder that grows by chunks. Raises InputError for one of another study or run."""
 
-    def __init__(self, out: Path, study: Study, about: Mapping[str, Any]) -> None:
+    def __init__(self, out: Path, study: Study, about: Mapping[str, object]) -> None:
         self.out = out
         self._folder = out / "data" / "simulated"
         self._check(study, about)
@@ -192,7 +193,7 @@ class Results(AbstractContextManager["Results"]):
                 )
             yield int(found[1]), int(found[2])
 
-    def _check(self, study: Study, about: Mapping[str, Any]) -> None:
+    def _check(self, study: Study, about: Mapping[str, object]) -> None:
         """One folder holds one study, simulated in one way."""
         described = self.out / "dataset_description.json"
         if described.exists():

@@ -15,7 +15,7 @@ from contextlib import closing
 from dataclasses import replace
 from importlib import metadata
 from threading import Lock
-from typing import Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.code_hash import code_sha256
@@ -23,6 +23,9 @@ from seethrough.experiment.people.runs import batch as b
 from seethrough.experiment.people.runs.batch_files import Chunk, Slots, chunk_name
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study, load
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
 
 PATIENCE = 5.0  # seconds until a scheduler or workers that do not answer are not there
 AHEAD = 2  # chunks handed out for each thread of the cluster, so that none waits
@@ -76,7 +79,7 @@ def _said(error: Exception) -> str:
 class _Queue:
     """Chunks in the hands of the cluster, the oldest first."""
 
-    def __init__(self, client: Any, job: b.Batch, study: Study, chunks: Sequence[Slots]) -> None:
+    def __init__(self, client: Client, job: b.Batch, study: Study, chunks: Sequence[Slots]) -> None:
         self._client, self._chunks = client, iter(chunks)
         self._needs = {**_versions(), "code": job.code}
         self._job = pickle.dumps((replace(job, tables=None), study))
@@ -84,7 +87,7 @@ class _Queue:
         if job.tables is not None:
             with closing(KeptLooks(job.tables)) as looks:
                 self._tables = looks.whole()
-        self._waiting: deque[tuple[Slots, Any]] = deque()
+        self._waiting: deque[tuple[Slots, Future[Chunk]]] = deque()
         self._scattered = self._scatter()
 
     def __iter__(self) -> Iterator[Chunk]:
@@ -101,10 +104,11 @@ class _Queue:
                 raise InputError(f"{chunk_name(slots)} was lost with its workers again and again")
             self._again()
 
-    def _scatter(self) -> Any:
-        return self._client.scatter([self._job, self._tables], broadcast=True)
+    def _scatter(self) -> list[Future[bytes]]:
+        sent: list[Future[bytes]] = self._client.scatter([self._job, self._tables], broadcast=True)
+        return sent
 
-    def _submit(self, slots: Slots) -> Any:
+    def _submit(self, slots: Slots) -> Future[Chunk]:
         return self._client.submit(_work, self._needs, *self._scattered, slots, pure=False)
 
     def _fill(self) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.people.participant import SimulatedParticipant
@@ -27,6 +27,9 @@ from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.base import Parameters
+
 Row = dict[str, Any]
 
 
@@ -44,7 +47,7 @@ class TableDisplay:
         """Width / height of the view."""
         return self._aspect
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: Parameters) -> float:
         """Keep the view; the time now."""
         self._shown = view
         self._technique = technique

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.runs import batch as b
-from seethrough.experiment.people.runs.batch_files import Chunk, Results, Slots
+from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Results, Slots
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, find, load
@@ -38,7 +38,7 @@ def run(
         if not chunks:
             print(f"{out}: all {count} participants are there", file=sys.stderr)
             return
-        make_tables(job, min(count, b.CHUNK))
+        make_tables(job, min(count, CHUNK))
         with (
             Progress("simulating", sum(map(len, chunks))) as progress,
             closing(KeptLooks(job.tables)) as tables,

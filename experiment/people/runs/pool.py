@@ -7,7 +7,8 @@ study, the same for everybody, as in the real session.
 from __future__ import annotations
 
 import hashlib
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,9 +20,13 @@ from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Task, View
 from seethrough.tasks.kit.world import OWN
+
+if TYPE_CHECKING:
+    from seethrough.experiment.display.looking import Looking
 
 SIMPLE = "simple models, "  # what tables were looked at with
 POOL = 100  # second word of the pool's streams: no scene set of a study has such a number
@@ -35,7 +40,11 @@ class Pool(StudyScenes):
     """
 
     def __init__(
-        self, study: Study, size: int, draw: Any = None, looks: KeptLooks | None = None
+        self,
+        study: Study,
+        size: int,
+        draw: Callable[[str], Draw] | None = None,
+        looks: KeptLooks | None = None,
     ) -> None:
         if size < 0:
             raise ValueError(f"pool = {size}: expected at least 1 scene a task, 0 for the study's")
@@ -120,13 +129,13 @@ class LazyDraw:
 
     def __init__(self, study: Study) -> None:
         self.study = study
-        self._looking: Any = None
+        self._looking: Looking | None = None
 
     def __call__(self, technique: Any) -> Draw:
         """What draws with a technique."""
         return lambda scene, camera: self._look(scene, camera, technique)
 
-    def _look(self, scene: Scene, camera: Camera, technique: Any) -> Visibility:
+    def _look(self, scene: Scene, camera: Camera, technique: Parameters) -> Visibility:
         if self._looking is None:
             from seethrough.experiment.display.driver import open_context
             from seethrough.experiment.display.looking import Looking

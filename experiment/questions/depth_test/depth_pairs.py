@@ -14,6 +14,7 @@ from seethrough.experiment.study.design import STUDY_SCENES, generator
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import rotation_y
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.base import View
 
@@ -34,7 +35,7 @@ class DepthTest:
     pairs: tuple[tuple[str, str], ...]
     nearer: tuple[int, ...]
 
-    def pages(self, technique: object) -> list[Page]:
+    def pages(self, technique: Parameters) -> list[Page]:
         """The picture once for each pair, large."""
         picture = Picture(lambda: self.view, technique, height=0.56)
         return [

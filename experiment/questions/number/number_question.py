@@ -41,10 +41,17 @@ class NumberQuestion(OnOnePage):
 
     def blocks(self, p: NumberParameters, asking: Asking) -> tuple[TextField, ...]:
         """A field of one line."""
-        limits = {"most": p.high, "least": p.low, "whole": p.whole}
-        return (
-            TextField(asking.name, p.text, 1, wrong=p.wrong, optional=not p.required, **limits),
+        field = TextField(
+            asking.name,
+            p.text,
+            1,
+            wrong=p.wrong,
+            optional=not p.required,
+            most=p.high,
+            least=p.low,
+            whole=p.whole,
         )
+        return (field,)
 
     def rows(self, p: NumberParameters, asking: Asking, number: int, answers: Answers) -> list[Row]:
         """The number, with a point; none where it was left open."""

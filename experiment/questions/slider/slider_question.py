@@ -42,8 +42,9 @@ class SliderQuestion(OnOnePage):
 
     def blocks(self, p: SliderParameters, asking: Asking) -> tuple[Scale, ...]:
         """The slider."""
+        low, high = p.ends
         steps = p.high - p.low + 1
-        return (Scale(asking.name, p.text, *p.ends, steps, (), p.low, True, not p.required),)
+        return (Scale(asking.name, p.text, low, high, steps, (), p.low, True, not p.required),)
 
     def rows(self, p: SliderParameters, asking: Asking, number: int, answers: Answers) -> list[Row]:
         """The value."""

@@ -22,7 +22,11 @@ def standalone(require: int = REQUIRED) -> moderngl.Context:
     problems = []
     for way in ways:
         try:
-            return moderngl.create_context(standalone=True, require=require, **way)
+            return moderngl.create_context(
+                standalone=True,
+                require=require,
+                **way,  # type: ignore[arg-type]  # moderngl's types want a dict for each
+            )
         except Exception as error:  # glcontext raises bare Exception
             problems.append(str(error).strip().splitlines()[0] if str(error) else repr(error))
     raise RuntimeError(

@@ -56,8 +56,10 @@ class GpuMesh:
 
     def release(self) -> None:
         """Give the GPU's memory back."""
-        for thing in (*self._arrays.values(), self._vertices, self._indices):
-            thing.release()
+        for array in self._arrays.values():
+            array.release()
+        self._vertices.release()
+        self._indices.release()
 
     def draw(self, context: moderngl.Context, shader: Shader, first: int, count: int) -> None:
         """Draw `count` instances, from row `first` of the sequence on."""

@@ -10,13 +10,13 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Floats, Floats32, Ints, Ints32, Whole
+from seethrough.renderer.arrays import Floats, Floats32, Ints, Whole
 from seethrough.renderer.masks import contours
 from seethrough.renderer.plan import blocks
 
@@ -27,6 +27,26 @@ if TYPE_CHECKING:
 # Compiled code is kept on disk until this file changes: change it with the kernels of contours.py.
 _CORES = os.cpu_count() or 1
 _WORTH = 30_000  # edges to look at for which a second thread is worth waking
+
+
+class Wanted(NamedTuple):
+    """What distances are asked for, with a row for each of k targets.
+
+    Its pose (contours.Pose): eyes (k, 3), turns (k, 3, 3), moves (k, 3). The window it is found for
+    (k, 4): left, top, width, height; where that goes (k, 2): left, bottom; the number of its bit
+    (k,). For all of them the lens (3,), the masks' width and by how much an outline may be
+    straightened.
+    """
+
+    eyes: Floats
+    turns: Floats
+    moves: Floats
+    windows: Ints
+    corners: Ints
+    numbers: Ints
+    lens: Floats
+    width: float
+    straight: float
 
 
 class Outlines:
@@ -40,33 +60,17 @@ class Outlines:
     def _join(self) -> None:
         shapes = [(mesh.topology, mesh.edges) for mesh in self._meshes]
         columns = [
-            (s.points, s.planes, e.ends, e.first, e.faces, e.signs) for s, e in shapes
-        ]  # fmt: skip
-        self._arrays = tuple(np.concatenate(c) for c in zip(*columns, strict=True))
+            contours.Solid(s.points, s.planes, e.ends, e.first, e.faces, e.signs) for s, e in shapes
+        ]
+        self._solids = contours.Solid(*(np.concatenate(c) for c in zip(*columns, strict=True)))
         sizes = np.array([[len(array) for array in row] for row in columns])
         self._starts = np.concatenate([np.zeros((1, 6), np.int64), np.cumsum(sizes, axis=0)])
 
     def start(
-        self,
-        meshes: Sequence[GpuMesh],
-        eyes: NDArray[np.float64],
-        turns: NDArray[np.float64],
-        moves: NDArray[np.float64],
-        windows: NDArray[np.int64],
-        corners: NDArray[np.int64],
-        lens: tuple[float, float, float],
-        limits: tuple[float, float],
-        out: NDArray[np.float32],
-        numbers: NDArray[np.int64],
-        shape: tuple[int, int],
+        self, meshes: Sequence[GpuMesh], wanted: Wanted, out: Floats32, shape: tuple[int, int]
     ) -> tuple[list[Future[None]], NDArray[np.uint64]]:
         """Begin to fill `out` (rows upwards), and the bits of the blocks that masks touch: an array
-        of that `shape` for each thread.
-
-        For each target: its mesh, its pose (contours.outline_distances), the window it is found for
-        (left, top, width, height), where that goes in `out` (left, bottom), and the number of its
-        bit. `limits` are the masks' width and by how much an outline may be straightened.
-        """
+        of that `shape` for each thread. `meshes` are the targets', one each."""
         new = [mesh for mesh in meshes if id(mesh) not in self._place]
         for mesh in new:
             if id(mesh) not in self._place:
@@ -79,11 +83,9 @@ class Outlines:
         work = int(np.diff(self._starts[:, 2])[which].sum())  # edges
         threads = min(count, _CORES, 8, 1 + work // _WORTH)
         bits = np.zeros((threads, *shape), np.uint64)
+        solids, starts = self._solids, self._starts
         jobs = [
-            self.beside(
-                *(_fill, *self._arrays, self._starts, which, eyes, turns, moves, np.array(lens)),
-                *(windows, corners, *limits, out, numbers, bits[k], k, threads),
-            )
+            self.beside(_fill, solids, starts, which, wanted, out, bits[k], k, threads)
             for k in range(threads)
         ]
         return jobs, bits
@@ -99,39 +101,34 @@ class Outlines:
 
 @njit(cache=True, nogil=True)
 def _fill(
-    points: Floats,
-    planes: Floats,
-    ends: Ints32,
-    first: Ints,
-    faces: Ints32,
-    signs: NDArray[np.int8],
+    solids: contours.Solid,
     starts: Ints,
     which: Ints,
-    eyes: Floats,
-    turns: Floats,
-    moves: Floats,
-    lens: Floats,
-    windows: Ints,
-    corners: Ints,
-    width: float,
-    straight: float,
+    wanted: Wanted,
     out: Floats32,
-    numbers: Ints,
     bits: Whole,
     begin: int,
     step: int,
 ) -> None:
+    """What every `step`-th target from `begin` on is asked for; `which` (k,) are their solids, of
+    which each begins at the row `starts` (m + 1, 6) of each array."""
+    corners, width = wanted.corners, wanted.width
     for t in range(begin, len(which), step):
         a, b = starts[which[t]], starts[which[t] + 1]
-        window = windows[t]
-        found = contours.outline_distances(
-            points[a[0] : b[0]], planes[a[1] : b[1]], ends[a[2] : b[2]], first[a[3] : b[3]],
-            faces[a[4] : b[4]], signs[a[5] : b[5]], eyes[t], turns[t], moves[t], lens, window,
-            width, straight,
-        )  # fmt: skip
+        solid = contours.Solid(
+            solids.points[a[0] : b[0]],
+            solids.planes[a[1] : b[1]],
+            solids.ends[a[2] : b[2]],
+            solids.first[a[3] : b[3]],
+            solids.faces[a[4] : b[4]],
+            solids.signs[a[5] : b[5]],
+        )
+        pose = contours.Pose(wanted.eyes[t], wanted.turns[t], wanted.moves[t])
+        window = wanted.windows[t]
+        found = contours.outline_distances(solid, pose, wanted.lens, window, width, wanted.straight)
         height = len(found)
         for row in range(height):
             for column in range(found.shape[1]):
                 line = corners[t, 1] + height - 1 - row
                 out[line, corners[t, 0] + column] = found[row, column]
-        blocks.mark(found, window[0], window[1], width, numbers[t], bits)
+        blocks.mark(found, window[0], window[1], width, wanted.numbers[t], bits)

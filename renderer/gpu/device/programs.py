@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any
 
 import moderngl
 
@@ -22,18 +21,20 @@ class Shader:
 
     def __init__(self, program: moderngl.Program) -> None:
         self.program = program
-        self.members = {name: program[name] for name in program}
+        members = {name: program[name] for name in program}
+        self.members = frozenset(members)
+        self._uniforms = {n: m for n, m in members.items() if isinstance(m, moderngl.Uniform)}
         self._values: dict[str, object] = {}
 
     def set(self, **values: object) -> None:
         """Set uniforms, leaving out those that the compiler found unused."""
         for name, value in values.items():
-            if name in self.members and self._values.get(name) != value:
-                self.members[name].value = value  # type: ignore[union-attr]
+            if name in self._uniforms and self._values.get(name) != value:
+                self._uniforms[name].value = value
                 self._values[name] = value
 
     def __getitem__(self, name: str) -> moderngl.Uniform:
-        return self.members[name]  # type: ignore[return-value]
+        return self._uniforms[name]
 
 
 def program(
@@ -42,7 +43,7 @@ def program(
     fragment: str,
     defines: Sequence[str] = (),
     version: int = 330,
-    values: Mapping[str, Any] | None = None,
+    values: Mapping[str, object] | None = None,
 ) -> Shader:
     """Build a program; `shade()` of renderer.lighting is known to the fragment shader. Both files
     are templates if `values` are given."""
@@ -56,7 +57,7 @@ def program(
     )
 
 
-def _filled_in(name: str, values: Mapping[str, Any]) -> str:
+def _filled_in(name: str, values: Mapping[str, object]) -> str:
     from jinja2 import Environment  # for the few frames that need it
 
     return Environment(line_statement_prefix="%").from_string(_source(name)).render(values)

@@ -45,5 +45,5 @@ def spoil(*things: moderngl.Texture | moderngl.Renderbuffer | moderngl.Buffer | 
             continue
         pictures = [] if thing.depth else [thing]
         framebuffer = thing.ctx.framebuffer(pictures, thing if thing.depth else None)
-        framebuffer.clear(*4 * [np.nan], depth=NEAREST)
+        framebuffer.clear(np.nan, np.nan, np.nan, np.nan, depth=NEAREST)
         framebuffer.release()

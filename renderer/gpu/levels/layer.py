@@ -71,11 +71,11 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: Any,
+        technique: object,
         target: FrameTarget,
         scale: float = 1.0,
         after_level: AfterLevel | None = None,
-        state: Any = None,
+        state: object = None,
     ) -> FrameStats:
         """Draw the plan. `scale` shrinks the masks' width; `after_level` follows each level
         and is told its objects, None for the opaque ones. `state` is the technique's."""

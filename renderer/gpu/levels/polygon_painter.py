@@ -12,9 +12,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import spoil
-from seethrough.renderer.polygons.polygons import Floats
 from seethrough.renderer.scene.camera import Camera
 
 # Corner columns: r, g, b, opacity, u, v, textured (0 or 1).

@@ -8,15 +8,15 @@ with every edge as a rectangle; the least distance counts.
 from __future__ import annotations
 
 from concurrent.futures import Future
-from typing import Any
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Floats, Floats32, Ints
-from seethrough.renderer.gpu.device import tiles
-from seethrough.renderer.gpu.device.programs import program
+from seethrough.renderer.gpu.device import state, tiles
+from seethrough.renderer.gpu.device.outlines import Wanted
+from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.masks.mask_maker import MaskGeometry, outline_segments
@@ -75,14 +75,20 @@ class DistancePainter:
         windows = np.concatenate([tile[:, :2] - shift, tile[:, 2:] - tile[:, :2]], axis=1)
         windows[:, 1] = size[1] - windows[:, 1] - windows[:, 3]
         targets = made.looped.tolist()
-        lens = (0.5 * size[1] / np.tan(camera.fov_y / 2), size[0] / 2, size[1] / 2)
-        straight = 0.0 if technique.per_pixel_only else contours.STRAIGHT
-        self._jobs, self._bits = table.outlines.start(
-            [table.meshes[table.slot[t]] for t in targets],
-            *_poses(table, made.looped, camera),
-            *(windows, tile[:, :2].copy(), lens, (width, straight), self._found),
-            *(numbers[made.looped], shape),
+        eyes, turns, moves = _poses(table, made.looped, camera)
+        wanted = Wanted(
+            eyes=eyes,
+            turns=turns,
+            moves=moves,
+            windows=windows,
+            corners=tile[:, :2].copy(),
+            numbers=numbers[made.looped],
+            lens=np.array([0.5 * size[1] / np.tan(camera.fov_y / 2), size[0] / 2, size[1] / 2]),
+            width=width,
+            straight=0.0 if technique.per_pixel_only else contours.STRAIGHT,
         )
+        meshes = [table.meshes[table.slot[t]] for t in targets]
+        self._jobs, self._bits = table.outlines.start(meshes, wanted, self._found, shape)
 
     def marks(self) -> NDArray[np.uint64]:
         """(h, w) bits of the blocks that outlines touch."""
@@ -108,19 +114,19 @@ class DistancePainter:
             return draws + self._draw_rings(runs, technique)
         self._segment.set(size=size, width=width + 1.0)
         self._context.enable_only(moderngl.BLEND)
-        self._context.blend_equation = moderngl.MIN
+        state.combine(self._context, moderngl.MIN)
         for target in made.covered.tolist():
             ends = outline_segments(table, target, camera, size).astype("f4")
             if len(ends):
                 self._select(framebuffer, target)
                 self._upload("segment", self._segment, "4f/i", ("in_segment",), ends)
                 self._arrays["segment"].render(moderngl.TRIANGLE_STRIP, _STRIP, instances=len(ends))
-        framebuffer.scissor = None
-        self._context.blend_equation = moderngl.FUNC_ADD
+        state.within(framebuffer, None)
+        state.combine(self._context, moderngl.FUNC_ADD)
         return draws + len(made.covered)
 
     def _upload(
-        self, name: str, shader: Any, layout: str, names: tuple[str, ...], data: Floats32
+        self, name: str, shader: Shader, layout: str, names: tuple[str, ...], data: Floats32
     ) -> None:
         """Put float32 rows into the buffer of that name."""
         if name not in self._buffers or data.nbytes > self._buffers[name].size:
@@ -147,7 +153,7 @@ class DistancePainter:
             self._pictures[name] = (texture, self._context.framebuffer([texture]))
         framebuffer = self._pictures[name][1]
         framebuffer.use()
-        framebuffer.scissor = None
+        state.within(framebuffer, None)
         return framebuffer
 
     def _select(self, framebuffer: moderngl.Framebuffer, target: int) -> None:
@@ -155,7 +161,7 @@ class DistancePainter:
         left, bottom, right, top = self._made.tile[target].tolist()
         x, y = self._made.shift[target].tolist()
         framebuffer.viewport = (x, y, *self._size)
-        framebuffer.scissor = (left, bottom, right - left, top - bottom)
+        state.within(framebuffer, (left, bottom, right - left, top - bottom))
 
     def _cover_targets(self, framebuffer: moderngl.Framebuffer, runs: list[list[Run]]) -> int:
         """Mark the pixels that lie on each target that is drawn whole."""
@@ -164,7 +170,7 @@ class DistancePainter:
             self._select(framebuffer, target)
             for mesh, start, count in part:
                 mesh.draw(self._context, self.cover, start, count)
-        framebuffer.scissor = None
+        state.within(framebuffer, None)
         return sum(len(part) for part in runs)
 
     def _outlines(self) -> moderngl.Framebuffer:

@@ -69,6 +69,7 @@ def mask_geometry(
     ellipses = technique.mask in ("circle", "ellipse", "oriented-ellipse")
     shaped = np.ones_like(hulled) if ellipses else hulled
     plain, pictured = masked[shaped], masked[~shaped]
+    vertices: NDArray[np.floating]
     if ellipses:
         vertices, firsts = _ellipses(table, plain, frame, camera, technique.mask, width, size)
     else:
@@ -196,7 +197,7 @@ def _ellipses(
     shape: str,
     width: float,
     size: tuple[int, int],
-) -> Floats:
+) -> tuple[Floats, Ints]:
     rows = np.zeros((len(targets), 6, VERTEX))
     for k, t in enumerate(targets.tolist()):
         points = _outline_points(table, t, frame, camera, size)

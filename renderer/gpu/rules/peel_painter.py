@@ -6,7 +6,7 @@ rule gives it, and puts it under what is there already, until no pass finds one 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import moderngl
@@ -30,8 +30,10 @@ OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
 class _Buffers:
     """Two layers in turn, what they add up to, and the depth of what is opaque."""
 
-    def __init__(self, context: moderngl.Context, size: tuple[int, int], ids: bool) -> None:
-        self.size, self.ids = size, ids
+    def __init__(
+        self, context: moderngl.Context, size: tuple[int, int], ids: bool, lined: bool
+    ) -> None:
+        self.key = (size, lined)
         self.owned: list[Any] = []
 
         def texture(components: int, dtype: str) -> moderngl.Texture:
@@ -45,8 +47,8 @@ class _Buffers:
             self.owned.append(made)
             return made
 
-        self.colors = [texture(4, "f4") for _ in range(2)]
-        self.places = [texture(2, "f4") for _ in range(2)]
+        self.colors = [texture(4, "f2") for _ in range(2)]
+        self.places = [texture(4 if lined else 2, "f4") for _ in range(2)]
         depths = [context.depth_renderbuffer(size) for _ in range(2)]
         self.layers = [
             framebuffer(color, place, depth)
@@ -54,6 +56,8 @@ class _Buffers:
         ]
         self.sum = texture(4, "f4")
         self.total = framebuffer(self.sum, None)
+        self.ruled = texture(4, "f2")
+        self.lines = framebuffer(self.ruled, None)
         self.below = context.depth_texture(size)
         self.below.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.below.compare_func = ""
@@ -74,6 +78,8 @@ class PeelPainter:
         self._programs = RulePrograms(context, ["PEELED"])
         self._put = program(context, "present.vert", "layer.frag")
         self._screen = context.vertex_array(self._put.program, [])
+        self._edges = program(context, "present.vert", "edges.frag")
+        self._outlined = context.vertex_array(self._edges.program, [])
         self._buffers: _Buffers | None = None
         self._query = context.query(samples=True)
         self.found: list[Drawn] = []
@@ -90,16 +96,20 @@ class PeelPainter:
     ) -> int:
         """Draw the plan's ruled objects over those already in the target. Returns the draws."""
         context, size = self._context, target.size
-        if self._buffers is None or self._buffers.size != size:
+        lines = technique.technique.edges(technique)
+        if self._buffers is None or self._buffers.key != (size, bool(lines)):
             if self._buffers is not None:
                 self._buffers.release()
-            self._buffers = _Buffers(context, size, self._ids)
+            self._buffers = _Buffers(context, size, self._ids, bool(lines))
         buffers = self._buffers
         context.copy_framebuffer(buffers.opaque, target.framebuffer)
+        scope = _scope(frame, size)
+        for framebuffer in (*buffers.layers, buffers.total, buffers.lines, target.framebuffer):
+            framebuffer.scissor = scope
         shader = self._programs.ready(table, technique, state, shot, matrix)
         sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
         buffers.total.clear()
-        shader.set(above=ABOVE, below=BELOW, covered=COVERED)
+        shader.set(above=ABOVE, below=BELOW, covered=COVERED, lined=bool(lines))
         self.found, draws = [], 0
         most, sides = technique.technique.layers(technique), technique.technique.sides(technique)
         for k in range(most if most is not None else 10_000):
@@ -115,16 +125,30 @@ class PeelPainter:
             draws += len(runs[0])
             if self._query.samples == 0:
                 break
+            color = buffers.colors[k % 2]
+            if lines:
+                self._line(buffers, k, lines)
+                color = buffers.ruled
             if self._ids:
-                self.found.append(_drawn(layer, size))
-            self._compose(buffers.colors[k % 2], buffers.total, UNDER)
+                self.found.append(_drawn(layer, buffers.lines if lines else layer, size))
+            self._compose(color, buffers.total, UNDER)
         self._compose(buffers.sum, target.framebuffer, OVER)
+        target.framebuffer.scissor = None
         return draws
 
     def _bind(self, buffers: _Buffers, k: int) -> None:
         buffers.places[(k + 1) % 2].use(ABOVE)
         buffers.below.use(BELOW)
         buffers.sum.use(COVERED)
+
+    def _line(self, buffers: _Buffers, k: int, lines: Mapping[str, Any]) -> None:
+        """Draw lines along a layer's edges."""
+        buffers.lines.use()
+        buffers.colors[k % 2].use(LAYER)
+        buffers.places[k % 2].use(ABOVE)
+        self._edges.set(layer=LAYER, place=ABOVE, **lines)
+        self._context.enable_only(moderngl.NOTHING)
+        self._outlined.render(moderngl.TRIANGLES, 3)
 
     def _compose(self, layer: moderngl.Texture, into: moderngl.Framebuffer, how: Any) -> None:
         into.use()
@@ -135,14 +159,24 @@ class PeelPainter:
         self._screen.render(moderngl.TRIANGLES, 3)
 
 
-def _drawn(layer: moderngl.Framebuffer, size: tuple[int, int]) -> Drawn:
+def _scope(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """What the ruled objects can cover, as OpenGL's x, y (up), width, height."""
+    boxes = frame.boxes.extents[frame.ruled]
+    left, top = np.clip(np.floor(boxes[:, :2].min(axis=0)) - 1, 0, size).astype(int).tolist()
+    right, bottom = np.clip(np.ceil(boxes[:, 2:].max(axis=0)) + 1, 0, size).astype(int).tolist()
+    return (left, size[1] - bottom, max(right - left, 1), max(bottom - top, 1))
+
+
+def _drawn(
+    layer: moderngl.Framebuffer, colors: moderngl.Framebuffer, size: tuple[int, int]
+) -> Drawn:
     """Where a layer shows something, what, and how strongly."""
     width, height = size
 
-    def read(attachment: int, components: int) -> NDArray[np.float32]:
-        data = layer.read(components=components, attachment=attachment, dtype="f4", alignment=1)
+    def read(source: moderngl.Framebuffer, attachment: int, components: int) -> NDArray[np.float32]:
+        data = source.read(components=components, attachment=attachment, dtype="f4", alignment=1)
         return np.frombuffer(data, "f4").reshape(height, width, components)[::-1]
 
-    numbers_, opacity = read(1, 2)[..., 1].ravel(), read(0, 4)[..., 3].ravel()
+    numbers_, opacity = read(layer, 1, 2)[..., 1].ravel(), read(colors, 0, 4)[..., 3].ravel()
     where = np.nonzero(numbers_ > 0)[0]
     return where, numbers_[where].astype(np.int64), opacity[where]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import moderngl
 
@@ -12,7 +11,7 @@ from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import Shot
+from seethrough.renderer.techniques.base import Parameters, Shot
 
 
 class RemovalPainter:
@@ -27,8 +26,8 @@ class RemovalPainter:
         self,
         table: SceneTable,
         frame: FramePlan,
-        technique: Any,
-        state: Any,
+        technique: Parameters,
+        state: object,
         shot: Shot,
         target: FrameTarget,
         matrix: bytes,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from seethrough.renderer.arrays import Floats, Ints
+from seethrough.renderer.arrays import Floats, Floats32, Ints
 from seethrough.renderer.models.files.part import Array, to_shown
 from seethrough.renderer.models.files.texture import CLAMP, MIRROR
 
@@ -28,7 +28,7 @@ def _texel(index: int, count: int, way: int) -> int:
 
 @njit(cache=True)
 def _sample(
-    picture: Floats, u: float, v: float, wrap_u: int, wrap_v: int, nearest: bool, out: Floats
+    picture: Floats32, u: float, v: float, wrap_u: int, wrap_v: int, nearest: bool, out: Floats
 ) -> None:
     """RGBA at u, v into `out`, as Texture.sample has it."""
     height, width = picture.shape[0], picture.shape[1]
@@ -57,8 +57,8 @@ def compared(
     sides: Ints,
     cutoff: Floats,
     areas: Floats,
-    picture: Floats,
-    wrap: tuple[int, int],
+    picture: Floats32,
+    wrap: Ints,
     nearest: bool,
     table: Floats,
     bins: Floats,
@@ -101,6 +101,6 @@ def compared(
     return found
 
 
-def sides_of(texels: Array, most: int) -> Array:
+def sides_of(texels: Array, most: int) -> Ints:
     """(k,) samples along the sides of triangles whose longest is so many texels."""
     return (2 ** np.ceil(np.log2(np.clip(texels, 2, most)))).astype(np.int64)

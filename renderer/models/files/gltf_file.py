@@ -51,14 +51,14 @@ class GltfFile:
         """The top-level list of that name."""
         return self.json.get(kind, [])
 
-    def row(self, kind: str, index: Any) -> dict[str, Any]:
+    def row(self, kind: str, index: object) -> dict[str, Any]:
         """One of them. Raises Refused for a number that is not there."""
         rows = self.rows(kind)
         if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < len(rows):
             raise Refused(f"{kind}[{index}] of {len(rows)}: expected one the file has")
         return rows[index]
 
-    def accessor(self, index: Any) -> NDArray[Any]:
+    def accessor(self, index: object) -> NDArray[Any]:
         """(n, width) as stored. Raises Refused."""
         made = self.row("accessors", index)
         what = f"accessors[{index}]"
@@ -75,7 +75,7 @@ class GltfFile:
             values = self._sparse(values, made["sparse"], what)
         return values
 
-    def numbers(self, index: Any) -> NDArray[np.float64]:
+    def numbers(self, index: object) -> NDArray[np.float64]:
         """(n, width) float64, whole numbers as shares where the file says that they are."""
         values = self.accessor(index)
         if not self.row("accessors", index).get("normalized", False):
@@ -83,7 +83,7 @@ class GltfFile:
         most = np.iinfo(values.dtype).max
         return np.maximum(values.astype(float) / most, -1.0)
 
-    def image(self, index: Any) -> tuple[bytes, str]:
+    def image(self, index: object) -> tuple[bytes, str]:
         """A picture's bytes, and what to call it. Raises Refused."""
         made = self.row("images", index)
         if "bufferView" in made:
@@ -104,7 +104,8 @@ class GltfFile:
             raise Refused(f"expected a GLB file, it cannot be read: version {version}, not 2")
         if length > len(data):
             raise Refused(f"{len(data)} bytes of {length}: the file is cut off")
-        chunks, place = {}, 12
+        chunks: dict[int, bytes] = {}
+        place = 12
         while place + 8 <= length:
             size, kind = struct.unpack_from("<II", data, place)
             if place + 8 + size > length:
@@ -136,7 +137,7 @@ class GltfFile:
         return self._buffers[index]
 
     def _view(
-        self, view: Any, kind: np.dtype[Any], width: int, count: int, start: int, what: str
+        self, view: object, kind: np.dtype[Any], width: int, count: int, start: int, what: str
     ) -> NDArray[Any]:
         """(count, width), also where rows stand apart."""
         made = self.row("bufferViews", view)

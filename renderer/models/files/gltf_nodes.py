@@ -96,7 +96,7 @@ class Nodes:
             waiting += [(child, world[index]) for child in reversed(raw.get("children", []))]
         return world
 
-    def _joints(self, index: Any) -> Array:
+    def _joints(self, index: object) -> Array:
         skin = self._file.row("skins", index)
         names = skin["joints"]
         missing = [j for j in names if j not in self._world]

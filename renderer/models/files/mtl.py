@@ -125,7 +125,7 @@ class Library:
             option = words[i].lower()
             i += 1
             if option in _NUMBERS:
-                taken = []
+                taken: list[float] = []
                 while i < len(words) - 1 and len(taken) < 3 and _is_number(words[i]):
                     taken.append(float(words[i]))
                     i += 1

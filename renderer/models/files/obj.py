@@ -86,7 +86,8 @@ class _Reader:
         self.points.append(values[:3])
 
     def _face(self, words: list[str]) -> None:
-        loop, places = [], []
+        loop: list[int] = []
+        places: list[int] = []
         for word in words:
             numbers = word.split("/")
             vertex = _row(numbers[0], len(self.points), "vertex")

@@ -96,7 +96,7 @@ def too_many(count: int, at_least: bool = False) -> None:
 
 
 def cut_polygons(
-    vertices: Array, loops: Sequence[Sequence[int]]
+    vertices: Array, loops: Sequence[Sequence[int] | NDArray[np.int64]]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Polygons as triangles: places (m, 3) in the loops put one after the other, and (m,) which
     polygon each is of. Raises Refused for one of too many corners.

@@ -102,7 +102,7 @@ def _binary(data: bytes, start: int, element: _Element, order: str) -> tuple[Tab
         rows = _taken(data, start, fields, element.count, element)
         return _made(element, [rows[n] for n in rows.dtype.names], []), start + rows.nbytes
     lengths = _lengths(data, start, element, order)
-    layout = []
+    layout: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
     for i, (p, kind) in enumerate(zip(element.properties, kinds, strict=True)):
         if p.length:
             layout.append((f"n{i}", order + p.length))

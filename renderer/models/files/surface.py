@@ -111,7 +111,7 @@ def shown_from_outside(surface: Surface) -> tuple[Surface, NDArray[np.bool_], in
     closed = _closed(turned.triangles, component)
     a, b, c = np.moveaxis(surface.vertices[turned.triangles], 1, 0)
     count = int(component.max(initial=-1)) + 1
-    middle = np.stack([np.bincount(component, a[:, i], count) for i in range(3)], axis=1)
+    middle: Array = np.stack([np.bincount(component, a[:, i], count) for i in range(3)], axis=1)
     middle /= np.maximum(np.bincount(component, minlength=count), 1)[:, None]
     at = middle[component]
     sixth = np.einsum("ij,ij->i", a - at, np.cross(b - at, c - at)) / 6
@@ -130,9 +130,15 @@ def doubled(surface: Surface, both: NDArray[np.bool_]) -> tuple[Surface, NDArray
     codes = [(t[:, 0] * n + t[:, 1]) * n + t[:, 2] for t in (_canonical(surface.triangles), back)]
     rows = np.flatnonzero(both & ~np.isin(codes[1], codes[0]))
     copy = surface.take(rows).turned(np.ones(len(rows), bool))
-    names = ("triangles", "colors", "uv", "texture", "cutoff")
-    whole = {k: np.concatenate([getattr(surface, k), getattr(copy, k)]) for k in names}
-    return replace(surface, **whole), rows
+    both_sides = replace(
+        surface,
+        triangles=np.concatenate([surface.triangles, copy.triangles]),
+        colors=np.concatenate([surface.colors, copy.colors]),
+        uv=np.concatenate([surface.uv, copy.uv]),
+        texture=np.concatenate([surface.texture, copy.texture]),
+        cutoff=np.concatenate([surface.cutoff, copy.cutoff]),
+    )
+    return both_sides, rows
 
 
 def _edges(triangles: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

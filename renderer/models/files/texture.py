@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats32
 from seethrough.renderer.models.files.source import Refused
 
 REPEAT, CLAMP, MIRROR = 10497, 33071, 33648  # as glTF numbers them
@@ -78,7 +79,7 @@ def decoded(
     pixels = _pixels(data, what)
     if upward:
         pixels = np.dstack([pixels[::-1, :, :3], np.full(pixels.shape[:2], 255, np.uint8)])
-    first = np.empty(pixels.shape, np.float32)
+    first: Floats32 = np.empty(pixels.shape, np.float32)
     first[..., :3] = _LIGHT[pixels[..., :3]]
     first[..., 3] = pixels[..., 3] / 255
     while first.shape[0] * first.shape[1] > MOST_TEXELS:
@@ -124,7 +125,7 @@ def _halved(picture: NDArray[np.float32]) -> NDArray[np.float32]:
         length = picture.shape[axis]
         if length > 1:
             starts = np.arange(0, length - 1, 2)
-            sums = np.add.reduceat(picture, starts, axis=axis, dtype=np.float32)
+            sums: Floats32 = np.add.reduceat(picture, starts, axis=axis, dtype=np.float32)
             counts = np.diff(np.append(starts, length)).astype(np.float32)
             picture = sums / counts.reshape((-1, 1, 1) if axis == 0 else (1, -1, 1))
     return picture

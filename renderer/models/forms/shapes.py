@@ -134,7 +134,7 @@ def shade(whole: Shape) -> Mesh:
     kept = label == np.arange(len(label))
     triangles = (np.cumsum(kept) - 1)[label]
     weights = (angles * faces[:, None].transpose(2, 0, 1)).reshape(3, -1)
-    normals = np.stack([np.bincount(triangles, w) for w in weights], axis=1)
+    normals: Array = np.stack([np.bincount(triangles, w) for w in weights], axis=1)
     return Mesh(
         vertices=whole.vertices[whole.triangles.ravel()[kept]],
         normals=normals / _lengths(normals)[:, None],

@@ -234,9 +234,7 @@ def _plane_normal(path: Array) -> Array:
     return across / np.linalg.norm(across)
 
 
-def rod(
-    a: Sequence[float], b: Sequence[float], radius: float, color: ArrayLike, sides: int = 8
-) -> Shape:
+def rod(a: ArrayLike, b: ArrayLike, radius: float, color: ArrayLike, sides: int = 8) -> Shape:
     """A straight round bar from a to b."""
     start, along = np.asarray(a, float), np.subtract(b, a)
     x, y, z = along

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.translucent.solids import Faces, box, disc, prism, turned
-from seethrough.renderer.polygons.polygons import Floats, Polygons, join, polygons_from
+from seethrough.renderer.polygons.polygons import Polygons, join, polygons_from
 
 HALF = 0.5
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -36,8 +37,8 @@ def cottage() -> tuple[Polygons, Polygons, Floats]:
         frame += [_upright(x[1], x[2], 0, 1, z), _upright(x[1], x[2], 2.3, 3, z)]
         opaque.append(painted(frame, (0.8, 0.75, 0.65, 1.0)))
         clear.append(painted([_upright(x[1], x[2], 1, 2.3, z)], (0.5, 0.7, 0.9, HALF)))
-    for x in (-4.0, 4.0):
-        wall = np.array([[x, 0, -3], [x, 0, 3], [x, 3, 3], [x, 3, -3.0]])
+    for side in (-4.0, 4.0):
+        wall = np.array([[side, 0, -3], [side, 0, 3], [side, 3, 3], [side, 3, -3.0]])
         clear.append(painted([wall], (1, 1, 1, 1), textured=True))
     return join(clear), join(opaque), _window_texture()
 

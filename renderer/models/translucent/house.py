@@ -71,8 +71,8 @@ def _window(along: float, sill: float, opened: float, axis: int, wall: float, ou
         (m - t, c), (m + t, c), (m + t, h - t), (b, h - t), (b, h + t), (m + t, h + t),
         (m + t, d), (m - t, d), (m - t, h + t), (a, h + t), (a, h - t), (m - t, h - t),
     ]  # fmt: skip
-    depths = sorted((wall + out * 0.04, wall + out * 0.1))
-    bars = prism([(y, u) for u, y in cross] if axis == 0 else cross, axis, *depths, 0.94)
+    near, far = sorted((wall + out * 0.04, wall + out * 0.1))
+    bars = prism([(y, u) for u, y in cross] if axis == 0 else cross, axis, near, far, 0.94)
     plans = [
         (_bar(a - 0.1, b + 0.1, 0.02, 0.3), c - 0.17, c - 0.03, 0.9),
         (_bar(a - 0.1, b + 0.1, 0.02, 0.2), d + 0.03, d + 0.2, 0.8),

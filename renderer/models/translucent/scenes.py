@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.translucent import garden, house, vise
 from seethrough.renderer.models.translucent.solids import Faces, box
 from seethrough.renderer.polygons.polygons import (
-    Floats,
     Polygons,
     newell,
     polygons_from,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from seethrough.renderer.polygons.polygons import Floats
+from seethrough.renderer.arrays import Floats
 
 Faces = list[Floats]
 

@@ -103,8 +103,10 @@ def _screw() -> Faces:
     parts += prism(ring, 0, 6.1, 8.6, 0.97) + prism(ring, 0, 8.8, 11.2, 0.97)
     handle: Faces = []
     for sign in (-1.0, 1.0):
-        handle += prism(disc((13.5, 3.3), 0.3, 6, 0.35), 2, *sorted((sign * 1.0, sign * 6.0)))
-        handle += prism(disc((13.5, 3.3), 0.55, 6, 0.35), 2, *sorted((sign * 6.1, sign * 6.9)), 0.8)
+        low, high = sorted((sign * 1.0, sign * 6.0))
+        handle += prism(disc((13.5, 3.3), 0.3, 6, 0.35), 2, low, high)
+        low, high = sorted((sign * 6.1, sign * 6.9))
+        handle += prism(disc((13.5, 3.3), 0.55, 6, 0.35), 2, low, high, 0.8)
     parts += turned(handle, 0.6, (3.3, 0.0), axis=0)
     for z in (-2.45, 2.45):
         parts += prism(disc((5.9, z), 0.35, 7, 0.3), 0, -8.4, 11.0, 0.6)

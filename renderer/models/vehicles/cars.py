@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join
@@ -22,7 +24,16 @@ LIGHT: Color = (0.98, 0.95, 0.80)
 RED_LIGHT: Color = (0.75, 0.06, 0.05)
 
 
-def cabin(belt: tuple, roof: tuple, color: Color, glass: Color = GLASS, pillars=(0.5,)) -> Shape:
+Section = tuple[float, float, float, float]
+
+
+def cabin(
+    belt: Section,
+    roof: Section,
+    color: Color,
+    glass: Color = GLASS,
+    pillars: Sequence[float] = (0.5,),
+) -> Shape:
     """A car's upper part: (y, front z, rear z, half width) at the belt and at the roof.
 
     Windows sit on its four sides; `pillars` are the places, as shares of the length, that divide
@@ -38,7 +49,7 @@ def cabin(belt: tuple, roof: tuple, color: Color, glass: Color = GLASS, pillars=
     shell = tube(rings, color)
     (y0, f0, r0, w0), (y1, f1, r1, w1) = belt, roof
 
-    def spot(share: float, s: float):
+    def spot(share: float, s: float) -> tuple[float, float, float]:
         return (w0 + (w1 - w0) * s + 0.004, y0 + (y1 - y0) * s,
                 (f0 + (f1 - f0) * s) * (1 - share) + (r0 + (r1 - r0) * s) * share)  # fmt: skip
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seethrough.renderer.models.forms.shapes import Array, Color, Shape, assemble, join
 from seethrough.renderer.models.forms.surfaces import (
@@ -143,7 +143,9 @@ def _on_deck(p: Array) -> NDArray[np.bool_]:
     return p[:, 1] > 0.62 + 0.20 * (1 - t) ** 2 + 0.03 * t**2 - 0.004
 
 
-def _sail(tack: tuple, head: tuple, clew: tuple, belly: float, color: Color, n: int = 14) -> Shape:
+def _sail(
+    tack: ArrayLike, head: ArrayLike, clew: ArrayLike, belly: float, color: Color, n: int = 14
+) -> Shape:
     """A three-cornered sail that the wind fills towards +x."""
     foot, peak, end = (np.array(c, float) for c in (tack, head, clew))
     s = np.linspace(0, 0.995, n)[:, None]

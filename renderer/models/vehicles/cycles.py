@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join
@@ -43,7 +45,7 @@ def bike() -> Shape:
                     size=1.75)  # fmt: skip
 
 
-def _frame(crank: tuple, seat: tuple, paint: Color) -> Shape:
+def _frame(crank: Sequence[float], seat: Sequence[float], paint: Color) -> Shape:
     """The diamond, the stays to the rear wheel and the fork."""
     head, low = (0, 0.86, -0.34), (0, 0.72, -0.39)
     blade = curve(
@@ -76,7 +78,7 @@ def _handlebars() -> Shape:
 
 
 def mudguard(
-    axle: tuple, radius: float, half_width: float, span: tuple[float, float], color: Color
+    axle: Sequence[float], radius: float, half_width: float, span: tuple[float, float], color: Color
 ) -> Shape:
     """A strip round a wheel over a span of angles, degrees about +x from the back upwards."""
     angle = np.radians(np.linspace(*span, 20))
@@ -90,7 +92,7 @@ def _saddle(p: np.ndarray) -> np.ndarray:
     return p * np.stack([taper, np.ones_like(taper), np.ones_like(taper)], axis=1)
 
 
-def _drive(crank: tuple, rear: tuple) -> Shape:
+def _drive(crank: Sequence[float], rear: Sequence[float]) -> Shape:
     """Chainwheel, cranks, pedals, sprocket and chain on the right side."""
     x, big, small = 0.05, 0.095, 0.04
     wheel = ring(

@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join, shade
 from seethrough.renderer.models.forms.surfaces import (
     ball,
@@ -107,7 +108,7 @@ def _pieces() -> dict[str, Shape]:
     }
 
 
-def _sheet(z, bottom, top, x: float) -> Shape:
+def _sheet(z: Floats, bottom: Floats, top: Floats, x: float) -> Shape:
     """An upright panel along z at the side x, its edges given at the places z."""
     return hull(z, np.full(len(z), 0.014), bottom, top, OLIVE, 0.012, 2).at(x=x)
 

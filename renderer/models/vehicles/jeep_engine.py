@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from seethrough.renderer.models.forms.shapes import Color, Shape, join
@@ -184,7 +186,7 @@ def springs(z: float) -> Shape:
     return join(*leaves, eyes, clamps, damper).at(x=0.37, z=z).both()
 
 
-def shaft(a: tuple, b: tuple) -> Shape:
+def shaft(a: Sequence[float], b: Sequence[float]) -> Shape:
     """A propeller shaft between two joints."""
     cross = join(
         ball(0.045, IRON, 20),

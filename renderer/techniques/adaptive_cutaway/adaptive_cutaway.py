@@ -54,7 +54,7 @@ class AdaptiveCutaway(removal.Removal):
     name = "adaptive_cutaway"
     title = "Adaptive cut-away"
     instruction = "Whatever stands before a target is cut away in a funnel that opens towards you."
-    source = "burns2008"
+    source = "Burns2008"
     Parameters = AdaptiveParameters
     removes = removal.CLIPPED
     needs = frozenset({"target_depth"})
@@ -72,9 +72,9 @@ class AdaptiveCutaway(removal.Removal):
         width, height = seen.shot.size
         front = seen.targets & seen.front
         depth = seen.farthest(front).reshape(height, width)
-        slack = np.zeros(height * width)
-        np.maximum.at(slack, seen.pixel[front], seen.slack[front])
-        slack = slack.reshape(height, width)
+        most = np.zeros(height * width)
+        np.maximum.at(most, seen.pixel[front], seen.slack[front])
+        slack = most.reshape(height, width)
         sure = np.where(seen.edge.reshape(height, width), 0.0, depth - slack)
         wide = np.where(depth > 0, depth + slack, 0.0)
         around = np.pad(wide, 1)

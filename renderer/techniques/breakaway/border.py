@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from seethrough.renderer.arrays import Floats, Floats32, Ints, Real
+
 
 @njit(cache=True)
-def _distance(corners, x, y):  # type: ignore[no-untyped-def]
+def _distance(corners: Real, x: float, y: float) -> float:
     """Pixels from a point to a convex outline, 0 within."""
     n = len(corners)
     best, positive, negative = np.inf, False, False
@@ -26,7 +28,9 @@ def _distance(corners, x, y):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _room(corners, middle, x, y, margin, jagged, teeth):  # type: ignore[no-untyped-def]
+def _room(
+    corners: Real, middle: Floats, x: float, y: float, margin: float, jagged: float, teeth: int
+) -> float:
     """Pixels from a point to the border, above 0 within the hole."""
     distance = _distance(corners, x, y)
     reach = margin
@@ -38,7 +42,7 @@ def _room(corners, middle, x, y, margin, jagged, teeth):  # type: ignore[no-unty
 
 
 @njit(cache=True)
-def _middle(corners):  # type: ignore[no-untyped-def]
+def _middle(corners: Real) -> Floats:
     low, high = corners[0].copy(), corners[0].copy()
     for k in range(len(corners)):
         for c in range(2):
@@ -47,7 +51,7 @@ def _middle(corners):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def room(corners, points, margin, jagged, teeth):  # type: ignore[no-untyped-def]
+def room(corners: Real, points: Real, margin: float, jagged: float, teeth: int) -> Floats:
     """(p,) pixels from points (p, 2) to the border of a hole with these corners (k, 2), above 0
     within. Teeth go round the middle of the corners' box."""
     middle = _middle(corners)
@@ -59,7 +63,16 @@ def room(corners, points, margin, jagged, teeth):  # type: ignore[no-untyped-def
 
 
 @njit(cache=True)
-def filled(corners, starts, depths, width, height, margin, jagged, teeth):  # type: ignore[no-untyped-def]
+def filled(
+    corners: Real,
+    starts: Ints,
+    depths: Floats,
+    width: int,
+    height: int,
+    margin: float,
+    jagged: float,
+    teeth: int,
+) -> Floats32:
     """(height, width) the farthest depth of all holes at each pixel, 0 where there is none.
 
     A row of pixels meets a convex hole without its teeth in one stretch, which is looked at only
@@ -92,7 +105,7 @@ def filled(corners, starts, depths, width, height, margin, jagged, teeth):  # ty
 
 
 @njit(cache=True)
-def _stretch(hull, y, margin):  # type: ignore[no-untyped-def]
+def _stretch(hull: Real, y: float, margin: float) -> tuple[float, float]:
     """Where a row meets the outline grown by a margin, from left to right; inf, -inf: nowhere."""
     left, right = np.inf, -np.inf
     n = len(hull)

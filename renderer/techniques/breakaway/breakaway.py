@@ -44,7 +44,7 @@ class Breakaway(removal.Removal):
     name = "breakaway"
     title = "Break-away"
     instruction = "Whatever stands before a target has a hole in the target's shape."
-    source = "diepstraten2003"
+    source = "Diepstraten2003"
     Parameters = BreakawayParameters
     removes = removal.CLIPPED
 

@@ -35,7 +35,7 @@ class Constant(Layering):
     name = "constant"
     title = "Constant transparency"
     instruction = "Whatever could be in the way is equally transparent everywhere."
-    source = "everitt2001"
+    source = "Everitt2001"
     Parameters = ConstantParameters
     strength = "uniform float alpha;\nfloat opacity_of(Surface s) { return alpha; }\n"
 

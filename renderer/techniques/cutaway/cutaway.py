@@ -51,7 +51,7 @@ class Cutaway(removal.Removal):
     name = "cutaway"
     title = "Cut-away"
     instruction = "What stands before a target is cut off along planes, like a slice of a cake."
-    source = "diepstraten2003"
+    source = "Diepstraten2003"
     Parameters = CutawayParameters
     removes = removal.CLIPPED
 
@@ -85,21 +85,23 @@ class Cutaway(removal.Removal):
 def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
     """One for each target that reaches beyond the near plane and has a box of some volume."""
     scene, camera = shot.scene, shot.camera
+    targets = np.nonzero(scene.targets)[0]
+    center, sides = scene.centers[targets] - camera.eye, scene.box_sides[targets]
+    across = np.cross(sides[:, [1, 2, 0]], sides[:, [2, 0, 1]])
+    across *= np.sign((across * sides).sum(axis=2, keepdims=True))
+    lengths = np.linalg.norm(across, axis=2, keepdims=True)
+    reach = sides * (1 + p.margin)
+    depth = center @ camera.forward + np.abs(reach @ camera.forward).sum(axis=1)
+    flat = (lengths > 0).all(axis=(1, 2))
+    across = across / np.where(lengths > 0, lengths, 1.0)
+    normals = np.concatenate([-across, across], axis=1)
+    middles = center[:, None] + np.concatenate([reach, -reach], axis=1)
+    away = (normals * middles).sum(axis=2)
+    order = np.argsort(away, axis=1, kind="stable")[:, : p.planes]
     found = []
-    for t in np.nonzero(scene.targets)[0]:
-        center, sides = scene.centers[t] - camera.eye, scene.box_sides[t]
-        across = np.cross(sides[[1, 2, 0]], sides[[2, 0, 1]])
-        across *= np.sign((across * sides).sum(axis=1, keepdims=True))
-        lengths = np.linalg.norm(across, axis=1, keepdims=True)
-        reach = np.concatenate([sides, -sides]) * (1 + p.margin)
-        depth = float(center @ camera.forward + np.abs(reach[:3] @ camera.forward).sum())
-        if depth <= camera.near or not (lengths > 0).all():
-            continue
-        normals = np.concatenate([-across, across]) / np.concatenate([lengths, lengths])
-        away = (normals * (center + reach)).sum(axis=1)
-        chosen = np.argsort(away, kind="stable")[: p.planes]
-        chosen = chosen[away[chosen] < 0]
-        found.append(Wedge(normals[chosen], away[chosen], depth))
+    for t in np.nonzero((depth > camera.near) & flat)[0]:
+        chosen = order[t][away[t, order[t]] < 0]
+        found.append(Wedge(normals[t, chosen], away[t, chosen], float(depth[t])))
     return found
 
 

@@ -47,7 +47,7 @@ class Dig(removal.Removal):
         "Q digs a hole under the pointer, through whatever is in the way, E deepens it, R fills "
         "all holes."
     )
-    source = "coffin2006"
+    source = "Coffin2006"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e", "key:r"})
     Parameters = DigParameters
     removes = f"""
@@ -84,7 +84,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
         if kind == "KeyPress" and word == "r":
             return replace(state, holes=()), True
         if (kind == "KeyPress" and word == "e") or kind == "Wheel":
-            by = (1 + p.step) ** (1 if kind == "KeyPress" else event.steps)
+            by = (1 + p.step) ** (1 if kind == "KeyPress" else event.dy)
             return replace(state, holes=_deeper(state.holes, by)), True
         at, used = pointing.followed(state.at, event, p.step)
         return replace(state, at=at), used

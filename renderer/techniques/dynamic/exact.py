@@ -107,8 +107,8 @@ def _mask(p: DynamicTransparency, seen: Surfaces, front: Bools, s: int, light: F
     there = np.isfinite(depth)
     place = np.where(there, depth, camera.depth(scene.centers[s]))
     opacity, core = _shape(p, seen, s, there)
-    parts = (1 - light * (1 - opacity), core, place, light)
-    return Mask(*(part.ravel() for part in parts))
+    opacity = 1 - light * (1 - opacity)
+    return Mask(opacity.ravel(), core.ravel(), place.ravel(), light.ravel())
 
 
 def _shape(p: DynamicTransparency, seen: Surfaces, s: int, there: Bools) -> tuple[Floats, Bools]:
@@ -137,7 +137,7 @@ def _shape(p: DynamicTransparency, seen: Surfaces, s: int, there: Bools) -> tupl
 
 def _ring(outline: Floats, there: Bools, p: DynamicTransparency) -> Floats:
     """The paper's mask: rings of cells grown on a coarse grid, looked up bilinearly, and the
-    target's own region drawn again at full resolution (004 §V-D, algorithm 2)."""
+    target's own region drawn again at full resolution (Elmqvist2009 §V-D, algorithm 2)."""
     height, width = there.shape
     n = p.ring_size
     cells = covered(outline * [n / width, n / height], n, n)

@@ -9,6 +9,7 @@ import numpy as np
 
 from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.pointing import Pointing, followed
 
 
 class DynamicRendering(base.Plain):
@@ -17,9 +18,26 @@ class DynamicRendering(base.Plain):
     name = "dynamic"
     title = "Dynamic transparency"
     instruction = "Things turn transparent where a target lies behind them."
-    source = "004"
+    source = "Elmqvist2009"
     painter = base.MASKS
+    takes = frozenset({"pointer"})
     Parameters = DynamicTransparency
+
+    def begin(self, p: DynamicTransparency) -> Pointing | None:
+        """Where the pointer is, in active mode: nowhere yet, or where the study has it."""
+        return Pointing(p.pointer, 0.0) if p.mode == "active" else None
+
+    def on_event(
+        self, p: DynamicTransparency, state: Pointing | None, event: Any, shot: base.Shot
+    ) -> tuple[Pointing | None, bool]:
+        """The pointer carries the searchlight, and others see its moves too."""
+        if state is None or type(event).__name__ != "PointerMove":
+            return state, False
+        return followed(state, event, 0.0)
+
+    def drawn(self, p: DynamicTransparency, state: Pointing | None) -> DynamicTransparency:
+        """With the searchlight where the pointer is."""
+        return p if state is None else replace(p, pointer=state.pointer)
 
     def touches(self, p: DynamicTransparency, state: Any, shot: base.Shot) -> base.Bools:
         """Whatever is not impenetrable, where there is a target."""
@@ -30,7 +48,7 @@ class DynamicRendering(base.Plain):
         """The masks."""
         from seethrough.renderer.techniques.dynamic import exact
 
-        return exact.known(p, seen)
+        return exact.known(self.drawn(p, state), seen)
 
     def rule(
         self, p: DynamicTransparency, state: Any, seen: base.Surfaces, known: Any
@@ -38,7 +56,7 @@ class DynamicRendering(base.Plain):
         """Opacities of the front-most surface of each object."""
         from seethrough.renderer.techniques.dynamic import exact
 
-        return exact.rule(p, seen, known)
+        return exact.rule(self.drawn(p, state), seen, known)
 
     def exactly(self, p: DynamicTransparency) -> DynamicTransparency:
         """Every pixel sorted by itself."""

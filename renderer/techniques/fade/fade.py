@@ -37,7 +37,7 @@ class Fade(Layering):
     name = "fade"
     title = "Fading about the pointer"
     instruction = "Whatever is near the pointer turns transparent."
-    source = "gutwin2003"
+    source = "Gutwin2003"
     takes = frozenset({"pointer"})
     Parameters = FadeParameters
     strength = """

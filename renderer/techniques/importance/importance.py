@@ -40,7 +40,7 @@ class Importance(Layering):
     name = "importance"
     title = "Importance-driven transparency"
     instruction = "Whatever hides a target grows sparse there."
-    source = "viola2004"
+    source = "Viola2004"
     needs = frozenset({"target_depth"})
     Parameters = ImportanceParameters
     strength = f"""

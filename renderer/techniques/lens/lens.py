@@ -43,7 +43,7 @@ class Lens(removal.Removal):
         "Whatever stands in the lens under the pointer is not shown: Q and E move it nearer and "
         "farther."
     )
-    source = "ropinski2004"
+    source = "Ropinski2004"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e"})
     Parameters = LensParameters
     removes = """

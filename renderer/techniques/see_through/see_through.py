@@ -31,7 +31,7 @@ class SeeThrough(Layering):
     name = "see_through"
     title = "See-through surfaces"
     instruction = "Walls are transparent."
-    source = "chittaro2001"
+    source = "Chittaro2001"
     Parameters = SeeThroughParameters
     strength = "uniform float alpha;\nfloat opacity_of(Surface s) { return alpha; }\n"
 

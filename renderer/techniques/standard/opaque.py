@@ -18,7 +18,7 @@ class StandardRendering(base.Plain):
     name = "standard"
     title = "Standard rendering"
     instruction = "Things hide what lies behind them."
-    source = "004"
+    source = "Elmqvist2009"
     Parameters = Standard
 
 

@@ -37,7 +37,7 @@ class ViewDependent(Layering):
     name = "view_dependent"
     title = "View-dependent transparency"
     instruction = "Things are transparent where they face you, and opaque along their outlines."
-    source = "diepstraten2002"
+    source = "Diepstraten2002"
     Parameters = ViewDependentParameters
     strength = """
 uniform float least;

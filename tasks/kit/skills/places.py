@@ -14,7 +14,7 @@ from math import atan2, cos, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import moved
 
 Place = tuple[float, float]  # (x, z)
@@ -73,9 +73,11 @@ class Layout:
             self._units[cell] = np.stack([-np.sin(toward), -np.cos(toward)])
         across, along = self._units[cell]
         if isinstance(yaw, float):
-            return across * -sin(yaw) + along * -cos(yaw) > COS_HALF_VIEW
+            seen: NDArray[np.bool_] = across * -sin(yaw) + along * -cos(yaw) > COS_HALF_VIEW
+            return seen
         facing = -np.sin(yaw)[..., None], -np.cos(yaw)[..., None]
-        return across * facing[0] + along * facing[1] > COS_HALF_VIEW
+        seen = across * facing[0] + along * facing[1] > COS_HALF_VIEW
+        return seen
 
     def hidden(self, cell: int, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """(n,) which cells one of these wall segments hides from the middle of `cell`."""
@@ -113,7 +115,7 @@ def _read(scene: Scene) -> Layout:
     )
 
 
-def _pieces(wall) -> list[NDArray[np.float64]]:  # type: ignore[no-untyped-def]
+def _pieces(wall: Object) -> list[NDArray[np.float64]]:
     """A wall's middle line in (x, z), open at its doorway."""
     along = np.unique(wall.mesh.vertices[:, 0].round(6))  # 0, the doorway, the length
     ends = np.zeros((len(along), 3))
@@ -200,7 +202,8 @@ def crossed(
     A way through a segment's end crosses it: walls meet at their ends, and nobody sees between.
     A segment that only touches the eye or the point is not crossed.
     """
-    return crossings(eye, points, segments).any(axis=1)
+    found: NDArray[np.bool_] = np.any(crossings(eye, points, segments), axis=1)
+    return found
 
 
 def crossings(
@@ -228,6 +231,6 @@ def turn_to(x: float, z: float) -> float:
     return atan2(-x, -z)
 
 
-def apart(a: NDArray[np.float64] | float, b: NDArray[np.float64] | float):  # type: ignore[no-untyped-def]
+def apart(a: float, b: float) -> float:
     """Angle from b to a, in (−π, π]."""
     return -((b - a + np.pi) % (2 * np.pi) - np.pi)

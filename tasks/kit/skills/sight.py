@@ -42,7 +42,8 @@ class Kept(Visibility):
 
     @cached_property
     def _index(self) -> NDArray[np.int64]:
-        return self.shown[0].astype(np.int64)
+        index: NDArray[np.int64] = self.shown[0].astype(np.int64)
+        return index
 
     def _all(self, row: int) -> NDArray[np.float64]:
         values = np.zeros(self.objects)
@@ -50,40 +51,40 @@ class Kept(Visibility):
         return values
 
     @cached_property
-    def pixels(self) -> NDArray[np.int64]:  # type: ignore[override]
+    def pixels(self) -> NDArray[np.int64]:
         """(n,) see Visibility."""
         return self._all(1).astype(np.int64)
 
     @cached_property
-    def weight(self) -> NDArray[np.float64]:  # type: ignore[override]
+    def weight(self) -> NDArray[np.float64]:
         """(n,) see Visibility."""
         return self._all(2)
 
     @cached_property
-    def position(self) -> NDArray[np.float64]:  # type: ignore[override]
+    def position(self) -> NDArray[np.float64]:
         """(n, 2) see Visibility."""
         position = np.full((self.objects, 2), np.nan)
         position[self._index] = self.shown[3:5].T
         return position
 
     @cached_property
-    def contrast(self) -> NDArray[np.float64]:  # type: ignore[override]
+    def contrast(self) -> NDArray[np.float64]:
         """(n,) see Visibility."""
         return self._all(5)
 
     @cached_property
-    def area(self) -> NDArray[np.float64]:  # type: ignore[override]
+    def area(self) -> NDArray[np.float64]:
         """(n,) see Visibility."""
         return self._all(6)
 
 
 class Thing(NamedTuple):
-    """Something visible that may be asked for, by its index in the scene.
+    """Something visible that may be asked for, by its number in the scene.
 
     `notice` and `recognise` are somebody's chances, `weight` and `contrast` those of the look.
     """
 
-    index: int
+    number: int
     notice: float
     recognise: float
     weight: float
@@ -124,5 +125,5 @@ def _sight(rows: NDArray[np.float64], scene: Scene, p: Profile) -> Sight:
     recognise = likely(clear, p.recognise, p.recognise_spread)
     columns = (numbers[asked], notice, recognise, weight, contrast)
     things = [Thing(*values) for values in zip(*(c.tolist() for c in columns), strict=True)]
-    whole = frozenset(thing.index for thing in things if thing.weight >= WHOLE)
+    whole = frozenset(thing.number for thing in things if thing.weight >= WHOLE)
     return Sight(things, whole, frozenset(numbers[~asked].tolist()))

@@ -38,7 +38,7 @@ THING = 1.5  # radius of a usual thing, for how well it would be seen from afar 
 FILLED = 0.5 * pi * (THING / (2 * np.tan(np.pi / 6))) ** 2 * 0.75 * WINDOW_PIXELS
 REACH = 3  # cells about a place that count as worth going there for [ours]
 THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
-TURNS = apart(np.arange(1, DIRECTIONS) * STEP, 0.0)
+TURNS = np.array([apart(k * STEP, 0.0) for k in range(1, DIRECTIONS)])
 TURN_COST = 0.25 / STEP  # seconds a radian is thought to cost when choosing [ours]
 GOAL = 0.5  # a cell is a goal if it is unseen at least half as much as any [ours]
 MOST_KEPT = 2048  # arrays over cells that a building keeps
@@ -104,7 +104,7 @@ class Walker:
     def pass_by(self) -> None:
         """Look while on the move: at nothing that is known already."""
         view = self._sight()
-        news = [thing for thing in self._noticed(view) if thing.index not in self.recognised]
+        news = [thing for thing in self._noticed(view) if thing.number not in self.recognised]
         things, asked = self._make_out(view, news)
         self.passed.update(asked)
         self._think(0.0, len(things))
@@ -125,9 +125,10 @@ class Walker:
         if not things:
             return things, []
         draws = self.mood.rng.random(len(things)).tolist()
-        clear, unclear = [], []
+        clear: list[int] = []
+        unclear: list[int] = []
         for thing, draw in zip(things, draws, strict=True):
-            (clear if draw < thing.recognise else unclear).append(thing.index)
+            (clear if draw < thing.recognise else unclear).append(thing.number)
         self.recognised.update(clear)
         if self.known.unclear:
             for made_out in clear:
@@ -149,7 +150,7 @@ class Walker:
         faint = [thing for thing in things if thing.weight < WHOLE]
         if not faint:
             return
-        index = [thing.index for thing in faint]
+        index = [thing.number for thing in faint]
         places = self.glance.view.scene.transforms[index][:, [0, 2], 3]
         walls = self.known.layout.segments[self.known.walls]
         behind = crossed(np.array(self.eye), places, walls).tolist()

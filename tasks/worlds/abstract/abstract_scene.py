@@ -103,12 +103,18 @@ def _number_of_targets(rng: Generator, p: AbstractParameters, least: int) -> int
     return int(rng.integers(max(low, least), high + 1))
 
 
-def _random_object(rng: Generator, p: AbstractParameters, shapes: tuple[str, ...], color) -> Object:
+def _random_object(
+    rng: Generator, p: AbstractParameters, shapes: tuple[str, ...], color: Color
+) -> Object:
     return _object(rng, p, shapes[int(rng.integers(len(shapes)))], color, None)
 
 
 def _object(
-    rng: Generator, p: AbstractParameters, shape: str, color, place: NDArray[np.float64] | None
+    rng: Generator,
+    p: AbstractParameters,
+    shape: str,
+    color: Color,
+    place: NDArray[np.float64] | None,
 ) -> Object:
     """Random size, proportions and orientation; without `place`, anywhere in the cube."""
     radius = rng.uniform(*p.radius)

@@ -44,8 +44,8 @@ class Abstract:
             turn, rise = 2 * np.pi * k / VIEWS, RISES[k % len(RISES)]
             flat = np.cos(rise)
             eye = distance * np.array([flat * np.sin(turn), np.sin(rise), flat * np.cos(turn)])
-            lens = {"fov_y": first.fov_y, "near": first.near, "far": first.far}
-            cameras.append(look_at(eye, np.zeros(3), **lens))
+            fov_y, near, far = first.fov_y, first.near, first.far
+            cameras.append(look_at(eye, np.zeros(3), fov_y=fov_y, near=near, far=far))
         return cameras
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:

@@ -48,8 +48,8 @@ class BuildingWorld:
             for k in range(HEADINGS):
                 turn = 2 * np.pi * k / HEADINGS
                 ahead = eye + np.array([np.sin(turn), 0.0, -np.cos(turn)])
-                lens = {"fov_y": first.fov_y, "near": first.near, "far": first.far}
-                cameras.append(look_at(eye, ahead, **lens))
+                fov_y, near, far = first.fov_y, first.near, first.far
+                cameras.append(look_at(eye, ahead, fov_y=fov_y, near=near, far=far))
         return cameras
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:

@@ -132,11 +132,13 @@ def test_items_of_three_levels_meet_each_cell_and_row_equally_often():
     ],
     ids=["rows meet one rotation", "sets stay", "latin for williams", "one order"],
 )  # fmt: skip
-def test_a_broken_generator_is_noticed(monkeypatch, where, name, broken, what):
+def test_a_broken_generator_is_noticed(monkeypatch, request, where, name, broken, what):
     made = three_views()
     monkeypatch.setattr(where, name, broken)
     for module in (design, conditions):
         if hasattr(module, name):
             monkeypatch.setattr(module, name, broken)
     slots = range(1, 6 * 3 * 2 + 1)
+    squares.square.cache_clear()
+    request.addfinalizer(squares.square.cache_clear)
     assert any(c.what == what and c.uneven for c in counted(made, played(made, slots)))

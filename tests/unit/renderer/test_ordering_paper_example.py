@@ -13,7 +13,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer.polygons.feudal_kernels import BEHIND, COPLANAR, CUT, IN_FRONT, UNKNOWN
+from seethrough.renderer.polygons.feudal_kernels import (
+    BEHIND,
+    COPLANAR,
+    CUT,
+    IN_FRONT,
+    UNKNOWN,
+    Geometry,
+)
 from seethrough.renderer.polygons.feudal_list import priority_list, program
 from seethrough.renderer.polygons.feudal_relations import Relations
 from seethrough.renderer.polygons.feudal_tree import build_dynamic, build_static
@@ -68,8 +75,9 @@ class PrintedRelations(Relations):
         """Corners that are no numbers: every relation is left to `_decide`."""
         nowhere = np.full((15, 10), np.nan)
         loops = np.column_stack([np.arange(15), np.ones(15)] * 2).astype(np.int32)
-        shape = (loops, nowhere[:, :3].copy(), np.zeros(15, bool))
-        return shape, nowhere, np.zeros((15, 3, 3)), np.zeros(15), self.row_of, self.count
+        rows, fresh, slack = nowhere[:, :3].copy(), np.zeros(15, bool), np.zeros(15)
+        corners = np.zeros((15, 3, 3))
+        return Geometry(loops, rows, fresh, nowhere, corners, slack, self.row_of, self.count)
 
     def _decide(self, rows, polygons):
         new = self.codes[rows, polygons] == UNKNOWN

@@ -37,12 +37,12 @@ def kept():
 @pytest.mark.parametrize("seen", [look(), kept()])
 def test_a_sight_says_of_each_thing_that_may_be_asked_for_what_the_arrays_say(seen):
     found = sight(seen, SCENE, AVERAGE)
-    assert [t.index for t in found.things] == [2, 3]
+    assert [t.number for t in found.things] == [2, 3]
     assert found.walls == {1, 4} and found.whole == {2}
     pixels = look().area * WINDOW_PIXELS
     p = AVERAGE
     for thing in found.things:
-        i = thing.index
+        i = thing.number
         notice = likely(0.15 * np.sqrt(pixels[i]), p.notice, p.notice_spread)
         clear = likely(pixels[i] * 0.15 / CLEAR, p.recognise, p.recognise_spread)
         # The same formula for one number: a few units in the last place.

@@ -1,0 +1,20 @@
+"""What a context draws with, where moderngl's own types know less than it takes."""
+
+from __future__ import annotations
+
+import moderngl
+
+
+def within(target: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) -> None:
+    """Draw only into a box (left, bottom, width, height) of a framebuffer; None: everywhere."""
+    target.scissor = box  # type: ignore[assignment]  # takes None, as its documentation says
+
+
+def blend(context: moderngl.Context, factors: tuple[int, int] | tuple[int, int, int, int]) -> None:
+    """Factors of what is drawn and of what is there; two more for alpha where it has its own."""
+    context.blend_func = factors  # type: ignore[assignment]  # takes four, as its text says
+
+
+def combine(context: moderngl.Context, color: int, alpha: int | None = None) -> None:
+    """How the two are put together; alpha otherwise if it is given."""
+    context.blend_equation = (color, color if alpha is None else alpha)
