@@ -24,11 +24,14 @@ def wide(data: Dataset, out: Path) -> None:
     """wide.csv, and wide.json that says what each column is."""
     tables = ("trials", "questionnaire")
     said = {c.name: c.description for table in tables for c in data.columns(table)}
-    naming = _naming(data)
     meaning = {"participant": said["participant"], "slot": said["slot"]}
+    naming, grouping = _naming(data), _grouping(data)
+    meaning |= {factor: said[factor] for factor in grouping}
     rows: dict[str, dict[str, str]] = {p: {"participant": p} for p in data.participants}
     for trial in latest_attempts(data.tables["trials"]):
         rows[trial["participant"]]["slot"] = trial["slot"]
+        for factor in grouping:
+            rows[trial["participant"]][factor] = trial[factor]
         for measure in MEASURES:
             if trial[measure] != "":
                 levels = [trial[factor] for factor in naming]
@@ -41,7 +44,7 @@ def wide(data: Dataset, out: Path) -> None:
         if answer["participant"] in rows:
             rows[answer["participant"]][name] = answer["value"] or harmless(answer["text"])
             meaning[name] = said["item"]
-    first = ["participant", "slot"]
+    first = ["participant", "slot", *grouping]
     columns = [*first, *sorted(set(meaning) - set(first))]
     put(out / "wide.csv", as_csv(columns, [rows[p] for p in data.participants]))
     put(out / "wide.json", as_json(_codebook(meaning)))
@@ -59,6 +62,17 @@ def _naming(data: Dataset) -> list[str]:
         ):
             named.append(factor)
     return named
+
+
+def _grouping(data: Dataset) -> list[str]:
+    """The factors of which each person has one level, and people differ."""
+    trials = data.tables["trials"]
+    return [
+        factor
+        for factor in data.factors
+        if len({row[factor] for row in trials}) > 1
+        and all(len(v) == 1 for v in _groups(trials, "participant", factor).values())
+    ]
 
 
 def _groups(rows: Sequence[Row], by: str, factor: str) -> dict[str, set[str]]:

@@ -58,6 +58,7 @@ def named(study: Study, page: Page, pairs: Iterable[tuple[str, str]]) -> Page:
     title = page.title
     if page.about and not known(study, title):
         title = ", ".join(study.factor(f).level(level).label or level for f, level in page.about)
+        title = title[:1].upper() + title[1:]
     return replace(page, title=title, blocks=tuple(_block(block, said) for block in page.blocks))
 
 

@@ -20,9 +20,8 @@ EXPECTED = {
     "more": "is more than at the baseline",
     "different": "differs from the baseline",
     "not worse": "is not worse than at the baseline",
-    "equal": "is equal to the baseline",
+    "equivalent": "is equivalent to the baseline",
     "at least": "is at least",
-    "at most": "is at most",
 }
 
 

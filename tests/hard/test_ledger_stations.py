@@ -12,6 +12,7 @@ from postgres import Postgres
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.ledger.ledger import Ledger
 from seethrough.experiment.ledger.ledger_plan import Plan
+from seethrough.experiment.ledger.ledger_slots import place_of
 
 STATIONS, SLOTS = 8, 1000
 ROWS = 7  # does not divide the number of slots: the rows may differ by one, and must not by two
@@ -25,9 +26,11 @@ from datetime import datetime, UTC
 from pathlib import Path
 from seethrough.experiment.ledger.ledger import Ledger
 from seethrough.experiment.ledger.ledger_plan import Plan
+from seethrough.experiment.ledger.ledger_slots import place_of
 
 STATIONS, EACH = {STATIONS}, {SLOTS // STATIONS}
-PLAN = Plan("many", "d" * 64, {ROWS}, {SLOTS}, 86_400.0, {{}})
+PLAN = Plan("many", "d" * 64, {ROWS}, {SLOTS}, 86_400.0, json.loads(sys.argv[3]))
+DROPPED = int(sys.argv[4])  # every so many leave at once, and somebody else comes
 NOW = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
 
 def station(number, data, url, together):
@@ -36,6 +39,9 @@ def station(number, data, url, together):
         slots = []
         for i in range(EACH):
             slots.append(ledger.reserve(f"S{{number}}-{{i}}", NOW).slot)
+            if DROPPED and i % DROPPED == 0:
+                ledger.void(f"S{{number}}-{{i}}", "left", NOW)
+                slots[-1] = ledger.reserve(f"S{{number}}-{{i}}b", NOW).slot
             time.sleep(0.002)  # a station does something else in between, and lets others in
         return slots
 
@@ -45,7 +51,7 @@ def child(number, data, url, together, results):
 forks = multiprocessing.get_context("fork")
 together, results = forks.Barrier(STATIONS), forks.Queue()
 for number in range(STATIONS):
-    forks.Process(target=child, args=(number, *sys.argv[1:], together, results)).start()
+    forks.Process(target=child, args=(number, *sys.argv[1:3], together, results)).start()
 print(json.dumps([results.get(timeout=100) for _ in range(STATIONS)]))
 """
 
@@ -60,7 +66,7 @@ def url(request):
 
 
 def test_eight_stations_take_a_thousand_slots_none_twice(url, tmp_path):
-    command = [sys.executable, "-c", LAUNCHER, tmp_path, url]
+    command = [sys.executable, "-c", LAUNCHER, tmp_path, url, "{}", "0"]
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert run.returncode == 0, run.stderr
     assert run.stderr == ""
@@ -79,6 +85,38 @@ def test_eight_stations_take_a_thousand_slots_none_twice(url, tmp_path):
     assert {e.status for e in entries} == {"live"}
     rows = Counter((slot - 1) % ROWS for slot in slots)
     assert max(rows.values()) - min(rows.values()) == 1
+
+
+@pytest.mark.parametrize("people", [(600, 250, 150)])
+def test_groups_fill_their_quotas_under_races_and_drop_outs(url, tmp_path, people):
+    """Every tenth person leaves and is replaced: when all have come each group has its quota, no
+    place was given twice, and on the way each has its share of who has come."""
+    groups = [
+        {"rows": ROWS, "people": n, "levels": {"g": str(g)}, "measured": {}}
+        for g, n in enumerate(people)
+    ]
+    plan = Plan("many", "d" * 64, ROWS, SLOTS, 86_400.0, {"groups": groups})
+    words = [tmp_path, url, json.dumps({"groups": groups}), "10"]
+    run = subprocess.run([sys.executable, "-c", LAUNCHER, *words], capture_output=True, text=True,
+                         timeout=120, check=False)  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    with Ledger.open(tmp_path, url, plan, NOW) as ledger:
+        entries = ledger.entries()
+        assert ledger.upcoming(NOW) is None
+    live = [place_of(e.slot, len(people)) for e in entries if e.status == "live"]
+    assert len(set(live)) == len(live) == SLOTS
+    assert len(entries) == SLOTS + STATIONS * len(range(0, SLOTS // STATIONS, 10))
+    counts = Counter(group for group, _ in live)
+    assert [counts[g] for g in range(len(people))] == list(people)
+    numbers = {g: sorted(n for group, n in live if group == g) for g in counts}
+    assert numbers == {g: list(range(1, n + 1)) for g, n in enumerate(people)}
+    # In the order of reservation; a place that was left is free for whoever comes next.
+    here: Counter[int] = Counter()
+    for entry in entries:
+        group, _ = place_of(entry.slot, len(people))
+        here[group] += entry.status == "live"
+        shares = [here[g] / n for g, n in enumerate(people)]
+        assert max(shares) - min(shares) <= (1 + STATIONS) / min(people)
 
 
 def test_a_ledger_moves_to_postgresql_with_its_entries_and_is_found_again(tmp_path):

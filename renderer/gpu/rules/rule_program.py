@@ -29,7 +29,7 @@ class RulePrograms:
         self._framebuffers: dict[tuple[int, int], moderngl.Framebuffer] = {}
 
     def ready(
-        self, table: SceneTable, technique: Any, state: Any, shot: Shot, matrix: bytes
+        self, table: SceneTable, technique: Any, state: object, shot: Shot, matrix: bytes
     ) -> Shader:
         """The technique's program with everything set but the sequence. Binds a framebuffer where
         the technique needs to know the targets' depth."""

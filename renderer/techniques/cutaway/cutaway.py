@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,17 +54,17 @@ class Cutaway(removal.Removal):
     Parameters = CutawayParameters
     removes = removal.CLIPPED
 
-    def touches(self, p: CutawayParameters, state: Any, shot: Shot) -> Bools:
+    def touches(self, p: CutawayParameters, state: object, shot: Shot) -> Bools:
         """What is nearer than the end of a wedge."""
         made = wedges(p, shot)
         depths = np.array([w.depth for w in made])
         return removal.reached(shot, removal.whole(shot, len(made)), depths)
 
-    def known(self, p: CutawayParameters, state: Any, seen: Surfaces) -> list[Wedge]:
+    def known(self, p: CutawayParameters, state: object, seen: Surfaces) -> list[Wedge]:
         """The wedges."""
         return wedges(p, seen.shot)
 
-    def rule(self, p: CutawayParameters, state: Any, seen: Surfaces, known: list[Wedge]) -> Look:
+    def rule(self, p: CutawayParameters, state: object, seen: Surfaces, known: list[Wedge]) -> Look:
         """Removed inside a wedge: before all its planes, and before the box's end."""
         signed = np.full(len(seen.depth), -np.inf)
         for wedge in known:
@@ -76,7 +75,7 @@ class Cutaway(removal.Removal):
         return removal.look(p, seen, signed, pierced)
 
     def pictures(
-        self, p: CutawayParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+        self, p: CutawayParameters, state: object, shot: Shot, needed: Mapping[str, object]
     ) -> Mapping[str, NDArray[np.float32]]:
         """The depth at which each pixel's line of sight leaves the hole."""
         return {"clip": clip_depth(wedges(p, shot), shot)}

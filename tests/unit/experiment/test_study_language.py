@@ -1,7 +1,9 @@
 """A level is a part of a study: what it merges into, what it may set, what is said of faults."""
 
 import copy
+import json
 import tomllib
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -10,10 +12,12 @@ from hypothesis import strategies as st
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, load, parse, shipped
 from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.design import session_for
 from seethrough.experiment.study.merge import leaves, merged, nested, overlap
 from seethrough.experiment.study.migrate import is_old, migrated
 from seethrough.experiment.study.migrate_file import migrated_text
 
+DATA = Path(__file__).resolve().parents[2] / "data" / "studies"
 BASE = """
 [study]
 name = "s"
@@ -71,10 +75,9 @@ def study(text=BASE, **more):
     return parse({**tomllib.loads(text), **more}, "s.toml")
 
 
-tables = st.recursive(
-    st.dictionaries(st.sampled_from("abc"), st.integers(0, 3), max_size=3),
-    lambda inner: st.dictionaries(st.sampled_from("abc"), st.integers(0, 3) | inner, max_size=3),
-)
+NAMES, NUMBERS = st.sampled_from("abc"), st.integers(0, 3)
+inner = st.dictionaries(NAMES, NUMBERS, max_size=3)
+tables = st.dictionaries(NAMES, NUMBERS | inner, max_size=3)
 
 
 @given(base=tables, part=tables)
@@ -266,3 +269,15 @@ def test_a_study_of_one_level_and_one_scenario_has_no_such_factors():
 
 def test_find_knows_examples_by_their_names():
     assert find("clutter").parent.name == "examples"
+
+
+def test_a_record_of_before_there_were_factors_has_the_same_trials():
+    """A sidecar's study as it was written then: what replays and exports read."""
+    table = json.loads((DATA / "published_before_factors.json").read_text("utf-8"))
+    assert is_old(table)
+    made, now = parse(table, "sidecar", before=True), load("published")
+    for slot in (1, 2, 7, 16):
+        assert session_for(slot, made.plan) == session_for(slot, now.plan)
+    assert made.places() == now.places()
+    assert [p.technique for p in made.parts.values()] == [p.technique for p in now.parts.values()]
+    assert list(made.questions) == list(now.questions)
