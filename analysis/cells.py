@@ -38,11 +38,40 @@ class Cells:
         picked = self.values[self._index(levels)]
         return picked.reshape(len(picked), -1).mean(axis=1)
 
+    def both(self, factor: str, first: str, second: str, **levels: str) -> tuple[Array, Array]:
+        """The values at two levels of a factor, over the other factors' cells that both have.
+
+        A cell that nobody has is left out of both means; (n,) each, NaN if lacking.
+        """
+        pair = []
+        for level in (first, second):
+            picked = self.values[self._index({**levels, factor: level})]
+            pair.append(picked.reshape(len(picked), -1))
+        there = np.isfinite(pair[0]).any(axis=0) & np.isfinite(pair[1]).any(axis=0)
+        if not there.any():
+            return pair[0].mean(axis=1), pair[1].mean(axis=1)
+        return pair[0][:, there].mean(axis=1), pair[1][:, there].mean(axis=1)
+
     def pick(self, **levels: str) -> Cells:
         """The cells at the given levels; the factors named are gone."""
         index = self._index(levels)
         left = {name: known for name, known in self.factors.items() if name not in levels}
         return Cells(self.values[index], self.counts[index], self.participants, left)
+
+    def take(self, levels: Mapping[str, Sequence[str]]) -> Cells:
+        """The cells of these levels of the factors named, all of the others'."""
+        values, counts = self.values, self.counts
+        for axis, (factor, known) in enumerate(self.factors.items(), start=1):
+            if factor in levels:
+                at = [known.index(level) for level in levels[factor]]
+                values, counts = np.take(values, at, axis), np.take(counts, at, axis)
+        left = {name: tuple(levels.get(name, known)) for name, known in self.factors.items()}
+        return Cells(values, counts, self.participants, left)
+
+    def lone(self) -> Cells:
+        """Without the factors that have a single level."""
+        at = {name: known[0] for name, known in self.factors.items() if len(known) == 1}
+        return self.pick(**at)
 
     def whole(self) -> Cells:
         """Only the participants who have every cell."""
@@ -53,7 +82,11 @@ class Cells:
     @property
     def missing(self) -> tuple[Missing, ...]:
         """Who lacks a cell, and which."""
-        bad = ~np.isfinite(self.values)
+        return self.lacking(np.ones_like(self.values, dtype=bool))
+
+    def lacking(self, expected: NDArray[np.bool_]) -> tuple[Missing, ...]:
+        """Who lacks a cell that they are `expected` to have, and which."""
+        bad = ~np.isfinite(self.values) & expected
         found = []
         for i in np.flatnonzero(bad.reshape(len(bad), -1).any(axis=1)):
             where = [

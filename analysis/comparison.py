@@ -1,15 +1,17 @@
-"""Standard against dynamic, measure by measure: the rows of the report's central tables."""
+"""A level against its baseline, measure by measure: the rows of the report's central tables."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from seethrough.analysis import equivalence
 from seethrough.analysis.cells import Array, Cells
+from seethrough.analysis.design import Contrast
+from seethrough.analysis.equivalence import Margin
 from seethrough.analysis.page.blocks import Cited, Column, Table
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.distributions import holm
@@ -27,49 +29,76 @@ NO_RATIO = "differences of z scores have no ratio"
 
 
 @dataclass(frozen=True, slots=True)
-class Measure:
-    """Values of n participants under both levels. `family`: Holm corrects within it.
+class Pair:
+    """Values of n participants under a contrast's baseline and its level. `family`: Holm's.
 
-    `kind`: what a margin may be declared of (`equivalence.MARGINS`). `logs`: for times, the same
-    people's means of their trials' logarithms. `ratio_scale`: whether 0 means none of it.
-    `participants`: the n names, where they are known.
+    `margin`: what was declared to be no difference that matters. `logs`: the same people's means of
+    their trials' logarithms. `ratio_scale`: whether 0 means none of it. `participants`: the n
+    names, where they are known.
     """
 
     key: str
     label: str
     unit: str
     digits: int
-    standard: Array
-    dynamic: Array
+    first: Array
+    second: Array
     family: str = ""
-    kind: str = ""
+    margin: Margin | None = None
     logs: tuple[Array, Array] | None = None
     ratio_scale: bool = True
     participants: tuple[str, ...] = ()
+    contrast: Contrast | None = None
+    of: str = ""
+    where: str = ""
+
+    @property
+    def about(self) -> dict[str, Any]:
+        """What of a row is no column: whose it is, for what is said of it."""
+        return {"of": self.of, "where": self.where, "level": self.contrast and self.contrast.key}
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """The two levels' names, as headings have them."""
+        return (self.contrast.baseline, self.contrast.level) if self.contrast else SIDES
+
+    @property
+    def said(self) -> tuple[str, str]:
+        """The two levels in words, as sentences have them."""
+        return (self.contrast.first, self.contrast.second) if self.contrast else SIDES
 
 
-def measure(
+SIDES = ("baseline", "level")
+
+
+def pair_of(
     key: str,
     label: str,
     unit: str,
     digits: int,
     cells: Cells,
+    contrast: Contrast,
     family: str = "",
-    kind: str = "",
+    margin: Margin | None = None,
+    ratio_scale: bool = True,
     **at: str,
-) -> Measure | None:
-    """The measure of those who have both levels; None unless somebody has."""
-    if cells.factors["transparency"] != ("standard", "dynamic"):
+) -> Pair | None:
+    """The pair of those who have both levels of a within contrast; None unless somebody has.
+
+    Over the other factors' cells that both levels have: cells that the study leaves out for
+    everybody are in neither mean.
+    """
+    if not {contrast.baseline, contrast.level} <= set(cells.factors.get(contrast.factor, ())):
         return None
-    pair = np.stack(
-        [cells.at(transparency=level, **at) for level in cells.factors["transparency"]], axis=1
-    )
+    pair = np.stack(cells.both(contrast.factor, contrast.baseline, contrast.level, **at), axis=1)
     both = np.isfinite(pair).all(axis=1)
     if not both.any():
         return None
     names = tuple(p for p, b in zip(cells.participants, both, strict=True) if b)
     first, second = pair[both].T
-    return Measure(key, label, unit, digits, first, second, family, kind, participants=names)
+    return Pair(
+        key, label, unit, digits, first, second, family, margin, None, ratio_scale, names, contrast
+    )
 
 
 def sd_of(x: Array) -> Number:
@@ -87,7 +116,7 @@ def _correlation(x: Array, y: Array) -> Number:
 
 def _f_columns(first: Array, second: Array) -> dict[str, Any]:
     """The one-factor ANOVA of two conditions."""
-    effect = repeated_measures(np.stack([first, second], axis=1), ["transparency"])["transparency"]
+    effect = repeated_measures(np.stack([first, second], axis=1), ["level"])["level"]
     return {
         "df1": effect.df1,
         "df2": effect.df2,
@@ -117,41 +146,44 @@ def _paired_columns(first: Array, second: Array) -> dict[str, Any]:
     }
 
 
-def compare(measures: Sequence[Measure], margins: Mapping[str, float]) -> Table:
+def compare(measures: Sequence[Pair]) -> Table:
     """One row per measure on its own scale, with the tests against its declared margin."""
     rows = []
     for m in measures:
         ratio, ends = (
-            ratio_of_means(m.standard, m.dynamic)
+            ratio_of_means(m.first, m.second)
             if m.ratio_scale
             else (Undefined(NO_RATIO), no_interval(NO_RATIO))
         )
         row: dict[str, Any] = {
+            **m.about,
             "measure": m.key,
             "label": m.label,
             "unit": m.unit,
             "digits": m.digits,
-            "n": len(m.standard),
-            "mean_standard": float(m.standard.mean()),
-            "sd_standard": sd_of(m.standard),
-            "mean_dynamic": float(m.dynamic.mean()),
-            "sd_dynamic": sd_of(m.dynamic),
-            "r": _correlation(m.standard, m.dynamic),
+            "n": len(m.first),
+            "mean_baseline": float(m.first.mean()),
+            "sd_baseline": sd_of(m.first),
+            "mean_level": float(m.second.mean()),
+            "sd_level": sd_of(m.second),
+            "r": _correlation(m.first, m.second),
             # of two conditions both have the same one
-            "within_half": within_halfwidths(np.stack([m.standard, m.dynamic], axis=1))[0],
-            **_f_columns(m.standard, m.dynamic),
-            **_paired_columns(m.standard, m.dynamic),
+            "within_half": within_halfwidths(np.stack([m.first, m.second], axis=1))[0],
+            **_f_columns(m.first, m.second),
+            **_paired_columns(m.first, m.second),
             "ratio": ratio,
             "ratio_low": ends[0],
             "ratio_high": ends[1],
-            **equivalence.equivalence(m.standard, m.dynamic, m.kind, margins),
+            **equivalence.equivalence(m.first, m.second, m.margin),
         }
         rows.append(row)
     add_holm(rows, measures)
-    return Table("tests", "Standard against dynamic transparency", COLUMNS, tuple(rows), SHOWN)
+    return Table(
+        "tests", "Levels against their baseline", headed(COLUMNS, measures), tuple(rows), SHOWN
+    )
 
 
-def compare_logs(measures: Sequence[Measure], margins: Mapping[str, float]) -> Table:
+def compare_logs(measures: Sequence[Pair]) -> Table:
     """Times on the log scale: geometric means and their ratio, and the tests of the ratio."""
     rows = []
     for m in measures:
@@ -161,28 +193,29 @@ def compare_logs(measures: Sequence[Measure], margins: Mapping[str, float]) -> T
         pair = _paired_columns(first, second)
         rows.append(
             {
+                **m.about,
                 "measure": m.key,
                 "label": m.label,
                 "digits": m.digits,
                 "n": len(first),
-                "geometric_standard": float(np.exp(first.mean())),
-                "geometric_dynamic": float(np.exp(second.mean())),
+                "geometric_baseline": float(np.exp(first.mean())),
+                "geometric_level": float(np.exp(second.mean())),
                 "ratio": float(np.exp(-pair["difference"])),
                 "ratio_low": _exp(pair["difference_high"]),
                 "ratio_high": _exp(pair["difference_low"]),
                 **_f_columns(first, second),
                 **pair,
-                **equivalence.log_equivalence(first, second, m.kind, margins),
+                **equivalence.log_equivalence(first, second, m.margin),
             }
         )
     add_holm(rows, [m for m in measures if m.logs is not None])
     return Table(
-        "tests_log_time",
-        "Completion times on the log scale",
-        LOG_COLUMNS,
+        "tests_log",
+        "On the log scale",
+        headed(LOG_COLUMNS, measures),
         tuple(rows),
         LOG_SHOWN,
-        "Ratio: dynamic / standard, of geometric means: each participant's mean of the logarithms "
+        "Ratio: level / baseline, of geometric means: each participant's mean of the logarithms "
         "of their trials, averaged over participants.",
     )
 
@@ -191,9 +224,7 @@ def _exp(value: Number) -> Number:
     return float(np.exp(-value)) if is_defined(value) else value
 
 
-def add_holm(
-    rows: Sequence[dict[str, Any]], measures: Sequence[Measure], column: str = "p"
-) -> None:
+def add_holm(rows: Sequence[dict[str, Any]], measures: Sequence[Pair], column: str = "p") -> None:
     """Holm's p of `column` within each family; empty for a measure of no family."""
     by_key = {m.key: m.family for m in measures}
     for row in rows:
@@ -204,12 +235,23 @@ def add_holm(
             row["p_holm"] = p
 
 
+def headed(columns: Sequence[Column], pairs: Sequence[Pair]) -> tuple[Column, ...]:
+    """The columns with the levels' names in their headings, where all rows share them."""
+    names = {p.names for p in pairs}
+    if len(names) != 1:
+        return tuple(columns)
+    words = dict(zip(SIDES, names.pop(), strict=True))
+    return tuple(
+        replace(c, label=" ".join(words.get(w, w) for w in c.label.split(" "))) for c in columns
+    )
+
+
 _TEST = (
     Column("df1", "df₁", "int"),
     Column("df2", "df₂", "int"),
     Column("F", "F", "fixed2"),
     Column("p", "p", "p"),
-    Column("p_holm", "p (Holm)", "p", "over the tasks"),
+    Column("p_holm", "p (Holm)", "p", "over tasks and levels"),
     Column("ges", "η²G", "bound3", "generalised η²"),
     Column("pes", "η²p", "bound2", "90 % interval", "pes_low", "pes_high"),
     Column("pes_low", "η²p from", "bound3", "90 % interval"),
@@ -218,7 +260,7 @@ _TEST = (
 _DIFFERENCE = (
     Column(
         "difference",
-        "standard − dynamic",
+        "baseline − level",
         "sig3",
         "95 % interval",
         "difference_low",
@@ -236,7 +278,7 @@ _DIFFERENCE = (
     Column("shapiro_p", "Shapiro p", "p", "of the differences"),
 )
 _RATIO = (
-    Column("ratio", "dynamic / standard", "fixed2", "95 % interval", "ratio_low", "ratio_high"),
+    Column("ratio", "level / baseline", "fixed2", "95 % interval", "ratio_low", "ratio_high"),
     Column("ratio_low", "ratio from", "fixed2", "95 % interval"),
     Column("ratio_high", "ratio to", "fixed2", "95 % interval"),
 )
@@ -245,10 +287,10 @@ COLUMNS = (
     Column("label", "measure"),
     Column("unit", "unit"),
     Column("n", "n", "int"),
-    Column("mean_standard", "M standard", "own"),
-    Column("sd_standard", "SD", "own"),
-    Column("mean_dynamic", "M dynamic", "own"),
-    Column("sd_dynamic", "SD", "own"),
+    Column("mean_baseline", "M baseline", "own"),
+    Column("sd_baseline", "SD", "own"),
+    Column("mean_level", "M level", "own"),
+    Column("sd_level", "SD", "own"),
     Column("r", "r", "bound2", "between the two conditions"),
     Column("within_half", "± within", "sig3", "95 % within-participant interval"),
     *_TEST,
@@ -257,20 +299,20 @@ COLUMNS = (
     *equivalence.COLUMNS,
 )
 SHOWN = tuple(
-    "label n mean_standard sd_standard mean_dynamic sd_dynamic F p p_holm pes dz bf10".split()
+    "label n mean_baseline sd_baseline mean_level sd_level F p p_holm pes dz bf10".split()
 )
 LOG_COLUMNS = (
     Column("measure", "measure"),
     Column("label", "measure"),
     Column("n", "n", "int"),
-    Column("geometric_standard", "standard", "own", "geometric mean, s"),
-    Column("geometric_dynamic", "dynamic", "own", "geometric mean, s"),
+    Column("geometric_baseline", "baseline", "own", "geometric mean"),
+    Column("geometric_level", "level", "own", "geometric mean"),
     *_RATIO,
     *_TEST,
     *_DIFFERENCE,
     *equivalence.COLUMNS,
 )
-LOG_SHOWN = tuple("label n geometric_standard geometric_dynamic ratio F p p_holm dz bf10".split())
+LOG_SHOWN = tuple("label n geometric_baseline geometric_level ratio F p p_holm dz bf10".split())
 
 
 _EQUAL = "tost_margin tost_p noninferior_p low90 high90"

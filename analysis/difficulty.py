@@ -9,9 +9,10 @@ import numpy as np
 import pandas as pd
 
 from seethrough.analysis.cells import Array, means
-from seethrough.analysis.comparison import Measure, measure
+from seethrough.analysis.comparison import Pair, pair_of
+from seethrough.analysis.design import Contrast, Design
 from seethrough.analysis.load.schema import CERTIFICATE
-from seethrough.analysis.measures import design
+from seethrough.analysis.measures import levels_of
 from seethrough.analysis.stats.ties import is_constant
 from seethrough.analysis.stats.undefined import Number, Undefined
 
@@ -36,7 +37,7 @@ class Balance:
 
     task: str
     quantity: str
-    measure: Measure
+    pair: Pair
     smd: Number
 
 
@@ -55,32 +56,38 @@ def with_certificate(trials: pd.DataFrame, certificate: pd.DataFrame | None) -> 
     return left.merge(right, on=list(keys), how="left", validate="many_to_one")
 
 
-def balance(trials: pd.DataFrame) -> list[Balance]:
-    """Every known quantity, task by task, where both levels have values."""
+def balance(trials: pd.DataFrame, design: Design) -> list[Balance]:
+    """Every known quantity, task by task, for each level of the factors that leave scenes alone."""
+    factors = [f for f in design.crossed if f.scenes == "alone"]
+    contrasts = [c for f in factors for c in f.contrasts()]
     found = []
     for quantity in (name for name in QUANTITIES if name in trials):
         known = trials.dropna(subset=[quantity])
         if not len(known):
             continue
-        levels = design(known)
-        cells = means(known, quantity, {k: levels[k] for k in ("task", "transparency")})
+        cells = means(known, quantity, levels_of(known, factors, design.task_names))
         for task in cells.factors["task"]:
-            m = measure(f"{quantity}_{task}", quantity, "", 3, cells, task=task)
-            if m is None:
-                continue
-            # nobody walks in the abstract world
-            if quantity != "path" or m.standard.any() or m.dynamic.any():
-                same = known["participant"].astype("str").isin(m.participants)
+            for contrast in contrasts:
+                key = f"{quantity}_{task}" + (f"/{contrast.key}" if len(contrasts) > 1 else "")
+                pair = pair_of(key, quantity, "", 3, cells, contrast, task=task)
+                # nobody walks in a world that one turns about
+                if pair is None or (quantity == "path" and not _any(pair)):
+                    continue
+                same = known["participant"].astype("str").isin(pair.participants)
                 own = known[same & (known["task"] == task)]
-                found.append(Balance(task, quantity, m, _smd(own, quantity)))
+                found.append(Balance(task, quantity, pair, _smd(own, quantity, contrast)))
     return found
 
 
-def _smd(trials: pd.DataFrame, quantity: str) -> Number:
-    """(dynamic − standard) / pooled s.d. of the trials' scenes."""
+def _any(pair: Pair) -> bool:
+    return bool(pair.first.any() or pair.second.any())
+
+
+def _smd(trials: pd.DataFrame, quantity: str, contrast: Contrast) -> Number:
+    """(level − baseline) / pooled s.d. of the trials' scenes."""
     parts: list[Array] = [
-        trials.loc[trials["transparency"] == level, quantity].to_numpy(dtype=np.float64)
-        for level in ("standard", "dynamic")
+        trials.loc[trials[contrast.factor] == level, quantity].to_numpy(dtype=np.float64)
+        for level in (contrast.baseline, contrast.level)
     ]
     if min(map(len, parts)) < 2:
         return Undefined("fewer than two trials")

@@ -1,79 +1,87 @@
-"""Is no difference equality, and is the technique at least no worse? Against declared margins only.
+"""Is no difference equality, and is the level at least no worse? Against declared margins only.
 
-A margin is absolute, in the measure's own unit, or for times a ratio; it is declared in the study,
-before there are data ([analysis.margins]). A margin taken from the data is no margin: against 20 %
-of the observed mean a test at .05 rejects in .07 to .09 of studies (16 people).
+A margin is absolute, in the measure's own unit, or for what is analysed as logarithms a ratio; it
+is declared in the study, before there are data. A margin taken from the data is no margin: against
+20 % of the observed mean a test at .05 rejects in .07 to .09 of studies (16 people).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from seethrough.analysis.cells import Array
+from seethrough.analysis.design import Measured
 from seethrough.analysis.page.blocks import Cited, Column, Table, say
 from seethrough.analysis.stats.paired import Equivalence, ratio_within, tost
 from seethrough.analysis.stats.undefined import Undefined, is_defined
 
-MARGINS = ("time", "count_error", "correct", "distance")
-"""What a study may declare a margin of."""
-RATIOS = ("time",)
-LARGER_IS_BETTER = ("correct",)
 NO_MARGIN = "no margin was declared before the data"
+
+
+@dataclass(frozen=True, slots=True)
+class Margin:
+    """A declared margin: `ratio` says whether it is one; `more`: whether more is better."""
+
+    value: float
+    ratio: bool = False
+    more: bool = False
+
+
+def margin_of(measure: Measured) -> Margin | None:
+    """What a measure's study declared of it."""
+    if measure.margin is None:
+        return None
+    return Margin(measure.margin, measure.log or measure.ratio, measure.direction == "more")
+
 
 COLUMNS = (
     Column("tost_margin", "margin", "sig3", "declared before the data"),
     Column("tost_p", "p (TOST)", "p", "that the two are within the margin"),
-    Column("noninferior_p", "p (no worse)", "p", "that dynamic is not worse by the margin"),
+    Column("noninferior_p", "p (no worse)", "p", "that the level is not worse by the margin"),
     Column("low90", "90 % from", "sig3", "of the difference; of the ratio where the margin is one"),
     Column("high90", "90 % to", "sig3"),
 )
 
 
-def equivalence(
-    first: Array, second: Array, kind: str, margins: Mapping[str, float]
-) -> dict[str, Any]:
-    """The columns for n people's values under standard and dynamic; `kind`: what is measured."""
-    if kind not in margins:
-        return _row(None, Undefined(NO_MARGIN), kind)
-    if kind in RATIOS:
-        return _row(ratio_within(first, second, margins[kind]), margins[kind], kind)
+def equivalence(first: Array, second: Array, margin: Margin | None) -> dict[str, Any]:
+    """The columns for n people's values under baseline and level."""
+    if margin is None:
+        return _row(None, Undefined(NO_MARGIN))
+    if margin.ratio:
+        return _row(ratio_within(first, second, margin.value), margin.value, margin.more)
     scale = float(max(np.max(np.abs(first)), np.max(np.abs(second))))
-    test = tost(first - second, margins[kind], scale)
-    return _row(test, margins[kind], kind)
+    return _row(tost(first - second, margin.value, scale), margin.value, margin.more)
 
 
-def log_equivalence(
-    first: Array, second: Array, kind: str, margins: Mapping[str, float]
-) -> dict[str, Any]:
+def log_equivalence(first: Array, second: Array, margin: Margin | None) -> dict[str, Any]:
     """The same for logarithms: the ratio of geometric means between 1 / margin and margin."""
-    if kind not in margins:
-        return _row(None, Undefined(NO_MARGIN), kind)
+    if margin is None:
+        return _row(None, Undefined(NO_MARGIN))
     scale = float(max(np.max(np.abs(first)), np.max(np.abs(second))))
-    test = tost(first - second, float(np.log(margins[kind])), scale)
+    test = tost(first - second, float(np.log(margin.value)), scale)
     low, high = test.interval90
-    ends = (_ratio(high), _ratio(low))
-    return _row(test, margins[kind], kind, ends)
+    return _row(test, margin.value, margin.more, (_ratio(high), _ratio(low)))
 
 
 def _ratio(log_gap: float | Undefined) -> float | Undefined:
-    """dynamic / standard from standard − dynamic of logarithms."""
+    """level / baseline from baseline − level of logarithms."""
     return float(np.exp(-log_gap)) if is_defined(log_gap) else log_gap
 
 
 def _row(
     test: Equivalence | None,
     margin: float | Undefined,
-    kind: str,
+    more: bool = False,
     ends: tuple[float | Undefined, float | Undefined] | None = None,
 ) -> dict[str, Any]:
     if test is None:
         return dict.fromkeys((c.name for c in COLUMNS), margin)
     low, high = ends or test.interval90
     # worse is more of an error or a time, and less of what is right
-    no_worse = test.p_high if kind in LARGER_IS_BETTER else test.p_low
+    no_worse = test.p_high if more else test.p_low
     return {
         "tost_margin": margin,
         "tost_p": test.p,

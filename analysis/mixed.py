@@ -1,42 +1,47 @@
 """A linear mixed model of single trials, as a sensitivity analysis beside the contrast scores.
 
-Participants differ in level and in the technique's effect, and both differ between their tasks.
-With fewer random effects the trials of one person would count as independent evidence, so the
-fullest model that the data can hold is fitted, and the report names it. t has n − 1 degrees of
-freedom, the participants'.
+Participants differ in level and in the effect of the main factor, and both differ between their
+tasks. With fewer random effects the trials of one person would count as independent evidence, so
+the fullest model that the data can hold is fitted; the report names it, and what was given up on
+the way. t has n − g degrees of freedom: the participants' less the groups'.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from seethrough.analysis.load.schema import TRANSPARENCY
-from seethrough.analysis.measures import design
+from seethrough.analysis.design import Design, Factor
+from seethrough.analysis.measures import levels_of
 from seethrough.analysis.stats import reml
 from seethrough.analysis.stats.distributions import t_quantile, t_two_sided
+from seethrough.analysis.stats.split_plot import sum_coding
 from seethrough.analysis.stats.ties import is_constant
 from seethrough.analysis.stats.undefined import Interval, Number, Undefined, no_interval
 
 MOST_PARTICIPANTS = 400
-SLOPES = "(1 + transparency | participant)"
-TASK_SLOPES = "(1 + transparency | participant:task)"
+MOST_PARAMETERS = 30
+"""Variances and covariances that are searched for at most: more take minutes."""
+SLOPES = "(1 + {} | participant)"
+TASK_SLOPES = "(1 + {} | participant:task)"
 TASK_LEVELS = "(1 | participant:task)"
 LEVELS = "(1 | participant)"
 MODELS = ((SLOPES, TASK_SLOPES), (SLOPES, TASK_LEVELS), (SLOPES,), (LEVELS,))
-"""Random terms in lme4's words, fullest first."""
+"""Random terms in lme4's words, fullest first; `{}` is the main factor."""
 
 
 @dataclass(frozen=True, slots=True)
 class MixedEffect:
-    """The technique's effect on log time, averaged over tasks; `ratio` is dynamic / standard.
+    """A level's effect on log time against the baseline, averaged over tasks and other factors.
 
-    `n`: participants who met both levels; `model`: the random terms that were fitted, `singular`
-    whether one of their variances is estimated as 0 or a correlation as ±1. `sd_slope`: s.d. of
-    the effect between participants; `sd_task_slope`: between the tasks of one participant.
+    `ratio`: level / baseline. `n`: participants who met every level of the factor; `df`: n less the
+    groups; `model`: the random terms that were fitted, `singular` whether one of their variances is
+    estimated as 0 or a correlation as ±1. `sd_slope`: s.d. of the effect between participants;
+    `sd_task_slope`: between the tasks of one participant. `given_up`: fuller models, and why not.
     """
 
     n: int
@@ -51,118 +56,207 @@ class MixedEffect:
     sd_task_slope: Number
     model: str
     singular: bool | None
+    level: str = ""
+    df: int = 0
+    terms: tuple[str, ...] = ()
+    given_up: tuple[str, ...] = ()
 
 
-def _none(n: int, trials: int, why: str) -> MixedEffect:
+@dataclass(frozen=True, slots=True)
+class _Layout:
+    """The fixed columns, the factor's columns among them, and who and where each row is."""
+
+    fixed: NDArray[np.float64]
+    level: NDArray[np.float64]
+    person: NDArray[np.intp]
+    task: NDArray[np.intp]
+    tasks: int
+    n: int
+    df: int
+
+
+def _none(n: int, trials: int, why: str, level: str) -> MixedEffect:
     gone = Undefined(why)
     return MixedEffect(
-        n, trials, gone, gone, gone, gone, gone, no_interval(why), gone, gone, "", None
+        n,
+        trials,
+        gone,
+        gone,
+        gone,
+        gone,
+        gone,
+        no_interval(why),
+        gone,
+        gone,
+        "",
+        None,
+        level,
+        n - 1,
     )
 
 
-def mixed_model(trials: pd.DataFrame) -> MixedEffect:
-    """log time ~ transparency × task with the fullest random terms of `MODELS`, by REML."""
-    levels = design(trials)
-    met = trials.groupby("participant", observed=True)["transparency"].nunique()
-    n, count = int((met == 2).sum()), len(trials)
-    if levels["transparency"] != TRANSPARENCY:
-        return _none(n, count, "there is only one transparency level")
+def mixed_model(trials: pd.DataFrame, design: Design) -> list[MixedEffect]:
+    """log time ~ main factor × task × the other factors with the fullest random terms, by REML.
+
+    One effect for each level but the baseline; none where no factor varies within people.
+    """
+    factor = design.main
+    if factor is None:
+        return []
+    others = [level for level in factor.levels if level != factor.baseline]
+    met = trials.groupby("participant", observed=True)[factor.name].nunique()
+    n, count = int((met == len(factor.levels)).sum()), len(trials)
+
+    def nothing(why: str) -> list[MixedEffect]:
+        return [_none(n, count, why, level) for level in others]
+
+    if levels_of(trials, [factor])[factor.name] != factor.levels:
+        return nothing(f"not every level of {factor.name} was met")
     if n < 3:
-        return _none(n, count, "fewer than three participants with both levels")
+        return nothing("fewer than three participants with every level")
     if len(met) > MOST_PARTICIPANTS:
-        return _none(
-            n,
-            count,
+        return nothing(
             f"left out for more than {MOST_PARTICIPANTS} participants, where it takes minutes and "
-            "agrees with the contrast scores",
+            "agrees with the contrast scores"
         )
-    technique = np.where(trials["transparency"] == "dynamic", 0.5, -0.5)
-    fixed = _fixed(trials, technique, levels["task"])
-    if np.linalg.matrix_rank(fixed) < fixed.shape[1]:
-        return _none(n, count, "not every task was met under both levels")
+    layout = _layout(trials, design, factor, others, n)
+    if np.linalg.matrix_rank(layout.fixed) < layout.fixed.shape[1]:
+        return nothing("not every task was met under every level")
     y = np.log(trials["time"].to_numpy())
     if is_constant(y):
-        return _none(n, count, "all times are equal")
+        return nothing("all times are equal")
     # no offset and a spread of one: sums of squares of logs near 20.7 that differ by 10⁻⁸ cancel
     apart = y - y[0]
     unit = float(np.std(apart))
-    return _fullest(trials, apart / unit, fixed, technique, levels["task"], n, unit)
+    return _fullest(apart / unit, layout, factor, others, unit)
 
 
-def _fixed(
-    trials: pd.DataFrame, technique: NDArray[np.float64], tasks: tuple[str, ...]
-) -> NDArray[np.float64]:
-    """Sum coding: the technique's coefficient is its mean effect over the tasks."""
-    last = (trials["task"] == tasks[-1]).to_numpy(float)
-    task = [(trials["task"] == t).to_numpy(float) - last for t in tasks[:-1]]
-    return np.column_stack([np.ones(len(trials)), technique, *task, *(technique * t for t in task)])
+def _layout(
+    trials: pd.DataFrame, design: Design, factor: Factor, others: Sequence[str], n: int
+) -> _Layout:
+    """Each level's column is its indicator less 1/k, so that its coefficient is level − baseline at
+    the mean of all else, which is sum-coded and crossed with it.
+
+    Where the study leaves cells out, nothing is crossed: not every interaction can be estimated.
+    """
+    levels = levels_of(trials, (*design.crossed, *design.groups), design.task_names)
+    own = trials[factor.name].astype("str").to_numpy()
+    shares = len(factor.levels)
+    level = np.column_stack([(own == name) - 1 / shares for name in others])
+    rest = np.ones((len(trials), 1))
+    crossed = not any(set(gone) & set(levels) for gone in design.excluded)
+    for name, known in levels.items():
+        if name != factor.name and len(known) > 1:
+            codes = pd.Categorical(trials[name].astype("str"), categories=list(known)).codes
+            coded = np.column_stack([np.ones(len(trials)), sum_coding(len(known))[codes]])
+            if crossed:
+                rest = np.einsum("ni,nj->nji", rest, coded).reshape(len(trials), -1)
+            else:
+                rest = np.column_stack([rest, coded[:, 1:]])
+    if not crossed:
+        return _Layout(np.column_stack([rest[:, :1], level, rest[:, 1:]]), *_who(trials, level),
+                       len(levels["task"]), n, n - _groups(trials, design))  # fmt: skip
+    both = np.einsum("ni,nj->nij", level, rest).reshape(len(trials), -1)
+    slots = np.arange(len(others)) * rest.shape[1]
+    left = np.setdiff1d(np.arange(both.shape[1]), slots)
+    fixed = np.column_stack([rest[:, :1], both[:, slots], rest[:, 1:], both[:, left]])
+    return _Layout(fixed, *_who(trials, level), len(levels["task"]), n, n - _groups(trials, design))
+
+
+def _who(
+    trials: pd.DataFrame, level: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.intp]]:
+    """The factor's columns, and whose and which task each row is."""
+    _, person = np.unique(trials["participant"].astype("str"), return_inverse=True)
+    _, task = np.unique(trials["task"].astype("str"), return_inverse=True)
+    return level, person, task
+
+
+def _groups(trials: pd.DataFrame, design: Design) -> int:
+    """How many groups of people there are, 1 where all are one."""
+    if not design.groups:
+        return 1
+    return len(trials[[f.name for f in design.groups]].astype("str").drop_duplicates())
 
 
 def _fullest(
-    trials: pd.DataFrame,
-    y: NDArray[np.float64],
-    fixed: NDArray[np.float64],
-    technique: NDArray[np.float64],
-    tasks: tuple[str, ...],
-    n: int,
-    unit: float,
-) -> MixedEffect:
+    y: NDArray[np.float64], layout: _Layout, factor: Factor, others: Sequence[str], unit: float
+) -> list[MixedEffect]:
     """The first of `MODELS` that has fewer random effects than there are rows, and converges.
 
     `y` is in units of `unit`.
     """
-    _, person = np.unique(trials["participant"].astype("str"), return_inverse=True)
-    _, task = np.unique(trials["task"].astype("str"), return_inverse=True)
     groups = {
-        "participant": int(person.max()) + 1,
-        "task": len(np.unique(person * len(tasks) + task)),
+        "participant": int(layout.person.max()) + 1,
+        "task": len(np.unique(layout.person * layout.tasks + layout.task)),
     }
     one = np.ones((len(y), 1))
-    both = np.column_stack([one, technique])
+    both = np.column_stack([one, layout.level])
     whole = np.zeros(len(y), dtype=np.intp)
     terms = {
         SLOPES: (reml.Term(both, whole, 1), groups["participant"]),
-        TASK_SLOPES: (reml.Term(both, task, len(tasks)), groups["task"]),
-        TASK_LEVELS: (reml.Term(one, task, len(tasks)), groups["task"]),
+        TASK_SLOPES: (reml.Term(both, layout.task, layout.tasks), groups["task"]),
+        TASK_LEVELS: (reml.Term(one, layout.task, layout.tasks), groups["task"]),
         LEVELS: (reml.Term(one, whole, 1), groups["participant"]),
     }
+    given_up = []
     for names in MODELS:
         chosen = [terms[name] for name in names]
-        if any(count * term.size >= len(y) for term, count in chosen):
+        said = _said(names, factor)
+        if layout.tasks == 1 and len(names) > 1:  # the same groups twice
             continue
-        if len(tasks) == 1 and len(names) > 1:  # the same groups twice
+        if any(count * term.size >= len(y) for term, count in chosen):
+            given_up.append(f"{said}: as many random effects as trials")
+            continue
+        if sum(t.size * (t.size + 1) // 2 for t, _ in chosen) > MOST_PARAMETERS:
+            given_up.append(f"{said}: more than {MOST_PARAMETERS} variances and covariances")
             continue
         try:
-            found = reml.fit(y, fixed, person, [term for term, _ in chosen])
+            found = reml.fit(y, layout.fixed, layout.person, [term for term, _ in chosen])
         except np.linalg.LinAlgError:
+            given_up.append(f"{said}: cannot be fitted")
             continue
-        if found.converged and found.errors[1] > 0:
-            return _effect(found, names, n, len(y), unit)
-    return _none(n, len(y), "no model of these trials can be fitted")
+        if found.converged and np.all(found.errors[1 : len(others) + 1] > 0):
+            return [
+                _effect(found, names, factor, level, i, layout, len(y), unit, tuple(given_up))
+                for i, level in enumerate(others, start=1)
+            ]
+        given_up.append(f"{said}: did not converge")
+    why = "no model of these trials can be fitted"
+    return [_none(layout.n, len(y), why, level) for level in others]
+
+
+def _said(names: Sequence[str], factor: Factor) -> str:
+    return " + ".join(names).replace("{}", factor.name)
 
 
 def _effect(
-    found: reml.Fit, names: tuple[str, ...], n: int, count: int, unit: float
-) -> MixedEffect:
-    estimate, error = unit * float(found.beta[1]), unit * float(found.errors[1])
-    half = t_quantile(0.975, n - 1) * error
+    found: reml.Fit, names: tuple[str, ...], factor: Factor, level: str, at: int, layout: _Layout,
+    count: int, unit: float, given_up: tuple[str, ...],
+) -> MixedEffect:  # fmt: skip
+    estimate, error = unit * float(found.beta[at]), unit * float(found.errors[at])
+    half = t_quantile(0.975, layout.df) * error
     slopes = {
-        name: unit * float(np.sqrt(max(0.0, cov[1, 1])))
+        name: unit * float(np.sqrt(max(0.0, cov[at, at])))
         for name, cov in zip(names, found.covariances, strict=True)
-        if len(cov) == 2
+        if len(cov) > 1
     }
     gone = Undefined("not in the model")
     return MixedEffect(
-        n,
+        layout.n,
         count,
         estimate,
         error,
         estimate / error,
-        t_two_sided(estimate / error, n - 1),
+        t_two_sided(estimate / error, layout.df),
         float(np.exp(estimate)),
         (float(np.exp(estimate - half)), float(np.exp(estimate + half))),
         slopes.get(SLOPES, gone),
         slopes.get(TASK_SLOPES, gone),
-        " + ".join(names),
+        _said(names, factor),
         found.singular,
+        level,
+        layout.df,
+        names,
+        given_up,
     )

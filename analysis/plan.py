@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from seethrough.analysis.equivalence import MARGINS, RATIOS
+from seethrough.analysis.before import planned_trials
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.exclude import TOO_FAST
-from seethrough.analysis.load.study import Study
+from seethrough.analysis.load.study import Study, config_of
 
 TESTS = ("time", "accuracy", "ratings", "tradeoff", "validity", "mixed")
 
@@ -20,8 +20,8 @@ TESTS = ("time", "accuracy", "ratings", "tradeoff", "validity", "mixed")
 class Plan:
     """The analysis as it runs. `frozen` is the study's [analysis] table, None if it has none.
 
-    `margins`: what the study declared to be no difference that matters, by kind of measure; what
-    is not in it has no margin. `too_fast`: the limit of that exclusion rule, seconds.
+    `margins`: what the study declared to be no difference that matters, by measure; what is not in
+    it has no margin. `too_fast`: the limit of that exclusion rule, seconds.
     """
 
     alpha: float
@@ -33,13 +33,6 @@ class Plan:
     participants: int | None
     trials: int | None
     too_fast: float = TOO_FAST
-
-
-def config_of(sidecar: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The study's resolved config in a sidecar, `provenance.study`; empty if there is none."""
-    provenance = sidecar.get("provenance")
-    config = provenance.get("study") if isinstance(provenance, Mapping) else None
-    return config if isinstance(config, Mapping) else {}
 
 
 def digest(value: Any) -> str:
@@ -78,27 +71,13 @@ def make_plan(
         used_alpha,
         used_out,
         tests or TESTS,
-        _margins(table.get("margins") or {}),
+        {m.name: m.margin for m in study.design.measures() if m.margin is not None},
         frozen,
         tuple(deviations),
         about.get("participants"),
         design.get("trials"),
         _number("too_fast", table.get("too_fast", TOO_FAST), 0),
     )
-
-
-def _margins(table: Any) -> dict[str, float]:
-    """The declared margins, checked: a ratio above 1 for times, else above 0 in the own unit."""
-    if not isinstance(table, Mapping):
-        raise DataError(f"analysis.margins = {table!r}: expected a table")
-    unknown = [name for name in table if name not in MARGINS]
-    if unknown:
-        raise DataError(f"analysis.margins.{unknown[0]}: expected among {', '.join(MARGINS)}")
-    return {
-        name: _number(f"margins.{name}", value, 1 if name in RATIOS else 0)
-        for name, value in table.items()
-        if value is not None
-    }
 
 
 def _number(name: str, value: Any, above: float) -> float:
@@ -140,10 +119,8 @@ def _collection(
     if isinstance(planned, int) and planned != count:
         have = "1 participant has" if count == 1 else f"{count} participants have"
         lines.append(f"{have} data, planned were {planned}.")
-    each, levels, tasks = (design.get(k) for k in ("trials", "transparency", "tasks"))
-    if isinstance(each, int) and isinstance(levels, Sequence) and isinstance(tasks, Sequence):
-        lines += _short(study, each * len(levels) * len(tasks))
-    return lines
+    trials = planned_trials(design)
+    return lines if trials is None else [*lines, *_short(study, trials)]
 
 
 def _short(study: Study, planned: int) -> list[str]:

@@ -3,27 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+
+from seethrough.analysis.cells import Cells
 from seethrough.analysis.exclude import apply_rules
-from seethrough.analysis.load.study import Study, load_study
+from seethrough.analysis.load.study import Study, config_of, load_study
+from seethrough.analysis.measures import levels_of
 from seethrough.analysis.page import folder
-from seethrough.analysis.page.blocks import Figure, Report, Section, Table, walk
+from seethrough.analysis.page.blocks import (
+    Column,
+    Figure,
+    Fold,
+    Report,
+    Section,
+    Table,
+    walk,
+)
 from seethrough.analysis.page.html import as_html
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.page.pdf import find_browser, print_pdf
+from seethrough.analysis.page.r_script import as_r
 from seethrough.analysis.page.tables_csv import as_csv
-from seethrough.analysis.plan import TESTS, config_of, make_plan
-from seethrough.analysis.sections.accuracy import accuracy_section
+from seethrough.analysis.plan import TESTS, make_plan
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.methods import methods_section
+from seethrough.analysis.sections.omnibus import complete
 from seethrough.analysis.sections.participants import participants_section
 from seethrough.analysis.sections.provenance import provenance_section
 from seethrough.analysis.sections.ratings import ratings_section
+from seethrough.analysis.sections.scales import plain_section, speed_section
 from seethrough.analysis.sections.sensitivity import sensitivity_section
-from seethrough.analysis.sections.summary import summary_section
-from seethrough.analysis.sections.time import time_section
+from seethrough.analysis.sections.summary import Found, summary_section
 from seethrough.analysis.sections.tradeoff import tradeoff_section
 from seethrough.analysis.sections.validity import validity_section
 from seethrough.analysis.written import FILE, half_of, own_folder, write_over
@@ -54,7 +69,49 @@ def make_report(data: Path, options: Options) -> Report:
     if any(chain.state == "none" for chain in study.chains):
         banner = f"{banner} {UNCHAINED}".strip()
     subtitle = f"Study {study.name}. Source: {study.source}. {study.description}"
-    return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections))
+    sections[-1] = with_dictionary(sections)
+    script = as_r(_title(study), study.source, plan.alpha, study.design, _facts(context, sections))
+    return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections), script)
+
+
+DICTIONARY = (
+    Column("column", "column of a table"),
+    Column("table", "table"),
+    Column("title", "what the table holds"),
+    Column("label", "heading"),
+    Column("about", "meaning"),
+)
+
+
+def with_dictionary(sections: Sequence[Section]) -> Section:
+    """The last section, with what every column of every table means."""
+    tables = [b for s in sections for b in walk(s.blocks) if isinstance(b, Table) and not b.source]
+    rows = tuple(
+        {
+            "column": f"{table.key}.{column.name}",
+            "table": table.key,
+            "title": table.title,
+            "label": column.label,
+            "about": column.about,
+        }
+        for table in tables
+        for column in table.columns
+    )
+    words = Table("dictionary", "What each column means", DICTIONARY, rows,
+                  ("column", "label", "about"))  # fmt: skip
+    last = sections[-1]
+    return replace(last, blocks=(*last.blocks, Fold("The columns of the tables", (words,))))
+
+
+def _facts(context: Context, sections: Sequence[Section]) -> dict[str, Any]:
+    """What the script in R has to know of this report's choices."""
+    tables = {b.key: b for s in sections for b in walk(s.blocks) if isinstance(b, Table)}
+    mixed = tables.get("mixed_model")
+    design = context.design
+    levels = levels_of(context.trials, design.crossed)
+    shape = (1, *(len(known) for known in levels.values()))
+    whole, _ = complete(design, Cells(np.zeros(shape), np.ones(shape, np.intp), ("",), levels))
+    return {"omnibus": whole.factors, "model": mixed.rows[0]["model"] if mixed else ""}
 
 
 def _title(study: Study) -> str:
@@ -66,11 +123,12 @@ def _title(study: Study) -> str:
 
 def _sections(context: Context) -> list[Section]:
     """All sections in reading order; `participants` comes late to know who is missing where."""
-    time, timed = time_section(context)
-    accuracy, tests = accuracy_section(context)
+    time, timed = speed_section(context)
+    accuracy, tests = plain_section(context)
     ratings = ratings_section(context)
     tables = [b for b in walk(ratings.blocks) if isinstance(b, Table)] if ratings else []
     single = next((t for t in tables if t.key == "single_items"), None)
+    found = Found(timed | tests, single)
     optional = {
         "time": time,
         "accuracy": accuracy,
@@ -79,11 +137,12 @@ def _sections(context: Context) -> list[Section]:
         "validity": validity_section(context),
     }
     if "mixed" in context.plan.tests:
-        optional["mixed"] = sensitivity_section(context, timed[0] if timed else None)
+        optional["mixed"] = sensitivity_section(context, found.speed(context.design))
     chosen = [optional[name] for name in TESTS if name in context.plan.tests]
     return [
-        summary_section(context, timed, tests, single),
+        summary_section(context, found),
         participants_section(context),
+        methods_section(context),
         *(section for section in chosen if section is not None),
         provenance_section(context),
     ]
@@ -106,7 +165,8 @@ def write(
 ) -> Path:
     """Make the report and write it into `out`; returns the page's path. Raises DataError.
 
-    report.html, report.md, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if asked for.
+    report.html, report.md, analysis.R, tables/*.csv, figures/*.{svg,png,pdf}; report.pdf if
+    asked for.
     """
     from seethrough.analysis.page.charts import (
         library,
@@ -124,6 +184,8 @@ def write(
     for table in tables_of(report):
         write_over(tables / f"{table.key}.csv", as_csv(table))
     write_over(out / "report.md", as_markdown(report))
+    if report.script:
+        write_over(out / "analysis.R", report.script)
     page = out / "report.html"
     write_over(page, as_html(report, pictures, version("seethrough"), library()))
     if browser:

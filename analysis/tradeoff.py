@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 
 from seethrough.analysis.cells import Array, Cells, level_codes, sums
-from seethrough.analysis.load.schema import TRANSPARENCY
-from seethrough.analysis.measures import (
-    design,
-    distance,
-    log_time_by_task,
-    relative_error,
-    share_wrong,
-    time_by_task,
-)
+from seethrough.analysis.comparison import SIDES
+from seethrough.analysis.design import Contrast, Design, Factor, Measured, Task
+from seethrough.analysis.measures import TASK, cells_of, levels_present, wrong
 from seethrough.analysis.stats.distributions import t_two_sided
 from seethrough.analysis.stats.ties import is_constant
 from seethrough.analysis.stats.undefined import Interval, Number, Undefined, no_interval
@@ -24,9 +18,9 @@ from seethrough.analysis.stats.undefined import Interval, Number, Undefined, no_
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A task's time and error under both levels, participant by participant: (n, 2) each.
+    """A task's time and error under baseline and level, participant by participant: (n, 2) each.
 
-    `log_time`: the means of the trials' logarithms.
+    `log_time`: the means of the trials' logarithms; `label`: the task in words.
     """
 
     task: str
@@ -35,42 +29,88 @@ class Change:
     time: Array
     log_time: Array
     error: Array
+    label: str = ""
+    contrast: Contrast | None = None
+    several: bool = False
+
+    @property
+    def key(self) -> str:
+        return f"{self.task}/{self.contrast.key}" if self.several and self.contrast else self.task
+
+    @property
+    def said(self) -> str:
+        """The task, and the levels where there are several contrasts."""
+        name = self.label or self.task
+        if self.several and self.contrast:
+            return f"{name} ({self.contrast.baseline} → {self.contrast.level})"
+        return name
+
+    @property
+    def names(self) -> tuple[str, str]:
+        return (self.contrast.baseline, self.contrast.level) if self.contrast else SIDES
 
 
-ERROR_LABELS = {
-    "count": "absolute relative error",
-    "pattern": "share wrong",
-    "unique": "distance (units)",
-    "count_in_building": "absolute relative error",
-}
+def price_of(task: Task) -> Measured | None:
+    """The measure of a task that its time is set against: what the task declares, else its last
+    measure that is not time and lies in the open (right or wrong, where there is no other)."""
+    others = [m for m in task.measures if not m.log]
+    declared = [m for m in others if m.price]
+    finer = [m for m in others if not m.ranked]
+    return next(iter([*declared, *finer, *others]), None)
 
 
-def changes(trials: pd.DataFrame) -> list[Change]:
-    """One per task that has both levels, with the participants who have both measures."""
-    times, logs = time_by_task(trials), log_time_by_task(trials)
-    if times.factors["transparency"] != ("standard", "dynamic"):
+def speed_of(design: Design) -> Measured | None:
+    """The measure that is time: the first that is analysed as logarithms."""
+    return next((m for m in design.measures() if m.log), None)
+
+
+def changes(trials: pd.DataFrame, design: Design) -> list[Change]:
+    """One per task and contrast of the main factor, of the participants who have both measures."""
+    speed, factor = speed_of(design), design.main
+    if speed is None or factor is None:
         return []
+    times = cells_of(trials, design, speed)
+    logs = cells_of(trials, design, speed, log=True)
+    contrasts = factor.contrasts()
     found = []
-    for task in times.factors["task"]:
-        error = _errors(trials[trials["task"] == task], task)
-        if error.factors["transparency"] != ("standard", "dynamic"):
-            continue
-        parts = [times.pick(task=task).values, logs.pick(task=task).values, error.values]
-        has = np.isfinite(np.concatenate(parts, axis=1)).all(axis=1)
-        if has.any():
-            time, log, off = (part[has] for part in parts)
-            names = tuple(p for p, h in zip(times.participants, has, strict=True) if h)
-            found.append(Change(task, ERROR_LABELS[task], names, time, log, off))
+    for contrast in contrasts:
+        for task in times.factors[TASK]:
+            own = design.task(task)
+            price = price_of(own) if own else None
+            if own is None or price is None:
+                continue
+            change = _change(trials, design, own, price, contrast, (times, logs))
+            if change is not None:
+                found.append(replace(change, several=len(contrasts) > 1))
     return found
 
 
-def _errors(trials: pd.DataFrame, task: str) -> Cells:
-    """The task's own error measure: (n, transparency)."""
-    if task == "unique":
-        return distance(trials)
-    if task == "pattern":
-        return share_wrong(trials).pick(task=task)
-    return relative_error(trials, signed=False).pick(task=task)
+def _change(
+    trials: pd.DataFrame,
+    design: Design,
+    task: Task,
+    price: Measured,
+    contrast: Contrast,
+    timed: tuple[Cells, Cells],
+) -> Change | None:
+    only = trials[trials[TASK] == task.name]
+    errors = cells_of(only, design, price)
+    label = price.said
+    if price.direction == "more":
+        errors, label = (wrong(errors), "share wrong") if price.ranked else (errors, label)
+    if price.unit:
+        label = f"{label} ({price.unit})"
+    levels = (contrast.baseline, contrast.level)
+    every = (*timed, errors)
+    if any(not set(levels) <= set(c.factors[contrast.factor]) for c in every):
+        return None
+    parts = [np.stack(c.pick(task=task.name).both(contrast.factor, *levels), axis=1) for c in every]
+    has = np.isfinite(np.concatenate(parts, axis=1)).all(axis=1)
+    if not has.any():
+        return None
+    time, log, off = (part[has] for part in parts)
+    names = tuple(p for p, h in zip(timed[0].participants, has, strict=True) if h)
+    return Change(task.name, label, names, time, log, off, task.said, contrast)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,25 +143,26 @@ def correlation(x: Array, y: Array) -> Correlation:
 
 @dataclass(frozen=True, slots=True)
 class Scores:
-    """Combined scores per participant and level, (n, 2); NaN-free, or Undefined as a whole."""
+    """Combined scores per participant and level, (n, k); NaN-free, or Undefined as a whole."""
 
     participants: tuple[str, ...]
     bis: Array | Undefined
     ies: Array | Undefined
     rcs: Array
+    levels: tuple[str, ...] = ()
 
 
-def scores(trials: pd.DataFrame) -> Scores | None:
-    """BIS, IES and RCS over all tasks; None unless someone has both levels.
+def scores(trials: pd.DataFrame, factor: Factor) -> Scores | None:
+    """BIS, IES and RCS over all tasks, by level; None unless someone has every level.
 
     BIS: z(share correct) − z(time), z over all participant × level cells (Liesefeld & Janczyk
     2019). IES: mean time of right answers / share correct. RCS: right answers / total time.
     """
-    levels = design(trials)
-    if levels["transparency"] != ("standard", "dynamic"):
+    levels = levels_present(trials, factor.name, factor.levels)
+    if levels != factor.levels or len(levels) < 2:
         return None
     table = trials.assign(one=1.0, right_time=trials["time"] * trials["correct"])
-    factors = {"transparency": levels["transparency"]}
+    factors = {factor.name: levels}
     columns = ["one", "time", "correct", "right_time"]
     (count, time, right, right_time), _, names = sums(table, columns, factors)
     whole = (count > 0).all(axis=1)
@@ -133,7 +174,7 @@ def scores(trials: pd.DataFrame) -> Scores | None:
     ies: Array | Undefined = Undefined("someone has no right answer in a condition")
     if np.all(right > 0):
         ies = right_time / right / share
-    return Scores(people, _bis(share, mean_time), ies, right / time)
+    return Scores(people, _bis(share, mean_time), ies, right / time, levels)
 
 
 def _bis(share: Array, time: Array) -> Array | Undefined:
@@ -143,19 +184,20 @@ def _bis(share: Array, time: Array) -> Array | Undefined:
     return (share - share.mean()) / share.std() - (time - time.mean()) / time.std()
 
 
-def accuracy_by_speed(trials: pd.DataFrame, parts: int = 3) -> pd.DataFrame:
-    """Conditional accuracy: share correct by speed within participant × task × transparency.
+def accuracy_by_speed(trials: pd.DataFrame, factor: Factor, parts: int = 3) -> pd.DataFrame:
+    """Conditional accuracy: share correct by speed within participant × task × level.
 
     Trials of a cell are ranked by time and split into `parts`, equal times into the same one;
-    columns transparency, part, share, trials.
+    columns level, part, share, trials.
     """
     known = trials.dropna(subset=["correct"])
-    keys = ["participant", "task", "transparency"]
+    keys = ["participant", "task", factor.name]
     grouped = known.groupby(keys, observed=True)["time"]
     rank = grouped.rank(method="average") - 1
     size = grouped.transform("size")
     part = np.minimum((rank * parts / size).astype(int), parts - 1)
-    by = known.assign(part=part)[size >= parts].groupby(["transparency", "part"], observed=True)
+    by = known.assign(part=part)[size >= parts].groupby([factor.name, "part"], observed=True)
     table = by["correct"].agg(share="mean", trials="size").reset_index()
-    order = level_codes(table["transparency"], TRANSPARENCY)
+    table = table.rename(columns={factor.name: "level"})
+    order = level_codes(table["level"], factor.levels)
     return table.iloc[np.lexsort((table["part"], order))].reset_index(drop=True)

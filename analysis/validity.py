@@ -5,41 +5,60 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.cells import Array, level_codes, means, sums, table_of
-from seethrough.analysis.comparison import Measure, measure
+from seethrough.analysis.cells import Array, Cells, level_codes, means, sums, table_of
+from seethrough.analysis.comparison import Pair, pair_of
+from seethrough.analysis.design import Contrast, Design, Factor
 from seethrough.analysis.exclude import focus_lost
-from seethrough.analysis.load.schema import TRANSPARENCY
-from seethrough.analysis.measures import design
+from seethrough.analysis.measures import levels_present
 from seethrough.analysis.stats.within import TermTest, dummies, one_way, term_tests
 
 
-def condition_means(trials: pd.DataFrame) -> pd.DataFrame:
-    """Mean log time per participant, session and block: one row per condition as it was met."""
-    keys = ["participant", "session", "block", "transparency", "scenario"]
+def condition_means(trials: pd.DataFrame, design: Design) -> pd.DataFrame:
+    """Mean log time per participant, session and block: one row per condition as it was met.
+
+    `condition`: the levels that stay the same through the person's blocks; `before`: the main
+    factor's level in the block before, "" in the first.
+    """
+    factors = [f.name for f in block_factors(trials, design)]
+    keys = ["participant", "session", "block", *factors]
     table = trials.assign(y=np.log(trials["time"]))
     by_task = table.groupby([*keys, "task"], observed=True)["y"].mean().reset_index()
     rows = by_task.groupby(keys, observed=True)["y"].mean().reset_index()
-    rows = rows.sort_values(["participant", "session", "block"])
-    rows["condition"] = rows["transparency"].astype("str") + " " + rows["scenario"].astype("str")
-    before = rows.groupby("participant", observed=True)["transparency"].shift()
-    rows["carry"] = (before.astype("str") == "dynamic").astype(float)
-    rows["first"] = before.isna().astype(float)
-    return rows
+    rows = rows.sort_values(["participant", "session", "block"]).reset_index(drop=True)
+    rows["condition"] = rows[factors].astype("str").agg(" ".join, axis=1) if factors else ""
+    main = design.main
+    if main is None or main.name not in factors:
+        return rows.assign(before="")
+    before = rows.groupby("participant", observed=True)[main.name].shift()
+    return rows.assign(before=before.astype("object").where(before.notna(), "").astype("str"))
 
 
-def order_tests(trials: pd.DataFrame) -> list[TermTest]:
-    """Period, carry-over (of the technique met before) and sequence, on log time.
+def block_factors(trials: pd.DataFrame, design: Design) -> list[Factor]:
+    """The within factors whose level stays the same through a block."""
+    keys = ["participant", "session", "block"]
+    return [
+        f
+        for f in design.factors
+        if f.within and (trials.groupby(keys, observed=True)[f.name].nunique() <= 1).all()
+    ]
+
+
+def order_tests(trials: pd.DataFrame, design: Design) -> list[TermTest]:
+    """Period, carry-over (of the main factor's level met before) and sequence, on log time.
 
     Model: participant + period + condition + carry-over; the sequence is tested between
     participants. Reported, never used to choose an analysis (Freeman 1989; Senn 2002).
     """
-    rows = condition_means(trials)
+    rows = condition_means(trials, design)
     _, group = np.unique(rows["participant"].astype("str"), return_inverse=True)
+    main = design.main
+    others = [] if main is None else [level for level in main.levels if level != main.baseline]
+    before = rows["before"].to_numpy(dtype="str")
     terms = {
         "period": dummies(rows["block"].to_numpy()),
         "condition": dummies(rows["condition"].to_numpy(dtype="str")),
         # the first condition has no predecessor: its own period dummy takes that up
-        "carry-over": rows[["carry"]].to_numpy(),
+        "carry-over": (before[:, None] == np.array(others, dtype="str")[None, :]).astype(float),
     }
     tests = term_tests(rows["y"].to_numpy(), group, terms)
     by_person = rows.groupby("participant", observed=True)
@@ -67,37 +86,55 @@ def learning_slopes(trials: pd.DataFrame) -> Array:
     return slopes.groupby("participant", observed=True)["slope"].mean().to_numpy()
 
 
-def learning_curve(trials: pd.DataFrame) -> pd.DataFrame:
-    """Geometric mean time by position in the task set and transparency."""
+def learning_curve(trials: pd.DataFrame, factor: Factor) -> pd.DataFrame:
+    """Geometric mean time by level and position: level, trial_in_set, log_time, people, time."""
     rows = trials.assign(y=np.log(trials["time"]))
-    keys = ["transparency", "trial_in_set"]
+    keys = [factor.name, "trial_in_set"]
     by_person = rows.groupby(["participant", *keys], observed=True)["y"].mean().reset_index()
     curve = by_person.groupby(keys, observed=True)["y"]
     table = curve.agg(log_time="mean", people="size").reset_index()
     table = table.assign(time=np.exp(table["log_time"]))
-    order = level_codes(table["transparency"], TRANSPARENCY)
+    table = table.rename(columns={factor.name: "level"})
+    order = level_codes(table["level"], factor.levels)
     return table.iloc[np.lexsort((table["trial_in_set"], order))].reset_index(drop=True)
 
 
-def share_missed(trials: pd.DataFrame) -> Measure | None:
+def share_missed(trials: pd.DataFrame, factor: Factor) -> list[Pair]:
     """Frames missed of frames shown, per participant and level."""
-    levels = {"transparency": design(trials)["transparency"]}
+    levels = _levels(trials, factor)
     (missed, frames), counts, names = sums(trials, ["frames_missed", "frames"], levels)
-    if levels["transparency"] != TRANSPARENCY:
-        return None
     with np.errstate(invalid="ignore", divide="ignore"):
         cells = table_of(missed / frames, counts, names, levels)
-    return measure("frames_missed", "share of frames missed", "", 4, cells)
+    return _pairs("frames_missed", "share of frames missed", cells, factor)
 
 
-def focus_losses(trials: pd.DataFrame) -> Measure | None:
+def focus_losses(trials: pd.DataFrame, factor: Factor) -> list[Pair]:
     """Share of trials in which the window lost its focus."""
     table = trials.assign(lost=focus_lost(trials).astype(float))
-    cells = means(table, "lost", {"transparency": design(trials)["transparency"]})
-    return measure("focus_lost", "share of trials with focus lost", "", 4, cells)
+    cells = means(table, "lost", _levels(trials, factor))
+    return _pairs("focus_lost", "share of trials with focus lost", cells, factor)
 
 
-def timeouts(trials: pd.DataFrame) -> Measure | None:
+def timeouts(trials: pd.DataFrame, factor: Factor) -> list[Pair]:
     """Share of trials that ended at their limit."""
-    cells = means(trials, "timed_out", {"transparency": design(trials)["transparency"]})
-    return measure("timed_out", "share of trials timed out", "", 4, cells)
+    cells = means(trials, "timed_out", _levels(trials, factor))
+    return _pairs("timed_out", "share of trials timed out", cells, factor)
+
+
+def _levels(trials: pd.DataFrame, factor: Factor) -> dict[str, tuple[str, ...]]:
+    return {factor.name: levels_present(trials, factor.name, factor.levels)}
+
+
+def _pairs(key: str, label: str, cells: Cells, factor: Factor) -> list[Pair]:
+    """Each level against the baseline, of those who have both."""
+    contrasts: tuple[Contrast, ...] = factor.contrasts()
+    several = len(contrasts) > 1
+    found = [
+        pair_of(
+            f"{key}/{c.key}" if several else key,
+            f"{label}: {c.baseline} → {c.level}" if several else label,
+            "", 4, cells, c,
+        )
+        for c in contrasts
+    ]  # fmt: skip
+    return [pair for pair in found if pair is not None]

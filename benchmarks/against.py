@@ -81,7 +81,7 @@ class Tree:
             renderer = self._get("renderer.gpu.renderer", "Renderer")(
                 context, SIZE, without=frozenset({"still"})
             )
-            views: dict[str, list[tuple[Any, Any]]] = {}
+            views: dict[str, list[tuple[object, object]]] = {}
             for name in SCENES:
                 scene, cameras = made[name](SIZE[0] / SIZE[1], VIEWS)
                 views[name] = [(scene, camera) for camera in cameras]
@@ -107,7 +107,7 @@ class Tree:
         return getattr(import_module(module), name)
 
     def _draw(
-        self, renderer: Any, scene: Any, camera: Any, technique: Parameters
+        self, renderer: Any, scene: object, camera: object, technique: Parameters
     ) -> Callable[[], None]:
         return lambda: renderer.draw(scene, camera, technique)
 

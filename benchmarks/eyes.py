@@ -107,7 +107,7 @@ def play(trials: Sequence[Trial], pool: Pool, way: Way, repeats: int) -> Eyes:
         for repeat in range(repeats):
             person = SimulatedParticipant(generator(1, (SIMULATED, 1 + k, repeat)), profile)
             levels = tuple(trial.levels.items())
-            person.answer(Page("instruction", "", (Paragraph("ready.text"),), levels=levels))
+            person.answer(Page("instruction", "", (Paragraph("ready.text"),), about=levels))
             record, sent = play_trial(person, pool, trial)
             played.append(record)
             events.append(sent)

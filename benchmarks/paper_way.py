@@ -7,7 +7,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from seethrough.renderer.gpu.device import state
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
@@ -107,7 +107,7 @@ class PaperWay:
         context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
         context.depth_func = "<="
         for shader, blend in ((self._depth, NOTHING), (self._object, OBJECT)):
-            state.blend(context, blend)
+            pipeline.blend(context, blend)
             for mesh, first, count in part:
                 mesh.draw(context, shader, first, count)
 
@@ -129,7 +129,7 @@ class PaperWay:
             self._grow_array.render(moderngl.TRIANGLES, 3)
         self.target.framebuffer.use()
         context.enable_only(moderngl.BLEND)
-        state.blend(context, MASK)
+        pipeline.blend(context, MASK)
         self._buffers[rings % 2].use(5)
         self._stretch.set(grown=5, size=self.target.size)
         self._stretch_array.render(moderngl.TRIANGLES, 3)

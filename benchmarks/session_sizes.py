@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 from numpy.random import Generator
 
-from seethrough.analysis.measures import log_time_by_task, over_tasks
+from seethrough.analysis.before import design_before
+from seethrough.analysis.measures import cells_of, over_tasks
 from seethrough.analysis.mixed import mixed_model
 from seethrough.analysis.stats.paired import Paired, one_sample
 from seethrough.analysis.stats.undefined import is_defined
@@ -19,6 +20,8 @@ ORDERS = ((0, 1, 3, 2), (1, 2, 0, 3), (2, 3, 1, 0), (3, 0, 2, 1))  # a Williams 
 CONDITIONS = tuple((t, s) for t in ("standard", "dynamic") for s in ("abstract", "walkthrough"))
 TASKS = {"abstract": ("count", "pattern"), "walkthrough": ("unique", "count_in_building")}
 ALPHA = 0.05
+DESIGN = design_before({})
+TIME = DESIGN.measures()[0]
 
 
 @cache
@@ -54,9 +57,10 @@ def timed(rng: Generator, table: pd.DataFrame) -> pd.DataFrame:
 def sessions(rng: Generator) -> Mapping[str, bool | None]:
     """Order tests, learning, and the log ratio over all tasks, of 16 people."""
     table = timed(rng, frame(16, 2, 3))
-    found = {t.name: bool(t.p < ALPHA) if is_defined(t.p) else None for t in order_tests(table)}
+    found = {t.name: bool(t.p < ALPHA) if is_defined(t.p) else None
+             for t in order_tests(table, DESIGN)}  # fmt: skip
     slope = one_sample(learning_slopes(table))
-    cells = over_tasks(log_time_by_task(table)).values
+    cells = over_tasks(cells_of(table, DESIGN, TIME, log=True)).values
     ratio = one_sample(cells[:, 0] - cells[:, 1])
     return {
         **found,
@@ -80,7 +84,7 @@ def _held(test: Paired, value: float) -> bool:
 
 def mixed_sessions(rng: Generator) -> Mapping[str, bool | None]:
     """The mixed model, of 12 people with two tasks."""
-    fit = mixed_model(timed(rng, frame(12, 1, 2)))
+    fit = mixed_model(timed(rng, frame(12, 1, 2)), DESIGN)[0]
     if not is_defined(fit.p):
         return {"mixed model": None, "interval, mixed model": None}
     low, high = fit.interval

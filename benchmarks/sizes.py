@@ -14,7 +14,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from seethrough.analysis.equivalence import equivalence, log_equivalence
+from seethrough.analysis.equivalence import Margin, equivalence, log_equivalence
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.distributions import holm, negligible_p
 from seethrough.analysis.stats.paired import one_sample, paired, ratio_of_means, within_halfwidths
@@ -146,13 +146,13 @@ def some_difference(rng: Generator) -> Found:
 
 def at_the_margin(rng: Generator) -> Found:
     """The true difference, or ratio, lies on the margin: nothing may be called equal."""
-    margins = {"distance": 1.5, "time": 1.2}
+    own, share = Margin(1.5), Margin(1.2, ratio=True)
     a, b = normal_pairs(rng, 16, 1.5)
-    absolute = equivalence(a, b, "distance", margins)
+    absolute = equivalence(a, b, own)
     a, b = normal_pairs(rng, 16, 2.0)
-    ratio = equivalence(a, b, "time", margins)
+    ratio = equivalence(a, b, share)
     a, b = normal_pairs(rng, 16)
-    logs = log_equivalence(a / 10, b / 10 + float(np.log(1.2)), "time", margins)
+    logs = log_equivalence(a / 10, b / 10 + float(np.log(1.2)), share)
     found = {}
     for name, own in (("difference", absolute), ("ratio", ratio), ("log ratio", logs)):
         found[f"TOST, {name}"] = below(own["tost_p"])
@@ -167,7 +167,7 @@ def shares_at_the_margin(share: float) -> Callable[[Generator], Found]:
     def draw(rng: Generator) -> Found:
         a = rng.binomial(3, share, 16) / 3
         b = rng.binomial(3, share - 0.10, 16) / 3
-        test = equivalence(a, b, "correct", {"correct": 0.10})
+        test = equivalence(a, b, Margin(0.10, more=True))
         return {
             "no worse, shares right": below(test["noninferior_p"]),
             "TOST, shares right": below(test["tost_p"]),
@@ -185,7 +185,7 @@ def every_measure(worse: int) -> Callable[[Generator], Found]:
         tests = []
         for k in range(4):
             a, b = (c + rng.standard_normal(16) for c in common)
-            tests.append(equivalence(a, b + (k < worse), "distance", {"distance": 1.0}))
+            tests.append(equivalence(a, b + (k < worse), Margin(1.0)))
         p = [test["noninferior_p"] for test in tests]
         return {
             "no worse in every measure (P2)": below(max(p)) if all(map(is_defined, p)) else None
@@ -276,6 +276,7 @@ def skewed(n: int) -> Callable[[Generator], Found]:
 
 def kinds() -> list[Studies]:
     """Every kind of study, and what of it is known not to hold."""
+    from seethrough.benchmarks.design_sizes import design_kinds
     from seethrough.benchmarks.session_sizes import mixed_sessions, sessions
 
     half = {"interval of the difference": 0.95}
@@ -310,6 +311,7 @@ def kinds() -> list[Studies]:
                 frozenset({"carry-over"})),
         Studies("n = 12, 2 tasks × 2 trials, log-normal", mixed_sessions, 300,
                 {"interval, mixed model": 0.95}),
+        *design_kinds(),
         *(Studies(f"n = 16, 4 measures, {k} at the margin", every_measure(k), 3000, {})
           for k in (1, 4)),
     ]  # fmt: skip

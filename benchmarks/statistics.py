@@ -20,7 +20,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from seethrough.analysis.load.schema import QUESTIONNAIRE, TRIALS
+from seethrough.analysis.before import design_before
+from seethrough.analysis.load.schema import answer_columns, trial_columns
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.undefined import is_defined
 from seethrough.benchmarks.memory import used_by
@@ -28,6 +29,7 @@ from seethrough.benchmarks.rows import Row, row
 from seethrough.benchmarks.sizes import sizes
 
 Array = NDArray[np.float64]
+DESIGN = design_before({})
 OFFSETS = (0.0, 1e6, 1e9, 1e12, 1e15)
 REPORTS = ((16, 10.0, None), (10_000, 40.0, 1.5))
 """Participants of 24 trials, the most seconds, the most GiB."""
@@ -164,14 +166,14 @@ def make_data(folder: Path, participants: int) -> Path:
             )
         ]
         stem = own / f"study-bench_subject-{name}_session-1"
-        _write(Path(f"{stem}_trials_data.csv"), TRIALS, rows)
+        _write(Path(f"{stem}_trials_data.csv"), trial_columns(DESIGN), rows)
         Path(f"{stem}_trials_data.json").write_text(json.dumps({"study": "bench"}), "utf-8")
         ratings = [
             _rating(name, item, t, s, int(rng.integers(0, 5)))
             for t, s in conditions
             for item in ("efficiency", "ease", "enjoy")
         ]
-        _write(Path(f"{stem}_questionnaire_data.csv"), QUESTIONNAIRE, ratings)
+        _write(Path(f"{stem}_questionnaire_data.csv"), answer_columns(DESIGN), ratings)
     return folder
 
 

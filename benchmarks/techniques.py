@@ -60,6 +60,7 @@ def figures() -> Iterator[Row]:
         for way, drawn in ways.items():
             yield _cost(renderer, where, scene, cameras, way, drawn)
             yield from _shown(renderer, where, scene, cameras, way, drawn)
+        yield from _border(renderer, where, scene, cameras)
         free = Scene(tuple(replace(o, impenetrable=True, target=False) for o in scene.objects))
         yield _cost(renderer, where, free, cameras, "idle", (named("constant"), None))
 
@@ -93,6 +94,29 @@ def _cost(
     )
     must, aim = COSTS.get(way, (None, None))
     return row(f"{way} / standard", where, spent["own"] / spent["standard"], "×", must, aim)
+
+
+def _border(renderer: Renderer, where: str, scene: Scene, cameras: list[Camera]) -> Iterator[Row]:
+    """By how many pixels the border of the adaptive hole lies elsewhere than exactly: the
+    difference of the depths at which lines of sight leave it, over how that changes by pixel."""
+    p = named("adaptive_cutaway")
+    off = []
+    for camera in cameras:
+        shot = Shot(scene, camera, SIZE)
+        renderer.draw(scene, camera, p)
+        needed = renderer.needed(scene, camera, p)
+        found = [
+            p.technique.pictures(way, None, shot, needed)["clip"].astype(float)
+            for way in (p, p.technique.exactly(p))
+        ]
+        down, across = np.gradient(found[1])
+        slope = np.hypot(down, across)
+        known = (found[1] > 0) & (needed["target_depth"] == 0) & (slope > 0)
+        off.append((np.abs(found[0] - found[1])[known] / slope[known]).ravel())
+    pixels = np.concatenate(off)
+    figure = "adaptive_cutaway: border off"
+    yield row(f"{figure} by more than 4 px", where, 100 * float((pixels > 4).mean()), "%", 1.0)
+    yield row(f"{figure}, largest", where, float(pixels.max(initial=0.0)), "px")
 
 
 def _shown(

@@ -12,7 +12,6 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -88,7 +87,7 @@ class Peeled:
         return rows.reshape(height, width, -1)[::-1, :, :3].copy()
 
 
-def _poly_data(scene: Scene, opacity: np.ndarray | None) -> Any:
+def _poly_data(scene: Scene, opacity: np.ndarray | None) -> object:
     """All triangles of a scene in world space, coloured by vertex."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints

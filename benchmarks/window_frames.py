@@ -68,7 +68,7 @@ def measured(transparency: str, seconds: float) -> dict[str, float]:
     """A counting trial of the published study at that level, dragged for so long."""
     study = load("published")
     trials = [t for s in session_for(1, study.plan) for t in s.trials]
-    trial = next(t for t in trials if (t.task, t.transparency) == ("count", transparency))
+    trial = next(t for t in trials if (t.task, t.levels["transparency"]) == ("count", transparency))
     window = Window(study.display, Texts("en"), RealClock(), "bench")
     with tempfile.TemporaryDirectory() as folder:
         recorder = FileRecorder(Path(folder), Who("published", "P01", "pilot", 1, {}))

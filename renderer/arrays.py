@@ -15,3 +15,4 @@ Ints32: TypeAlias = NDArray[np.int32]
 Whole: TypeAlias = NDArray[np.integer]  # of any size
 Bools: TypeAlias = NDArray[np.bool_]
 Bytes: TypeAlias = NDArray[np.uint8]
+Bits: TypeAlias = NDArray[np.uint64]  # sets of numbers below 64

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from seethrough import registry
 from seethrough.tasks.kit.base import Setting, Task
@@ -38,7 +38,7 @@ def world_of(task: Task) -> World:
     return WORLDS[task.worlds[0]]
 
 
-def setting(task: Task, place: Any = None, own: Any = None) -> Setting:
+def setting(task: Task, place: object = None, own: object = None) -> Setting:
     """A task in its first world, or in the one whose parameters are given; else with defaults."""
     worlds = [WORLDS[name] for name in task.worlds]
     world = next((w for w in worlds if place is None or isinstance(place, w.Parameters)), None)

@@ -6,17 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from seethrough.analysis.comparison import Measure
+from seethrough.analysis.comparison import Pair
+from seethrough.analysis.design import Factor
 from seethrough.analysis.figures.style import (
-    DYNAMIC,
     FAINT,
     INK,
-    LEVEL_COLOUR,
-    LEVELS,
+    LEVEL,
     Spec,
     categories,
+    in_rows,
     layer,
     layers,
+    level_colour,
     number,
     picked,
     zero_line,
@@ -28,16 +29,16 @@ from seethrough.analysis.stats.undefined import Number, is_defined
 HEIGHT = 210
 
 
-def _means(measures: Sequence[Measure]) -> str:
+def _means(measures: Sequence[Pair]) -> str:
     return "; ".join(
-        f"{m.label}: standard {significant(float(m.standard.mean()))}, "
-        f"dynamic {significant(float(m.dynamic.mean()))} {m.unit}".rstrip()
+        f"{m.label}: {m.names[0]} {significant(float(m.first.mean()))}, "
+        f"{m.names[1]} {significant(float(m.second.mean()))} {m.unit}".rstrip()
         for m in measures
     )
 
 
 def bars_and_differences(
-    key: str, title: str, axis: str, measures: Sequence[Measure], tests: Table
+    key: str, title: str, axis: str, measures: Sequence[Pair], tests: Table
 ) -> Figure:
     """Means with Cousineau–Morey intervals, and each participant's paired difference beside."""
     alt = f"Bars of means with intervals, beside dots of paired differences. {_means(measures)}."
@@ -45,7 +46,7 @@ def bars_and_differences(
     left = _bars(measures, halves, axis, "95 % within-participant interval ±")
     left["title"] = "Means, 95 % within-participant intervals"
     right = {
-        "title": "Standard − dynamic, per participant",
+        "title": "{} − {}, per participant".format(*measures[0].names),
         "width": 280,
         "height": HEIGHT,
         "layer": _differences(measures, tests),
@@ -53,11 +54,11 @@ def bars_and_differences(
     return Figure(key, title, alt, {"hconcat": [left, right]})
 
 
-def _bars(measures: Sequence[Measure], halves: Sequence[Number], axis: str, words: str) -> Spec:
+def _bars(measures: Sequence[Pair], halves: Sequence[Number], axis: str, words: str) -> Spec:
     """A bar per measure and level with its error bar; `words` introduce the half in the tip."""
     bars, ends = [], []
     for i, (m, half) in enumerate(zip(measures, halves, strict=True)):
-        for side, level, values in zip((-0.2, 0.2), LEVELS, (m.standard, m.dynamic), strict=True):
+        for side, level, values in zip((-0.2, 0.2), m.names, (m.first, m.second), strict=True):
             mean = float(values.mean())
             tip = f"{m.label}, {level}: mean {significant(mean)} {m.unit}".rstrip()
             if is_defined(half):
@@ -66,7 +67,11 @@ def _bars(measures: Sequence[Measure], halves: Sequence[Number], axis: str, word
             bar = {"from": i + side - 0.18, "to": i + side + 0.18, "mean": mean, "zero": 0}
             bars.append({**bar, "level": level, "tip": tip})
     x = categories([m.label for m in measures])
-    box = {"x": {"field": "from", **x}, "x2": {"field": "to"}, "color": LEVEL_COLOUR}
+    box = {
+        "x": {"field": "from", **x},
+        "x2": {"field": "to"},
+        "color": level_colour(measures[0].names),
+    }
     return {
         "width": 60 + 66 * len(measures),
         "height": HEIGHT,
@@ -82,10 +87,10 @@ def _span(channel: str, axis: str | None = None) -> Spec:
     return {channel: number("low", axis), f"{channel}2": {"field": "high"}}
 
 
-def _differences(measures: Sequence[Measure], tests: Table) -> list[Spec]:
+def _differences(measures: Sequence[Pair], tests: Table) -> list[Spec]:
     dots, ends, means = [], [], []
     for i, m in enumerate(measures):
-        gaps = np.sort(m.standard - m.dynamic)[picked(len(m.standard))]
+        gaps = np.sort(m.first - m.second)[picked(len(m.first))]
         # sorted values in a row would make a slope: deal them out to both sides in turn
         turn = np.arange(len(gaps)) * 7 % max(1, len(gaps))
         spread = -0.16 + 0.32 * turn / max(1, len(gaps) - 1)
@@ -110,23 +115,26 @@ def _differences(measures: Sequence[Measure], tests: Table) -> list[Spec]:
 
 
 def ratings_figure(
-    key: str, measures: Sequence[Measure], scenarios: Sequence[str], tests: Table
+    key: str, measures: Sequence[Pair], others: Sequence[Factor], tests: Table, scale: str
 ) -> Figure:
-    """The paper's second figure: mean ratings with standard deviations, scenario by scenario."""
+    """Mean ratings with standard deviations, a panel for each level of the other factors."""
     panels = []
-    for scenario in scenarios:
-        own = [m for m in measures if m.key.endswith(scenario)]
-        panels.append(_ratings(scenario, own, tests))
-    alt = f"Bars of mean ratings from 0 to 4. {_means(measures)}."
-    return Figure(key, "Ratings, means and standard deviations", alt, {"hconcat": panels})
+    wheres = dict.fromkeys(m.label.partition(", ")[2] for m in measures)
+    for where in wheres:
+        own = [m for m in measures if m.label.partition(", ")[2] == where]
+        panels.append(_ratings(where or key, own, tests, scale))
+    alt = f"Bars of mean ratings{f', {scale}' if scale else ''}. {_means(measures)}."
+    title = f"{key[:1].upper()}{key[1:]}, means and standard deviations"
+    return Figure(key, title, alt, in_rows(panels, 3))
 
 
-def _ratings(scenario: str, measures: Sequence[Measure], tests: Table) -> Spec:
+def _ratings(where: str, measures: Sequence[Pair], tests: Table, points: str) -> Spec:
     bars, ends = [], []
     for i, m in enumerate(measures):
         row = tests.row(m.key)
-        for side, level in zip((-0.2, 0.2), LEVELS, strict=True):
-            mean, sd = row[f"mean_{level}"], row[f"sd_{level}"]
+        sides = zip((-0.2, 0.2), m.names, ("baseline", "level"), strict=True)
+        for side, level, of in sides:
+            mean, sd = row[f"mean_{of}"], row[f"sd_{of}"]
             tip = f"{m.label}, {level}: mean {significant(mean)}"
             if is_defined(sd):
                 tip += f", SD {significant(sd)}"
@@ -134,12 +142,21 @@ def _ratings(scenario: str, measures: Sequence[Measure], tests: Table) -> Spec:
             bar = {"from": i + side - 0.18, "to": i + side + 0.18, "mean": mean, "zero": 0}
             bars.append({**bar, "level": level, "tip": tip})
     x = categories([m.label.split(",")[0] for m in measures])
-    scale = {"scale": {"domain": [0, 4.6], "nice": False}, "axis": {"values": [0, 1, 2, 3, 4]}}
-    y = number("mean", "rating (0–4)", **scale)
-    box = {"x": {"field": "from", **x}, "x2": {"field": "to"}, "color": LEVEL_COLOUR}
-    span = {"y": number("low", "rating (0–4)", **scale), "y2": {"field": "high"}}
+    scale, axis = {}, "rating"
+    if points:
+        top = int(points.rpartition("–")[2])
+        domain = {"domain": [0, 1.15 * top], "nice": False}
+        scale = {"scale": domain, "axis": {"values": list(range(top + 1))}}
+        axis = f"rating ({points})"
+    y = number("mean", axis, **scale)
+    box = {
+        "x": {"field": "from", **x},
+        "x2": {"field": "to"},
+        "color": level_colour(measures[0].names),
+    }
+    span = {"y": number("low", axis, **scale), "y2": {"field": "high"}}
     return {
-        "title": scenario,
+        "title": where,
         "width": 270,
         "height": HEIGHT,
         "layer": layers(
@@ -165,7 +182,7 @@ def effect_sizes(key: str, title: str, tests: Table) -> Figure:
     labels = [str(r["label"]) for r in tests.rows if is_defined(r["dz"])]
     y = {"y": {"field": "y", **categories(labels, "y")}}
     lines = [{k: v for k, v in row.items() if k != "tip"} for row in rows]
-    axis = "standardised difference d_z; positive: less with dynamic transparency"
+    axis = "standardised difference d_z; positive: less than under the baseline"
     dz = number("dz", axis, axis={"tickCount": 8})
     spec = {
         "width": 520,
@@ -173,7 +190,7 @@ def effect_sizes(key: str, title: str, tests: Table) -> Figure:
         "layer": layers(
             zero_line("x", axis),
             layer("rule", lines, {**y, **_span("x", axis)}, color=INK, strokeWidth=2),
-            layer("point", rows, {**y, "x": dz}, color=DYNAMIC, filled=True, size=60, opacity=1),
+            layer("point", rows, {**y, "x": dz}, color=LEVEL, filled=True, size=60, opacity=1),
         ),
     }
     said = "; ".join(str(row["tip"]) for row in rows)

@@ -13,18 +13,40 @@ Spec = dict[str, Any]
 INK = "#1f2328"
 RULE = "#d0d7de"
 FAINT = "#8c959f"
-STANDARD = "#c2570c"
-DYNAMIC = "#0b69b7"
-LEVELS = ("standard", "dynamic")
+PALETTE = (
+    "#c2570c",
+    "#0b69b7",
+    "#00795a",
+    "#b1408a",
+    "#8a6d00",
+    "#5a5a5a",
+    "#2f87a8",
+    "#7a3b00",
+)
+"""Told apart by every kind of colour vision (after Okabe and Ito), and by darkness in print; more
+levels than colours are told apart by their places, too."""
+LEVEL = PALETTE[1]
 MOST_DOTS = 200
 
-LEVEL_COLOUR: Spec = {
-    "field": "level",
-    "type": "nominal",
-    "title": None,
-    "scale": {"domain": list(LEVELS), "range": [STANDARD, DYNAMIC]},
-    "legend": {"orient": "top"},
-}
+
+def level_colour(levels: Sequence[str]) -> Spec:
+    """The channel that colours levels, the baseline first."""
+    colours = [PALETTE[i % len(PALETTE)] for i in range(len(levels))]
+    return {
+        "field": "level",
+        "type": "nominal",
+        "title": None,
+        "scale": {"domain": list(levels), "range": colours},
+        "legend": {"orient": "top"},
+    }
+
+
+def in_rows(panels: Sequence[Spec], wide: int) -> Spec:
+    """Panels side by side, `wide` of them in a row."""
+    if len(panels) <= wide:
+        return {"hconcat": list(panels)}
+    rows = [list(panels[i : i + wide]) for i in range(0, len(panels), wide)]
+    return {"vconcat": [{"hconcat": row} for row in rows]}
 
 
 def picked(n: int) -> NDArray[np.intp]:

@@ -9,15 +9,14 @@ from numpy.typing import NDArray
 
 from seethrough.analysis.figures.style import (
     FAINT,
-    LEVEL_COLOUR,
-    LEVELS,
     Spec,
+    in_rows,
     layer,
     layers,
+    level_colour,
     number,
     picked,
 )
-from seethrough.analysis.load.schema import TASK_CODES
 from seethrough.analysis.page.blocks import Figure
 from seethrough.analysis.page.numbers import significant
 from seethrough.analysis.tradeoff import Change
@@ -29,14 +28,16 @@ SIDE = 150
 def arrows(key: str, changes: Sequence[Change]) -> Figure:
     """A panel per task, an arrow per participant."""
     told = "; ".join(
-        f"{c.task}: mean time {significant(float(c.time[:, 0].mean()))} to "
+        f"{c.said}: mean time {significant(float(c.time[:, 0].mean()))} to "
         f"{significant(float(c.time[:, 1].mean()))} s, mean {c.error_label} "
         f"{significant(float(c.error[:, 0].mean()))} to {significant(float(c.error[:, 1].mean()))}"
         for c in changes
     )
-    alt = f"Time against error, an arrow per participant from standard to dynamic. {told}."
-    spec = {"hconcat": [_panel(c) for c in changes]}
-    return Figure(key, "Time against error, from standard to dynamic", alt, spec)
+    alt = f"Time against error, an arrow per participant from baseline to level. {told}."
+    spec = in_rows([_panel(c) for c in changes], 4)
+    levels = {c.names for c in changes}
+    first, second = levels.pop() if len(levels) == 1 else ("the baseline", "each level")
+    return Figure(key, f"Time against error, from {first} to {second}", alt, spec)
 
 
 def _panel(c: Change) -> Spec:
@@ -52,10 +53,10 @@ def _panel(c: Change) -> Spec:
         tips = [
             f"{c.participants[i]}, {level}: {significant(t[side])} s, "
             f"{c.error_label} {significant(e[side])}"
-            for side, level in enumerate(LEVELS)
+            for side, level in enumerate(c.names)
         ]
-        starts.append({"x": t[0], "y": e[0], "level": LEVELS[0], "tip": tips[0]})
-        heads.append({"x": t[1], "y": e[1], "level": LEVELS[1], "angle": angle, "tip": tips[1]})
+        starts.append({"x": t[0], "y": e[0], "level": c.names[0], "tip": tips[0]})
+        heads.append({"x": t[1], "y": e[1], "level": c.names[1], "angle": angle, "tip": tips[1]})
         lines.append({"x": t[0], "y": e[0], "x2": t[1], "y2": e[1]})
     domain = [10.0 ** xs[0], 10.0 ** xs[1]]
     scale = {"type": "log", "domain": domain, "nice": False}
@@ -64,9 +65,9 @@ def _panel(c: Change) -> Spec:
         "y": number("y", c.error_label, scale={"domain": list(ys), "nice": False}),
     }
     turned = {"angle": {"field": "angle", "type": "quantitative", "scale": None}}
-    colour = {"color": LEVEL_COLOUR}
+    colour = {"color": level_colour(c.names)}
     return {
-        "title": f"{TASK_CODES[c.task]} {c.task.replace('_', ' ')}",
+        "title": c.said,
         "width": SIDE,
         "height": SIDE,
         "layer": layers(

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
 
-from seethrough.analysis.figures.style import LEVEL_COLOUR, LEVELS, layer, layers, number
+from seethrough.analysis.figures.style import layer, layers, level_colour, number
 from seethrough.analysis.page.blocks import Figure
 from seethrough.analysis.page.numbers import significant
 
 
-def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
-    """Geometric mean time by position, a line per transparency level."""
+def learning_figure(key: str, curve: pd.DataFrame, levels: Sequence[str]) -> Figure:
+    """Geometric mean time by position, a line per level."""
     rows: list[dict[str, Any]] = [
         {
             "level": level,
@@ -21,12 +22,12 @@ def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
             "tip": f"{level}, trial {int(trial)}: geometric mean {significant(float(time))} s",
         }
         for level, trial, time in zip(
-            curve["transparency"].astype("str"), curve["trial_in_set"], curve["time"], strict=True
+            curve["level"].astype("str"), curve["trial_in_set"], curve["time"], strict=True
         )
     ]
     told = "; ".join(
         f"{level}: " + ", ".join(f"trial {r['trial']} {significant(r['time'])} s" for r in own[:12])
-        for level in LEVELS
+        for level in levels
         if (own := [r for r in rows if r["level"] == level])
     )
     alt = f"Lines of geometric mean time by position in the task set. {told}."
@@ -35,7 +36,7 @@ def learning_figure(key: str, curve: pd.DataFrame) -> Figure:
         "x": number("trial", "trial in its task set", axis={"values": places, "format": "d"},
                     scale={"domain": [places[0] - 0.2, places[-1] + 0.2], "nice": False}),
         "y": number("time", "geometric mean time (s)", scale={"zero": True}),
-        "color": LEVEL_COLOUR,
+        "color": level_colour(levels),
     }  # fmt: skip
     lines = [{k: v for k, v in r.items() if k != "tip"} for r in rows]
     spec = {

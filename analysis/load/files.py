@@ -13,8 +13,9 @@ import os
 import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
+from io import BufferedReader
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 from seethrough.analysis.errors import DataError
 
@@ -76,7 +77,7 @@ def sha256_of(path: Path, data: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _opened(path: Path, data: Path) -> BinaryIO:
+def _opened(path: Path, data: Path) -> BufferedReader:
     """The regular file, open for reading. Raises DataError."""
     shown = named(path, data)
     try:
@@ -128,11 +129,11 @@ def read_json(path: Path, data: Path) -> dict[str, Any]:
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """A JSON object; of a key that is there twice each reader would take another value."""
-    made = dict(pairs)
-    if len(made) < len(pairs):
-        seen: set[str] = set()
-        twice = next(key for key, _ in pairs if key in seen or seen.add(key))
-        raise ValueError(f"the key {twice[:40]!r} is there twice")
+    made: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in made:
+            raise ValueError(f"the key {key[:40]!r} is there twice")
+        made[key] = value
     return made
 
 

@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load.chain import (
@@ -327,7 +327,7 @@ def _number(stem: str) -> int:
     return int(number) if number.isascii() and number.isdigit() else 0
 
 
-def _is_hashes(value: Any) -> bool:
+def _is_hashes(value: object) -> TypeGuard[Mapping[str, str]]:
     """Whether it is {file name: SHA-256}."""
     return isinstance(value, Mapping) and all(
         isinstance(digest, str) and _HEX.fullmatch(digest) for digest in value.values()

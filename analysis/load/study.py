@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
+from seethrough.analysis.before import design_before
+from seethrough.analysis.design import NO_DESIGN, Design
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load import schema
 from seethrough.analysis.load.chain import ChainState
 from seethrough.analysis.load.files import Source, is_there, read_bytes, read_json
 from seethrough.analysis.load.ledger import NO_LEDGER, Ledger
 from seethrough.analysis.load.person import REPAIR, table_name
+from seethrough.analysis.load.sidecar_design import ENTRY, read_design
 from seethrough.analysis.load.table import read_table
 from seethrough.analysis.load.whole import verified
 
@@ -50,6 +54,7 @@ class Study:
     certificate: pd.DataFrame | None = None
     ledger: Ledger = NO_LEDGER
     repairs: tuple[str, ...] = ()
+    design: Design = NO_DESIGN
 
 
 def load_study(folder: Path, source: str | None = None) -> Study:
@@ -63,10 +68,13 @@ def load_study(folder: Path, source: str | None = None) -> Study:
     if not sources:
         base = folder / "data" / whole.source
         raise DataError(f"{base}: no trial tables (*_trials_data.csv): expected one a participant")
-    trials = read_table(sources, schema.TRIALS)
-    check_trials(trials, whole.source)
-    empty = {name: pd.Series(dtype="object") for name in (*schema.QUESTIONNAIRE, "_file", "_row")}
-    questions = read_table(answers, schema.QUESTIONNAIRE) if answers else pd.DataFrame(empty)
+    sidecars = {table_name(s): s.sidecar for s in whole.sessions if s.sidecar is not None}
+    design = _design(sidecars)
+    trials = read_table(sources, schema.trial_columns(design))
+    check_trials(trials, whole.source, design)
+    columns = schema.answer_columns(design)
+    empty = {name: pd.Series(dtype="object") for name in (*columns, "_file", "_row")}
+    questions = read_table(answers, columns) if answers else pd.DataFrame(empty)
     if answers:
         _check_ids(questions)
         _check_source(questions, whole.source)
@@ -75,8 +83,9 @@ def load_study(folder: Path, source: str | None = None) -> Study:
     certificate = None
     if is_there(folder / CERTIFICATE):
         hardness = Source(CERTIFICATE, read_bytes(folder / CERTIFICATE, folder))
-        certificate = read_table([hardness], schema.CERTIFICATE)
-        _check_levels(certificate, ("task", "transparency"))
+        columns = schema.certificate_columns(design)
+        certificate = read_table([hardness], columns)
+        _check_levels(certificate, [k for k in columns if k in schema.levels(design)], design)
         files += _records([hardness], certificate)
     return Study(
         folder,
@@ -85,14 +94,43 @@ def load_study(folder: Path, source: str | None = None) -> Study:
         whole.source,
         trials,
         questions,
-        {table_name(s): s.sidecar for s in whole.sessions if s.sidecar is not None},
+        sidecars,
         tuple(files),
         tuple(s.chain for s in whole.sessions if s.chain is not None),
         whole.others,
         certificate,
         whole.ledger,
         _repairs(folder / "data" / whole.source, folder),
+        design,
     )
+
+
+def _design(sidecars: Mapping[str, Mapping[str, Any]]) -> Design:
+    """The one design of all sessions; of data of before, what the adapter knows of them."""
+    stated = {name: s[ENTRY] for name, s in sidecars.items() if ENTRY in s}
+    if not stated:
+        configs = (config_of(sidecar) for sidecar in sidecars.values())
+        known = (c for c in configs if isinstance(c.get("analysis"), Mapping))
+        return design_before(next(known, {}))
+    first, entry = next(iter(stated.items()))
+    others = [name for name in sidecars if stated.get(name) != entry]
+    if others:
+        raise DataError(
+            f"{_sidecar(name)}: {ENTRY}: expected the one of {_sidecar(first)}: a study has one"
+            for name in others
+        )
+    return read_design(entry, _sidecar(first))
+
+
+def _sidecar(table: str) -> str:
+    return f"{table.removesuffix('.csv')}.json"
+
+
+def config_of(sidecar: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The study's resolved config in a sidecar, `provenance.study`; empty if there is none."""
+    provenance = sidecar.get("provenance")
+    config = provenance.get("study") if isinstance(provenance, Mapping) else None
+    return config if isinstance(config, Mapping) else {}
 
 
 def _repairs(base: Path, folder: Path) -> tuple[str, ...]:
@@ -134,16 +172,17 @@ def at(table: pd.DataFrame, index: Any) -> str:
     return f"{table.at[index, '_file']}: row {table.at[index, '_row']}"
 
 
-def check_trials(trials: pd.DataFrame, source: str) -> None:
+def check_trials(trials: pd.DataFrame, source: str, design: Design) -> None:
     """Levels, required values, bounds and unique rows; raises DataError naming each."""
-    lines = _level_problems(trials, tuple(schema.LEVELS))
-    for name in schema.REQUIRED:
+    lines = _level_problems(trials, schema.levels(design))
+    lines += _cell_problems(trials, design)
+    for name in (*schema.REQUIRED, *design.levels):
         empty = trials[name].isna()
         if not pd.api.types.is_numeric_dtype(trials[name]):
             empty |= trials[name] == ""
         gaps = trials.index[empty]
         lines += [f"{at(trials, i)}: {name} = '': expected a value" for i in gaps]
-    for name, (what, bound, closed) in schema.BOUNDS.items():
+    for name, (what, bound, closed) in schema.bounds(design).items():
         low = trials[name] < bound if closed else trials[name] <= bound
         lines += [
             f"{at(trials, i)}: {name} = {trials.at[i, name]:g}: expected {what}"
@@ -155,16 +194,34 @@ def check_trials(trials: pd.DataFrame, source: str) -> None:
     _check_source(trials, source)
 
 
-def _level_problems(table: pd.DataFrame, names: Iterable[str]) -> list[str]:
+def _level_problems(table: pd.DataFrame, known: Mapping[str, Sequence[str]]) -> list[str]:
     return [
-        f"{at(table, i)}: {name} = {table.at[i, name]!r}: expected {', '.join(schema.LEVELS[name])}"
-        for name in names
-        for i in table.index[~table[name].isin(schema.LEVELS[name])]
+        f"{at(table, i)}: {name} = {table.at[i, name]!r}: expected {', '.join(levels)}"
+        for name, levels in known.items()
+        for i in table.index[~table[name].isin(levels)]
     ]
 
 
-def _check_levels(table: pd.DataFrame, names: Iterable[str]) -> None:
-    if lines := _level_problems(table, names):
+def _cell_problems(trials: pd.DataFrame, design: Design) -> list[str]:
+    """Trials of cells that the study leaves out; people of two groups."""
+    lines = []
+    for gone in design.excluded:
+        there = np.logical_and.reduce([trials[k].astype("str") == v for k, v in gone.items()])
+        cell = ", ".join(f"{k} = {v}" for k, v in gone.items())
+        lines += [f"{at(trials, i)}: {cell}: a cell that the study leaves out"
+                  for i in trials.index[there]]  # fmt: skip
+    for factor in design.groups:
+        own = trials[factor.name].astype("str")
+        first = own.groupby(trials["participant"].astype("str")).transform("first")
+        lines += [
+            f"{at(trials, i)}: {factor.name} = {own[i]!r}: expected {first[i]}, the participant's"
+            for i in trials.index[own != first]
+        ]
+    return lines
+
+
+def _check_levels(table: pd.DataFrame, names: Iterable[str], design: Design) -> None:
+    if lines := _level_problems(table, {k: schema.levels(design)[k] for k in names}):
         raise DataError(lines)
 
 

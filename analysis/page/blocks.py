@@ -143,12 +143,13 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """`banner` warns on every copy, e.g. that participants were simulated."""
+    """`banner` warns on every copy, e.g. that participants were simulated; `script`: analysis.R."""
 
     title: str
     subtitle: str
     banner: str
     sections: tuple[Section, ...]
+    script: str = ""
 
 
 def more(table: Table, title: str, shown: str) -> Fold:

@@ -15,7 +15,7 @@ from typing import Any
 
 import vl_convert
 
-from seethrough.analysis.figures.style import DYNAMIC, FAINT, INK, RULE, STANDARD
+from seethrough.analysis.figures.style import FAINT, INK, PALETTE, RULE
 from seethrough.analysis.page.blocks import Figure
 from seethrough.analysis.written import write_over
 
@@ -23,8 +23,7 @@ _VARIABLES = {
     INK: "var(--ink)",
     RULE: "var(--rule)",
     FAINT: "var(--faint)",
-    STANDARD: "var(--standard)",
-    DYNAMIC: "var(--dynamic)",
+    **{colour: f"var(--level-{i})" for i, colour in enumerate(PALETTE)},
 }
 _TEXT = {"labelColor": INK, "titleColor": INK, "labelFontSize": 11, "titleFontSize": 11}
 _CONFIG: dict[str, Any] = {

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from seethrough.analysis.errors import DataError
 
-PAGES = ("report.html", "report.md", "report.pdf")
+PAGES = ("report.html", "report.md", "report.pdf", "analysis.R")
 PARTS = {"tables": (".csv",), "figures": (".svg", ".png", ".pdf")}
 MARK = b"seethrough report"
 

@@ -31,13 +31,14 @@ _SYMBOL = re.compile(
 )
 
 
-def _template(name: str) -> str:
+def template(name: str) -> str:
+    """A file of the page's templates."""
     return (files("seethrough.analysis.page") / "templates" / name).read_text(encoding="utf-8")
 
 
 def _environment() -> Environment:
     env = Environment(
-        loader=FunctionLoader(_template),
+        loader=FunctionLoader(template),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -83,7 +84,7 @@ def as_html(report: Report, pictures: Mapping[str, str], version: str, library: 
         report=report,
         pictures={key: Markup(svg) for key, svg in pictures.items()},
         version=version,
-        css=Markup(_template("report.css")),
+        css=Markup(template("report.css")),
         library=Markup(library),
-        script=Markup(_template("report.js")),
+        script=Markup(template("report.js")),
     )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from seethrough.analysis.before import RATIOS
 from seethrough.analysis.comparison import apa_f
-from seethrough.analysis.equivalence import RATIOS
 from seethrough.analysis.page.blocks import Block, Cited, Column, Fold, Prose, Section, Table, say
 from seethrough.analysis.published.consistency import Finding
 from seethrough.analysis.published.numbers import Published

@@ -62,4 +62,5 @@ def exact_moments(
 
 def _unit(x: Array) -> Array:
     centred = x - x.mean()
-    return centred / np.std(centred, ddof=1)
+    unit: Array = centred / np.std(centred, ddof=1)
+    return unit

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.random import Generator
 
-from seethrough.analysis.comparison import Measure, apa_f, compare
+from seethrough.analysis.before import FACTORS, RATIOS
+from seethrough.analysis.comparison import Pair, apa_f, compare
+from seethrough.analysis.equivalence import Margin
 from seethrough.analysis.figures.comparison import effect_sizes
 from seethrough.analysis.page.blocks import Block, Column, Fold, Report, Section, Table, say
 from seethrough.analysis.published.consistency import Finding, all_findings
@@ -25,6 +27,7 @@ from seethrough.analysis.published.predictions import (
 from seethrough.analysis.published.reconstruct import exact_moments, r_interval, r_of
 from seethrough.analysis.sections.provenance import PAIRS, software
 
+CONTRAST = FACTORS[0].contrasts()[0]
 KINDS = {"time": "time", "error": "count_error", "distance": "distance"}
 """What a measure's margin is declared of, by the start of its name."""
 FITTING_TRIALS = range(1, 13)
@@ -83,7 +86,7 @@ def published_report(seed: int = 1) -> Report:
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(3, 0)))
     measures = reconstructed(published, rng)
     tests = replace(
-        compare(measures, published.margins),
+        compare(measures),
         key="tests_published",
         title="The ordinary analysis, in full",
     )
@@ -112,21 +115,29 @@ def _ran(seed: int) -> Section:
     return Section("provenance", "What ran", (Table("ran", "What ran", PAIRS, rows),))
 
 
-def reconstructed(published: Published, rng: Generator) -> list[Measure]:
+def reconstructed(published: Published, rng: Generator) -> list[Pair]:
     """Each printed measure as data with exactly its moments."""
     n = published.participants
     return [
-        Measure(
+        Pair(
             m.name,
             m.label,
             m.unit,
             2 if m.unit else 3,
             *exact_moments(n, m.standard, m.dynamic, r_of(m, n), rng),
             family="tasks" if m.name in published.tasks else "",
-            kind=KINDS[m.name.partition("_")[0]],
+            margin=_margin(published, m.name),
+            contrast=CONTRAST,
         )
         for m in published.measures
     ]
+
+
+def _margin(published: Published, name: str) -> Margin | None:
+    """What the study declares of a printed measure."""
+    kind = KINDS[name.partition("_")[0]]
+    value = published.margins.get(kind)
+    return None if value is None else Margin(value, kind in RATIOS)
 
 
 def _compared(published: Published, tests: Table) -> Table:

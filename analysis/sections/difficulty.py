@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from seethrough.analysis.comparison import Measure, compare
+from seethrough.analysis.comparison import Pair, compare, headed
+from seethrough.analysis.design import Design
 from seethrough.analysis.difficulty import (
     ONLY_BETWEEN,
     QUANTITIES,
@@ -14,7 +15,6 @@ from seethrough.analysis.difficulty import (
 )
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Table, say
 from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.tables import name_of
 from seethrough.analysis.stats.undefined import Undefined, is_defined
 
 LARGE = 0.25
@@ -25,21 +25,21 @@ COLUMNS = (
     Column("task", "task"),
     Column("quantity", "quantity"),
     Column("n", "n", "int"),
-    Column("mean_standard", "M standard", "sig3"),
-    Column("mean_dynamic", "M dynamic", "sig3"),
-    Column("difference", "standard − dynamic", "sig3", "95 % interval", "low", "high"),
+    Column("mean_baseline", "M baseline", "sig3"),
+    Column("mean_level", "M level", "sig3"),
+    Column("difference", "baseline − level", "sig3", "95 % interval", "low", "high"),
     Column("low", "from", "sig3", "95 % interval"),
     Column("high", "to", "sig3", "95 % interval"),
-    Column("smd", "in SD of scenes", "fixed2", "dynamic − standard"),
+    Column("smd", "in SD of scenes", "fixed2", "level − baseline"),
     Column("p", "p", "p"),
 )
-SHOWN = tuple("task quantity n mean_standard mean_dynamic difference smd p".split())
+SHOWN = tuple("task quantity n mean_baseline mean_level difference smd p".split())
 
 
 def difficulty_blocks(context: Context) -> list[Block]:
     """A sentence on the largest difference, and the table of all."""
     certificate = context.study.certificate
-    found = balance(with_certificate(context.trials, certificate))
+    found = balance(with_certificate(context.trials, certificate), context.design)
     source = (
         "Measured from fixed views without the technique (the study's difficulty certificate): "
         "visible fraction of the targets in view; targets hidden in every view; distractors that "
@@ -52,19 +52,19 @@ def difficulty_blocks(context: Context) -> list[Block]:
     if not found:
         return [say(f"Difficulty: nothing is known of the scenes. {source}", kind="note")]
     table = _table(context, found, source)
-    return [_sentence(table, found), table]
+    return [_sentence(table, found, context.design), table]
 
 
 def _table(context: Context, found: Sequence[Balance], note: str) -> Table:
-    measures: list[Measure] = [b.measure for b in found]
-    tests = compare(measures, context.plan.margins)
+    pairs: list[Pair] = [b.pair for b in found]
+    tests = compare(pairs)
     rows = []
     for b in found:
-        own = tests.row(b.measure.key)
+        own = tests.row(b.pair.key)
         rows.append(
             {
                 **{c.name: own[c.name] for c in COLUMNS if c.name in own},
-                "task": name_of(b.task),
+                "task": context.design.task_said(b.task),
                 "quantity": QUANTITIES[b.quantity],
                 "low": own["difference_low"],
                 "high": own["difference_high"],
@@ -72,30 +72,31 @@ def _table(context: Context, found: Sequence[Balance], note: str) -> Table:
             }
         )
     title = "Difficulty of the scenes, by task and condition"
-    return Table("difficulty", title, COLUMNS, tuple(rows), SHOWN, note)
+    return Table("difficulty", title, headed(COLUMNS, pairs), tuple(rows), SHOWN, note)
 
 
-def _named(found: Sequence[Balance]) -> str:
-    return "; ".join(f"{name_of(b.task)}, {QUANTITIES[b.quantity]}" for b in found)
+def _named(found: Sequence[Balance], design: Design) -> str:
+    said = (f"{design.task_said(b.task)}, {QUANTITIES[b.quantity]}" for b in found)
+    return "; ".join(dict.fromkeys(said))
 
 
-def _sentence(table: Table, found: Sequence[Balance]) -> Prose:
+def _sentence(table: Table, found: Sequence[Balance], design: Design) -> Prose:
     """The largest standardised difference by name, and which pass the usual limit."""
     known = [(abs(b.smd), b) for b in found if is_defined(b.smd)]
     apart = [b for b in found if b.smd == Undefined(ONLY_BETWEEN)]
     if apart and not known:
-        return say("Difficulty: the scenes of the two levels differ in {}.", _named(apart))
+        return say("Difficulty: the scenes of the two levels differ in {}.", _named(apart, design))
     if not known:
         return say("Difficulty: within each task all scenes are alike in what is known of them.")
     _, worst = max(known, key=lambda pair: pair[0])
     runs: list[str | Cited] = [
         f"Difficulty: of {len(known)} comparisons of the scenes the largest difference is ",
-        table.cite(worst.measure.key, "smd", "fixed3"),
-        f" SD of scenes ({name_of(worst.task)}, {QUANTITIES[worst.quantity]})",
+        table.cite(worst.pair.key, "smd", "fixed3"),
+        f" SD of scenes ({design.task_said(worst.task)}, {QUANTITIES[worst.quantity]})",
     ]
     over = [*(b for smd, b in known if smd >= LARGE), *apart]
     if over:
-        named = _named(over)
+        named = _named(over, design)
         runs.append(f". Apart by {LARGE} SD or more, so that times may differ for it: {named}.")
     else:
         runs.append(f"; none reaches {LARGE} SD, the usual limit of balance.")

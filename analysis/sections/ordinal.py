@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.comparison import Measure, corrected, decisive, sd_of
+from seethrough.analysis.comparison import Pair, corrected, decisive, headed, sd_of
 from seethrough.analysis.equivalence import COLUMNS as EQUIVALENCE
 from seethrough.analysis.equivalence import equivalence, no_difference
 from seethrough.analysis.page.blocks import Column, Prose, Table, say
@@ -23,10 +24,10 @@ FRIEDMAN = (
     Column("label", "measure"),
     Column("n", "n", "int"),
     Column("k", "k", "int"),
-    Column("mean_standard", "M standard", "fixed3"),
-    Column("sd_standard", "SD", "fixed3"),
-    Column("mean_dynamic", "M dynamic", "fixed3"),
-    Column("sd_dynamic", "SD", "fixed3"),
+    Column("mean_baseline", "M baseline", "fixed3"),
+    Column("sd_baseline", "SD", "fixed3"),
+    Column("mean_level", "M level", "fixed3"),
+    Column("sd_level", "SD", "fixed3"),
     Column("chi2", "χ²", "fixed2"),
     Column("df", "df", "int"),
     Column("p", "p (χ²)", "p"),
@@ -34,45 +35,51 @@ FRIEDMAN = (
     Column("p_holm", "p (Holm)", "p", "of the permutation p"),
     Column("method", "by"),
     Column("w", "Kendall's W", "bound2"),
-    Column("difference", "standard − dynamic", "fixed3", "mean"),
+    Column("difference", "baseline − level", "fixed3", "mean"),
     *EQUIVALENCE,
 )
 _OF_TWO = ("p_holm", "mean_", "sd_", "difference", "tost_", "noninferior_p", "low90", "high90")
 """Columns that only a comparison of two conditions has."""
 
 
-def friedman_row(m: Measure, context: Context, purpose: int) -> dict[str, Any]:
+def friedman_row(m: Pair, context: Context, purpose: int) -> dict[str, Any]:
     """Friedman's test of the two levels; for k = 2 its permutation p is the exact sign test's."""
-    result = friedman(np.stack([m.standard, m.dynamic], axis=1), context.rng(purpose))
+    result = friedman(np.stack([m.first, m.second], axis=1), context.rng(purpose))
     return {
+        **m.about,
         "measure": m.key,
         "label": m.label,
         "n": result.n,
         "k": result.k,
-        "mean_standard": float(m.standard.mean()),
-        "sd_standard": sd_of(m.standard),
-        "mean_dynamic": float(m.dynamic.mean()),
-        "sd_dynamic": sd_of(m.dynamic),
+        "mean_baseline": float(m.first.mean()),
+        "sd_baseline": sd_of(m.first),
+        "mean_level": float(m.second.mean()),
+        "sd_level": sd_of(m.second),
         "chi2": result.chi2,
         "df": result.df,
         "p": result.p,
         "p_exact": result.exact,
         "method": result.method,
         "w": result.w,
-        "difference": float((m.standard - m.dynamic).mean()),
-        **equivalence(m.standard, m.dynamic, m.kind, context.plan.margins),
+        "difference": float((m.first - m.second).mean()),
+        **equivalence(m.first, m.second, m.margin),
     }
 
 
-SHOWN = tuple("label n mean_standard mean_dynamic chi2 df p p_exact p_holm w tost_p".split())
+SHOWN = tuple("label n mean_baseline mean_level chi2 df p p_exact p_holm w tost_p".split())
 
 
 def friedman_table(
-    key: str, title: str, rows: Sequence[Mapping[str, Any]], shares: bool = False
+    key: str,
+    title: str,
+    rows: Sequence[Mapping[str, Any]],
+    pairs: Sequence[Pair],
+    shares: bool = False,
 ) -> Table:
     """The tests of several measures; `shares` cannot exceed 1, and are written so."""
     columns = tuple(
-        replace(c, style="bound3") if shares and c.style == "fixed3" else c for c in FRIEDMAN
+        replace(c, style="bound3") if shares and c.style == "fixed3" else c
+        for c in headed(FRIEDMAN, pairs)
     )
     note = (
         "Of two conditions, p (permutation) is the exact sign test's, and decides: χ² rejects in "
@@ -88,25 +95,26 @@ def friedman_table(
     return Table(key, title, columns, tuple(rows), shown, note.strip())
 
 
-def friedman_sentence(table: Table, key: str, what: str, context: Context) -> Prose:
+def friedman_sentence(table: Table, m: Pair, what: str, context: Context) -> Prose:
     """Both means, χ² and both p; where no difference is shown, whether equality is."""
+    key, (first, second) = m.key, m.names
     people = of_people(table, key, context)
     if not is_defined(table.row(key)["chi2"]):
         return say(
-            f"{what}{{}}: M = {{}} standard, {{}} dynamic; {{}}.",
+            f"{what}{{}}: M = {{}} {first}, {{}} {second}; {{}}.",
             people,
-            table.cite(key, "mean_standard"),
-            table.cite(key, "mean_dynamic"),
+            table.cite(key, "mean_baseline"),
+            table.cite(key, "mean_level"),
             table.cite(key, "chi2"),
         )
     p, exact = table.cite(key, "p"), table.cite(key, "p_exact")
     signs = ["" if c.text.startswith(("<", ">")) else "= " for c in (p, exact)]
     said = say(
-        f"{what}{{}}: M = {{}} standard, {{}} dynamic; Friedman χ²({{}}) = {{}}, p {signs[0]}{{}}, "
-        f"exact p (sign test) {signs[1]}{{}}, Kendall's W = {{}}.",
+        f"{what}{{}}: M = {{}} {first}, {{}} {second}; Friedman χ²({{}}) = {{}}, "
+        f"p {signs[0]}{{}}, exact p (sign test) {signs[1]}{{}}, Kendall's W = {{}}.",
         people,
-        table.cite(key, "mean_standard"),
-        table.cite(key, "mean_dynamic"),
+        table.cite(key, "mean_baseline"),
+        table.cite(key, "mean_level"),
         table.cite(key, "df"),
         table.cite(key, "chi2"),
         p,
@@ -131,18 +139,34 @@ PAIRS = (
 )
 
 
-def four_conditions(context: Context, cells: Cells, purpose: int) -> list[Table]:
-    """Friedman over transparency × scenario, with both post-hoc tests; none for fewer than 3."""
-    cells = cells.whole()
-    levels = [(c, s) for c in cells.factors["transparency"] for s in cells.factors["scenario"]]
-    if len(levels) < 3 or len(cells.values) < 2:
+def conditions(
+    context: Context,
+    cells: Cells,
+    factors: Sequence[str],
+    key: str,
+    row_key: str,
+    said: str,
+    purpose: int,
+) -> list[Table]:
+    """Friedman over all conditions of these factors, with both post-hoc tests; none for fewer than
+    three. Conditions that the study leaves out for everybody are not there.
+
+    `key`: `friedman_conditions` and `post_hoc_conditions` end in it.
+    """
+    known = [cells.factors[f] for f in factors]
+    levels = [dict(zip(factors, at, strict=True)) for at in itertools.product(*known)]
+    levels = [at for at in levels if not context.design.left_out(at)]
+    if len(levels) < 3:
         return []
-    y = np.stack([cells.at(transparency=c, scenario=s) for c, s in levels], axis=1)
+    y = np.stack([cells.at(**at) for at in levels], axis=1)
+    y = y[np.isfinite(y).all(axis=1)]
+    if len(y) < 2:
+        return []
     result = friedman(y, context.rng(purpose))
     columns = tuple(c for c in FRIEDMAN if not c.name.startswith(_OF_TWO))
     row = {
-        "measure": "rating_conditions",
-        "label": "transparency × scenario",
+        "measure": row_key,
+        "label": " × ".join(factors),
         "n": result.n,
         "k": result.k,
         "chi2": result.chi2,
@@ -153,11 +177,11 @@ def four_conditions(context: Context, cells: Cells, purpose: int) -> list[Table]
         "w": result.w,
     }
     shown = tuple("label n k chi2 df p p_exact method w".split())
-    title = "Overall rating in the four conditions: Friedman test"
-    test = Table("friedman_conditions", title, columns, (row,), shown)
+    title = f"{said}: Friedman test over {len(levels)} conditions"
+    test = Table(f"friedman_{key}", title, columns, (row,), shown)
     if not is_defined(result.chi2):
         return [test]
-    names = [f"{c} {s}" for c, s in levels]
+    names = [" ".join(at.values()) for at in levels]
     rows = tuple(
         {
             "pair": f"{names[p.first]} – {names[p.second]}",
@@ -169,4 +193,4 @@ def four_conditions(context: Context, cells: Cells, purpose: int) -> list[Table]
         }
         for p in post_hoc(y)
     )
-    return [test, Table("post_hoc_conditions", "Pairs of conditions", PAIRS, rows)]
+    return [test, Table(f"post_hoc_{key}", f"{said}: pairs of conditions", PAIRS, rows)]

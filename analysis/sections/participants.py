@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 
-import pandas as pd
-
 from seethrough.analysis.exclude import why
-from seethrough.analysis.load.schema import TRANSPARENCY
-from seethrough.analysis.measures import design
+from seethrough.analysis.load.study import config_of
+from seethrough.analysis.measures import TASK, levels_of
 from seethrough.analysis.page.blocks import Block, Column, Fold, Prose, Section, Table, say
-from seethrough.analysis.plan import config_of
 from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.tables import name_of
 from seethrough.analysis.stats.distributions import detectable
 from seethrough.analysis.stats.ranks import sign_test
 
@@ -58,7 +55,7 @@ def participants_section(context: Context) -> Section:
     counted = [
         total,
         *([found] if found else []),
-        _cells(context.trials),
+        _cells(context),
         *([counts] if people <= 200 else []),
     ]
     blocks += [
@@ -88,29 +85,32 @@ def _counts(context: Context) -> list[dict[str, object]]:
     ]
 
 
-def _cells(trials: pd.DataFrame) -> Table:
-    sizes = trials.groupby(["task", "transparency"], observed=True).size()
-    levels = design(trials)
-    order = [(t, c) for t in levels["task"] for c in levels["transparency"] if (t, c) in sizes]
+def _cells(context: Context) -> Table:
+    """Trials that count, by task and the factors that vary inside a task."""
+    design, trials = context.design, context.trials
+    names = [TASK, *(f.name for f in (*design.groups, *design.crossed))]
+    sizes = trials.groupby(names, observed=True).size()
+    known = {tuple(str(x) for x in (key if isinstance(key, tuple) else (key,))): int(size)
+             for key, size in sizes.items()}  # fmt: skip
+    levels = levels_of(trials, (*design.groups, *design.crossed), design.task_names)
     return Table(
         "trials_by_cell",
-        "Trials counted, by task and transparency",
+        f"Trials counted, by {' and '.join(names)}",
         (
             Column("cell", "cell"),
-            Column("task", "task"),
-            Column("transparency", "transparency"),
+            *(Column(name, name) for name in names),
             Column("trials", "trials", "int"),
         ),
         tuple(
             {
-                "cell": f"{t}/{c}",
-                "task": name_of(t),
-                "transparency": c,
-                "trials": int(sizes[t, c]),
+                "cell": "/".join(key),
+                **dict(zip(names, (design.task_said(key[0]), *key[1:]), strict=True)),
+                "trials": known[key],
             }
-            for t, c in order
+            for key in itertools.product(*(levels[name] for name in names))
+            if key in known
         ),
-        ("task", "transparency", "trials"),
+        (*names, "trials"),
     )
 
 
@@ -182,14 +182,21 @@ def _missing(context: Context) -> list[Block]:
 
 
 def _unmet(context: Context) -> list[Block]:
-    """What nobody has a counted trial of, though the study plans it (or the other level is met)."""
-    there = design(context.trials)
+    """What nobody has a counted trial of, though the study plans it (or another level is met)."""
+    design = context.design
+    there = levels_of(context.trials, design.crossed, design.task_names)
     plans = [config_of(sidecar).get("design") for sidecar in context.study.sidecars.values()]
     plan = next((p for p in plans if isinstance(p, Mapping)), {})
-    tasks = plan.get("tasks") or there["task"]
-    levels = plan.get("transparency") or TRANSPARENCY
-    sizes = context.trials.groupby(["task", "transparency"], observed=True).size()
-    gone = [f"{name_of(t)}, {c}" for t in tasks for c in levels if (t, c) not in sizes]
+    tasks = plan.get("tasks") or there[TASK]
+    levels = [plan.get(f.name) or f.levels for f in design.crossed]
+    names = [TASK, *(f.name for f in design.crossed)]
+    own = context.trials[names].astype("str").drop_duplicates()
+    met = {tuple(row) for row in own.itertuples(index=False)}
+    gone = [
+        ", ".join((design.task_said(task), *at))
+        for task, *at in itertools.product(tasks, *levels)
+        if (task, *at) not in met and not design.left_out(dict(zip(names[1:], at, strict=True)))
+    ]
     if not gone:
         return []
     return [say(f"Nobody has a trial that counts of: {'; '.join(gone)}.", kind="warning")]

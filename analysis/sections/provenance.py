@@ -9,9 +9,9 @@ from typing import Any
 
 from seethrough.analysis.load.chain import ChainState
 from seethrough.analysis.load.seal import seal
-from seethrough.analysis.load.study import Study
+from seethrough.analysis.load.study import Study, config_of
 from seethrough.analysis.page.blocks import Block, Column, Fold, Section, Table, say
-from seethrough.analysis.plan import Plan, config_of, digest
+from seethrough.analysis.plan import Plan, digest
 from seethrough.analysis.sections.context import Context
 
 PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "vl-convert-python", "Jinja2")

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 import pandas as pd
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.comparison import Measure, add_holm, measure, sd_of
+from seethrough.analysis.comparison import Pair, add_holm, pair_of, sd_of
+from seethrough.analysis.design import Factor, Item
 from seethrough.analysis.figures.comparison import ratings_figure
-from seethrough.analysis.measures import answers, rating
+from seethrough.analysis.measures import answers, ratings
 from seethrough.analysis.page.blocks import Block, Cited, Column, Section, Table, say
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.measured import in_short
 from seethrough.analysis.sections.ordinal import (
-    four_conditions,
+    conditions,
     friedman_row,
     friedman_sentence,
     friedman_table,
@@ -21,12 +26,6 @@ from seethrough.analysis.sections.tables import keep, missing_note
 from seethrough.analysis.stats.ranks import share_interval, sign_test
 from seethrough.analysis.stats.undefined import Undefined, is_defined
 
-ONCE = {
-    "preference": "preference for dynamic transparency (0 or 1)",
-    "depth_self_report": "self-reported depth perception (0–4)",
-    "depth_test": "static depth test (correct of 3)",
-}
-ITEMS = {"efficiency": "efficiency", "ease": "ease of use", "enjoy": "enjoyment"}
 SINGLE = (
     Column("item", "item"),
     Column("label", "item"),
@@ -42,63 +41,138 @@ NEUTRAL = "neutral"
 """What the row of a preference says in `text` where it is for neither."""
 
 
+def items_of(context: Context) -> tuple[Item, ...]:
+    """What was asked: as the design has it, else as the answers look."""
+    asked = context.study.questionnaire
+    names = list(dict.fromkeys(asked["item"].astype("str")))
+    stated = context.design.items
+    if stated is not None:
+        return tuple(item for item in stated if item.name in names)
+    found = []
+    for name in names:
+        own = asked[(asked["item"] == name) & asked["value"].notna()]
+        each = tuple(f.name for f in context.design.factors
+                     if f.within and len(own) and own[f.name].nunique() > 1)  # fmt: skip
+        if len(own):
+            found.append(Item(name, name.replace("_", " "), each))
+    return tuple(found)
+
+
 def ratings_section(context: Context) -> Section | None:
     """None if the study asked nothing."""
     table = context.study.questionnaire
     if not len(table):
         return None
+    items = items_of(context)
+    groups: dict[tuple[str, tuple[str, ...]], list[Item]] = {}
+    for item in items:
+        if item.each:
+            groups.setdefault((item.group or item.name, item.each), []).append(item)
     blocks: list[Block] = []
-    cells = rating(table)
-    context.lacking("ratings", cells)
+    for number, ((name, each), own) in enumerate(groups.items()):
+        blocks += _group(context, name, each, own, number)
+    blocks += _single(context, [item for item in items if not item.each])
+    return Section("ratings", "Questionnaire", tuple(blocks)) if blocks else None
+
+
+def _group(
+    context: Context, name: str, each: tuple[str, ...], items: Sequence[Item], number: int
+) -> list[Block]:
+    """Items that are asked alike: tests of each and of their mean, by level."""
+    factors = sorted(  # what is compared runs fastest
+        (context.design.factor(f) for f in each), key=lambda f: f is context.design.main
+    )
+    cells = ratings(context.study.questionnaire, [i.name for i in items], factors)
+    context.lacking(name, cells)
+    blocks: list[Block] = []
     if cells.factors["item"]:
-        blocks += _ratings(context, cells)
-    blocks += [*missing_note(cells.missing), *_single(context)]
-    return Section("ratings", "Ratings and preference", tuple(blocks)) if blocks else None
+        blocks += _ratings(context, cells, name, items, factors, number)
+    return [*blocks, *missing_note(context.missing[name])]
 
 
-def _ratings(context: Context, cells: Cells) -> list[Block]:
-    each: list[Measure] = []
-    for scenario in cells.factors["scenario"]:
-        for item in cells.factors["item"]:
-            at = {"item": item, "scenario": scenario}
-            found = measure(
-                f"{item}_{scenario}", f"{item}, {scenario}", "", 2, cells, "ratings", "", **at
-            )
-            each += keep([found])
-    overall = keep([measure("rating_overall", "overall", "", 2, cells)])
-    rows = [friedman_row(m, context, 30 + i) for i, m in enumerate([*overall, *each])]
+def _ratings(
+    context: Context, cells: Cells, name: str, items: Sequence[Item], factors: Sequence[Factor],
+    number: int,
+) -> list[Block]:  # fmt: skip
+    main = next((f for f in factors if f is context.design.main), factors[-1])
+    others = [f for f in factors if f is not main]
+    contrasts = [c for c in main.contrasts() if c.level in cells.factors[main.name]]
+    several = len(contrasts) > 1
+    each, overall = [], []
+    labels = {i.name: i.label for i in items}
+    for contrast in contrasts:
+        ending = f"/{contrast.key}" if several else ""
+        words = f": {contrast.baseline} → {contrast.level}" if several else ""
+        for where in itertools.product(*(cells.factors[f.name] for f in others)):
+            for item in cells.factors["item"]:
+                at = {"item": item, **dict(zip((f.name for f in others), where, strict=True))}
+                key = "_".join((item, *where)) + ending
+                label = ", ".join((item, *where)) + words
+                each.append(pair_of(key, label, "", 2, cells, contrast, "ratings", **at))
+        if len(cells.factors["item"]) > 1 or others:
+            key = f"{_stem(name)}_overall{ending}"
+            overall.append(pair_of(key, f"overall{words}", "", 2, cells, contrast))
+    found, means = keep(each), keep(overall)
+    rows = [friedman_row(m, context, 30 + i + 1000 * number)
+            for i, m in enumerate([*means, *found])]  # fmt: skip
     if not rows:
         return []
-    add_holm(rows, [*overall, *each], "p_exact")
-    tests = friedman_table("friedman_ratings", "Ratings (0–4): Friedman tests", rows)
-    said = [friedman_sentence(tests, m.key, _said(m), context) for m in [*overall, *each]]
-    figure = ratings_figure("ratings", each, cells.factors["scenario"], tests)
-    return [*said, figure, tests, *four_conditions(context, cells, 50)]
+    add_holm(rows, [*means, *found], "p_exact")
+    scale = _points(items)
+    title = f"{name[:1].upper()}{name[1:]}{f' ({scale})' if scale else ''}: Friedman tests"
+    tests = friedman_table(f"friedman_{name}", title, rows, [*means, *found])
+    over_all = [
+        friedman_sentence(tests, m, f"Overall rating{f' ({scale})' if scale else ''}"
+                          + m.label.removeprefix("overall"), context)
+        for m in means
+    ]  # fmt: skip
+    each_said = [friedman_sentence(tests, m, _said(m, labels), context) for m in found]
+    said = in_short([(m, tests.row(m.key), sentence) for m, sentence in zip(
+        [*means, *found], [*over_all, *each_said], strict=True)], context)  # fmt: skip
+    ending = "conditions" if name == "ratings" else f"{name}_conditions"
+    ordered = [main.name, *(f.name for f in others)]
+    over = conditions(context, cells, ordered, ending, f"{_stem(name)}_conditions",
+                      "Overall rating", 50 + 1000 * number)  # fmt: skip
+    if several or not found:
+        return [*said, tests, *over]
+    figure = ratings_figure(name, found, others, tests, scale)
+    return [*said, figure, tests, *over]
 
 
-def _said(m: Measure) -> str:
-    if m.key == "rating_overall":
-        return "Overall rating (0–4)"
-    item, scenario = m.label.split(", ")
-    return f"Rating of {ITEMS[item]}, {scenario}"
+def _stem(name: str) -> str:
+    return name.removesuffix("s")
+
+
+def _points(items: Sequence[Item]) -> str:
+    """`0–4` where the items say how many points their scale has."""
+    points = {i.points for i in items}
+    only = next(iter(points)) if len(points) == 1 else None
+    return f"0–{only - 1}" if only else ""
+
+
+def _said(m: Pair, labels: Mapping[str, str]) -> str:
+    item, comma, where = m.label.partition(", ")
+    return f"{labels.get(item, item).capitalize()}{comma}{where}"
 
 
 _OF_SHARES = ("neutral", "low", "high", "p")
 """Columns that only the preference has."""
 
 
-def _single(context: Context) -> list[Block]:
+def _single(context: Context, items: Sequence[Item]) -> list[Block]:
     """Items that were asked once."""
     asked = context.study.questionnaire
-    rows = []
-    for item, label in ONCE.items():
-        values = answers(asked, item)
+    rows, sides = [], []
+    for item in items:
+        values = answers(asked, item.name)
         if len(values):
-            own = _share(asked) if item == "preference" else dict.fromkeys(_OF_SHARES)
+            own = _share(asked, item) if item.of else dict.fromkeys(_OF_SHARES)
+            if item.of:
+                sides.append((item, _sides(context, item)))
             rows.append(
                 {
-                    "item": item,
-                    "label": label,
+                    "item": item.name,
+                    "label": item.label or item.name,
                     "n": len(values),
                     "mean": float(values.mean()),
                     "sd": sd_of(values),
@@ -109,22 +183,30 @@ def _single(context: Context) -> list[Block]:
         return []
     table = Table(
         "single_items",
-        "Preference and depth perception",
+        "Asked once",
         SINGLE,
         tuple(rows),
         tuple("label n neutral mean sd p".split()),
-        "Preference: 1 dynamic, 0 standard. Who prefers neither is a tie: counted, and left out of "
-        "share, interval (Clopper and Pearson's) and sign test.",
-    )
-    return [*_preference(table), table]
+        "".join(f"{i.name.capitalize()}: 1 {second}, 0 {first}. " for i, (first, second) in sides)
+        + ("Who prefers neither is a tie: counted, and left out of share, interval (Clopper and "
+           "Pearson's) and sign test." if sides else ""),
+    )  # fmt: skip
+    return [*(p for item, _ in sides for p in _preference(context, table, item)), table]
 
 
-def preferences(asked: pd.DataFrame) -> tuple[int, int, int]:
-    """How many prefer dynamic transparency, the standard, and neither.
+def _sides(context: Context, item: Item) -> tuple[str, str]:
+    """The two levels that a preference is between."""
+    factor = context.design.factor(item.of)
+    level = next((c.level for c in factor.contrasts()), factor.baseline)
+    return factor.baseline, level
+
+
+def preferences(asked: pd.DataFrame, item: str) -> tuple[int, int, int]:
+    """How many prefer the level, the baseline, and neither.
 
     Neither is what says so in `text`, or has a value between 0 and 1.
     """
-    own = asked[(asked["item"] == "preference") & asked["value"].notna()]
+    own = asked[(asked["item"] == item) & asked["value"].notna()]
     value, text = own["value"], own["text"].astype("str")
     neither = (text == NEUTRAL) | ((value != 0) & (value != 1))
     return (
@@ -134,45 +216,46 @@ def preferences(asked: pd.DataFrame) -> tuple[int, int, int]:
     )
 
 
-def _share(asked: pd.DataFrame) -> dict[str, object]:
+def _share(asked: pd.DataFrame, item: Item) -> dict[str, object]:
     """The columns of the preference: its share and interval are of those who prefer one."""
-    dynamic, standard, neither = preferences(asked)
-    n = dynamic + standard
+    level, baseline, neither = preferences(asked, item.name)
+    n = level + baseline
     if n == 0:
         gone = Undefined("nobody prefers one to the other")
         return {"neutral": neither, "mean": gone, "sd": gone, "low": gone, "high": gone, "p": gone}
-    low, high = share_interval(dynamic, n)
-    share = np.repeat([1.0, 0.0], [dynamic, standard])
+    low, high = share_interval(level, n)
+    share = np.repeat([1.0, 0.0], [level, baseline])
     return {
         "neutral": neither,
-        "mean": dynamic / n,
+        "mean": level / n,
         "sd": sd_of(share),
         "low": low,
         "high": high,
-        "p": sign_test(dynamic, standard),
+        "p": sign_test(level, baseline),
     }
 
 
-def _preference(table: Table) -> list[Block]:
-    if "preference" not in [r["item"] for r in table.rows]:
-        return []
-    row = table.row("preference")
+def _preference(context: Context, table: Table, item: Item) -> list[Block]:
+    key, said = item.name, f"{item.name[:1].upper()}{item.name[1:]}"
+    factor = context.design.factor(item.of)
+    words = factor.label(_sides(context, item)[1])
+    row = table.row(key)
     neutral: list[str | Cited] = []
     if row["neutral"]:
-        neutral = [", of them ", table.cite("preference", "neutral"), " for neither"]
+        neutral = [", of them ", table.cite(key, "neutral"), " for neither"]
     if not is_defined(row["mean"]):
-        return [say("Preference: {}.", table.cite("preference", "mean"))]
-    p = table.cite("preference", "p")
+        return [say(f"{said}: {{}}.", table.cite(key, "mean"))]
+    p = table.cite(key, "p")
     return [
         say(
-            "Preference (n = {}{}): of those who prefer one, a share of {} prefers dynamic "
-            "transparency, 95 % CI [{}, {}], "
+            f"{said} (n = {{}}{{}}): of those who prefer one, a share of {{}} prefers {words}, "
+            "95 % CI [{}, {}], "
             f"sign test p {'' if p.text.startswith(('<', '>')) else '= '}{{}}.",
-            table.cite("preference", "n"),
+            table.cite(key, "n"),
             neutral,
-            table.cite("preference", "mean", "bound2"),
-            table.cite("preference", "low"),
-            table.cite("preference", "high"),
+            table.cite(key, "mean", "bound2"),
+            table.cite(key, "low"),
+            table.cite(key, "high"),
             p,
         )
     ]

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from seethrough.analysis.design import Factor
 from seethrough.analysis.mixed import MODELS, MixedEffect, mixed_model
 from seethrough.analysis.page.blocks import Block, Column, Section, Table, say
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.robust import robust_blocks
 from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.tradeoff import speed_of
 
 COLUMNS = (
     Column("effect", "effect"),
@@ -16,7 +19,7 @@ COLUMNS = (
     Column("t", "t", "fixed2"),
     Column("df", "df", "int"),
     Column("p", "p", "p"),
-    Column("ratio", "ratio", "fixed3", "dynamic / standard"),
+    Column("ratio", "ratio", "fixed3", "level / baseline"),
     Column("low", "from", "fixed3", "95 % interval"),
     Column("high", "to", "fixed3", "95 % interval"),
     Column("sd_slope", "SD of slopes", "fixed3", "between participants"),
@@ -27,47 +30,84 @@ COLUMNS = (
 SHOWN = tuple("n trials estimate error t df p ratio sd_slope sd_task_slope singular".split())
 
 
-def sensitivity_section(context: Context, logs: Table | None) -> Section:
-    """Mixed model beside the contrast scores' answer."""
-    fit = mixed_model(context.trials)
+TITLE = "Does the model matter?"
+
+
+def sensitivity_section(context: Context, logs: Table | None) -> Section | None:
+    """Mixed model beside the contrast scores' answer; None where no factor varies within people."""
+    factor = context.design.main
+    if factor is None:
+        return None
+    if speed_of(context.design) is None:
+        return Section("sensitivity", TITLE, tuple(robust_blocks(context)))
+    fits = mixed_model(context.trials, context.design)
+    several = len(fits) > 1
+    first = fits[0]
+    coding = ", ".join(f.name for f in (*context.design.groups, *context.design.crossed)
+                       if f is not factor)  # fmt: skip
+    sums = f"tasks{' and ' + coding if coding else ''} sum-coded"
+    codes = "−½ and ½" if len(factor.levels) == 2 else f"against {factor.baseline}, centred"
+    times = " + " if context.design.excluded else " × "
+    terms = times.join([factor.name, "task", *coding.split(", ")] if coding else
+                       [factor.name, "task"])  # fmt: skip
     table = Table(
         "mixed_model",
         "Mixed model of log times, all trials",
         COLUMNS,
-        (_row(fit),),
-        SHOWN,
-        note=f"log time ~ transparency × task + {fit.model or '…'}, REML, in lme4's words with "
-        "transparency −½ and ½ and tasks sum-coded; t on n − 1." + _reduced(fit),
-    )
+        tuple(_row(fit, factor, several) for fit in fits),
+        ("effect", *SHOWN) if several else SHOWN,
+        note=f"log time ~ {terms} + {first.model or '…'}, REML, in lme4's words with "
+        f"{factor.name} {codes} and {sums}; "
+        f"t on {'n − groups' if context.design.groups else 'n − 1'}."
+        + _reduced(first) + _scenes(context),
+    )  # fmt: skip
     blocks: list[Block] = []
-    if is_defined(fit.p):
-        p = table.cite("transparency", "p")
-        blocks.append(
-            say(
-                f"With every trial as a row and {TERMS[fit.model]}: ratio {{}}, 95 % CI "
-                "[{}, {}], t({}) = {}, p "
-                f"{'' if p.text.startswith(('<', '>')) else '= '}{{}}. "
-                f"{_same(context, fit.p, logs)}",
-                table.cite("transparency", "ratio"),
-                table.cite("transparency", "low"),
-                table.cite("transparency", "high"),
-                table.cite("transparency", "df"),
-                table.cite("transparency", "t"),
-                p,
+    for fit in fits:
+        key = _key(fit, factor, several)
+        if is_defined(fit.p):
+            p = table.cite(key, "p")
+            start = f"{fit.level}: " if several else ""
+            blocks.append(
+                say(
+                    f"{start}With every trial as a row and {_terms(fit)}: ratio {{}}, 95 % CI "
+                    "[{}, {}], t({}) = {}, p "
+                    f"{'' if p.text.startswith(('<', '>')) else '= '}{{}}. "
+                    f"{_same(context, fit, logs, several)}",
+                    table.cite(key, "ratio"),
+                    table.cite(key, "low"),
+                    table.cite(key, "high"),
+                    table.cite(key, "df"),
+                    table.cite(key, "t"),
+                    p,
+                )
             )
-        )
-    return Section("sensitivity", "Does the model matter?", (*blocks, table))
+    return Section("sensitivity", TITLE, (*blocks, table, *robust_blocks(context)))
 
 
-def _row(fit: MixedEffect) -> dict[str, object]:
+def _key(fit: MixedEffect, factor: Factor, several: bool) -> str:
+    return f"{factor.name}={fit.level}" if several else factor.name
+
+
+def _scenes(context: Context) -> str:
+    """Scenes that several people met are no sample here."""
+    met = context.trials[["scene", "participant"]].drop_duplicates()
+    if met.groupby("scene", observed=True).size().max() < 2:
+        return ""
+    return (
+        " Some scenes were met by several people; they are no random effect, so that the result "
+        "is for these scenes only."
+    )
+
+
+def _row(fit: MixedEffect, factor: Factor, several: bool) -> dict[str, object]:
     return {
-        "effect": "transparency",
+        "effect": _key(fit, factor, several),
         "n": fit.n,
         "trials": fit.trials,
         "estimate": fit.estimate,
         "error": fit.error,
         "t": fit.t,
-        "df": fit.n - 1,
+        "df": fit.df,
         "p": fit.p,
         "ratio": fit.ratio,
         "low": fit.interval[0],
@@ -79,42 +119,50 @@ def _row(fit: MixedEffect) -> dict[str, object]:
     }
 
 
-TERMS = {
-    " + ".join(names): words
-    for names, words in zip(
+TERMS = dict(
+    zip(
         MODELS,
         (
-            "the technique's effect free to differ between participants and between their tasks",
-            "the technique's effect free to differ between participants, levels between tasks too",
-            "the technique's effect free to differ between participants",
-            "levels free to differ between participants, who have one trial a level each",
+            "the effect free to differ between participants and between their tasks",
+            "the effect free to differ between participants, levels between tasks too",
+            "the effect free to differ between participants",
+            "levels free to differ between participants",
         ),
         strict=True,
     )
-}
+)
 """What the random terms let differ."""
+
+
+def _terms(fit: MixedEffect) -> str:
+    return TERMS[fit.terms]
 
 
 def _reduced(fit: MixedEffect) -> str:
     """What a reader of the table must know of the fit."""
     said = ""
+    if fit.given_up:
+        said += f" Given up for want of data: {'; '.join(fit.given_up)}."
     if fit.singular:
         said += (
             " The fit is singular: a variance is estimated as 0, or a correlation as ±1, which few "
-            "participants or like ones can bring about; the test of the effect stands."
+            "participants or like ones can bring about; it is weak support for anything."
         )
     return said
 
 
-def _same(context: Context, p: float, logs: Table | None) -> str:
-    """Whether the contrast scores' conclusion on log times is the same."""
-    if logs is None or "time_overall" not in [r["measure"] for r in logs.rows]:
-        return ""
-    own = logs.row("time_overall")
-    if not is_defined(own["p"]):
+def _same(context: Context, fit: MixedEffect, logs: Table | None, several: bool) -> str:
+    """Whether the contrast scores' conclusion on log times is the same; of a singular fit nothing
+    is said to agree."""
+    ending = f"/{context.design.main.name}={fit.level}" if several and context.design.main else ""
+    key = next((str(r["measure"]) for r in logs.rows if str(r["measure"]).endswith(
+        f"_overall{ending}")), None) if logs is not None else None  # fmt: skip
+    if logs is None or key is None or not is_defined(logs.row(key)["p"]) or not is_defined(fit.p):
         return ""
     alpha = context.plan.alpha
-    same = (own["p"] < alpha) == (p < alpha)
+    same = (logs.row(key)["p"] < alpha) == (fit.p < alpha)
+    if same and fit.singular:
+        return "The fit is singular, so that it does not count as agreement."
     return (
         "The conclusion is that of the contrast scores."
         if same

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seethrough.analysis.cells import Cells, Missing
-from seethrough.analysis.comparison import Measure
-from seethrough.analysis.load.schema import TASK_CODES
+from seethrough.analysis.comparison import Pair
+from seethrough.analysis.design import Design, Factor
+from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Cited, Column, Prose, Table, say
 from seethrough.analysis.page.numbers import bounded
 from seethrough.analysis.sections.context import Context
-from seethrough.analysis.stats.anova import Effect, repeated_measures
+from seethrough.analysis.stats.anova import Effect
 from seethrough.analysis.stats.distributions import bayes_factor_f, negligible_p
+from seethrough.analysis.stats.paired import mean_interval
 from seethrough.analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
 
 EFFECTS = (
@@ -26,6 +30,9 @@ EFFECTS = (
     Column("p", "p", "p"),
     Column("eps", "ε", "bound3", "Greenhouse–Geisser"),
     Column("p_gg", "p (ε)", "p", "corrected"),
+    Column("eps_hf", "ε", "bound3", "Huynh–Feldt"),
+    Column("p_hf", "p (HF)", "p", "by Huynh and Feldt's ε"),
+    Column("p_lower", "p (bound)", "p", "by the least that ε can be"),
     Column("mauchly_w", "Mauchly W", "bound3"),
     Column("mauchly_p", "Mauchly p", "p"),
     Column("ges", "η²G", "bound3", "generalised η²"),
@@ -37,8 +44,6 @@ EFFECTS = (
     Column("ss_effect", "SS", "sig4"),
     Column("ss_error", "SS error", "sig4"),
 )
-INTERACTION = "task × transparency"
-"""The row of the ANOVA of times that asks whether the technique's effect differs between tasks."""
 NEGLIGIBLE = 0.06
 """Partial η² below which an effect of several conditions is called negligible (Cohen: medium)."""
 
@@ -49,20 +54,7 @@ BAYES_NOTE = (
     "participants' levels a prior of their own: the two can differ by a tenth and "
     "more. It assumes sphericity: where ε is far below 1, read the corrected p."
 )
-EFFECTS_SHOWN = tuple("effect df1 df2 F p eps p_gg ges pes bf10".split())
-
-
-SHORT = {
-    "count": "count",
-    "pattern": "pattern",
-    "unique": "unique",
-    "count_in_building": "in building",
-}
-
-
-def name_of(task: str) -> str:
-    """`T1 count`, as the paper numbers its tasks."""
-    return f"{TASK_CODES[task]} {SHORT[task]}" if task in TASK_CODES else task
+EFFECTS_SHOWN = tuple("effect df1 df2 F p eps p_gg eps_hf p_hf ges pes bf10".split())
 
 
 def effect_row(effect: Effect) -> dict[str, Any]:
@@ -76,6 +68,11 @@ def effect_row(effect: Effect) -> dict[str, Any]:
         "p": effect.p,
         "eps": effect.eps,
         "p_gg": effect.p_gg,
+        "eps_hf": effect.eps_hf,
+        "p_hf": effect.p_hf,
+        "p_lower": effect.p_lower,
+        "p_decisive": effect.decisive,
+        "few": effect.few,
         "mauchly_w": effect.mauchly_w,
         "mauchly_p": effect.mauchly_p,
         "ges": effect.ges,
@@ -89,24 +86,6 @@ def effect_row(effect: Effect) -> dict[str, Any]:
     }
 
 
-def anova_table(key: str, title: str, cells: Cells, note: str = "") -> Table:
-    """The repeated-measures ANOVA of all the cells' factors, over who has every cell."""
-    effects = repeated_measures(cells.whole().values, tuple(cells.factors))
-    return Table(
-        key,
-        title,
-        EFFECTS,
-        tuple(effect_row(e) for e in effects.values()),
-        EFFECTS_SHOWN,
-        f"{note} {BAYES_NOTE}".strip(),
-    )
-
-
-def testable(cells: Cells) -> bool:
-    """Whether an ANOVA has anything to compare: someone complete, two levels of each factor."""
-    return min(cells.values.shape[1:]) > 1 and len(cells.whole().values) > 0
-
-
 def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: float) -> Prose:
     """A factorial effect in APA style, Greenhouse–Geisser's correction where df₁ > 1.
 
@@ -115,19 +94,20 @@ def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: flo
     row = table.row(effect)
     if not is_defined(row["F"]):
         return say("{}: {}.", what[1], table.cite(effect, "F"))
-    words = what[0] if row["p_gg"] < alpha else what[1]
+    words = what[0] if row["p_decisive"] < alpha else what[1]
     runs = cited_f(table, effect)
-    if row["df1"] > 1:
+    if row["df1"] > 1 and not row["few"]:
         runs += [" (Greenhouse–Geisser, ε = ", table.cite(effect, "eps", "bound2"), ")"]
     runs += [", η²G = ", table.cite(effect, "ges")]
-    if row["p_gg"] >= alpha:
+    if row["p_decisive"] >= alpha:
         runs += ["; ", *not_found(table, effect, alpha)]
     return say("{}, {}.", words, runs)
 
 
 def cited_f(table: Table, effect: str) -> list[str | Cited]:
     """`F(3, 45) = 2.10, p = .113` of an effect, its p with Greenhouse–Geisser's correction."""
-    p = table.cite(effect, "p_gg")
+    few = table.row(effect)["few"]
+    p = table.cite(effect, "p_lower" if few else "p_gg")
     return [
         "F(",
         table.cite(effect, "df1"),
@@ -137,6 +117,7 @@ def cited_f(table: Table, effect: str) -> list[str | Cited]:
         table.cite(effect, "F"),
         ", p " if p.text.startswith(("<", ">")) else ", p = ",
         p,
+        *([" by the lower bound, for participants are too few to estimate ε"] if few else []),
     ]
 
 
@@ -154,65 +135,120 @@ def not_found(table: Table, key: str, alpha: float) -> list[str | Cited]:
 
 
 def _bayes_factor(effect: Effect) -> Number:
+    if effect.error_df != effect.n - 1:
+        return Undefined("only without groups")
     return bayes_factor_f(effect.f, effect.df1, effect.n) if is_defined(effect.f) else effect.f
 
 
-CELL_COLUMNS = (
-    Column("cell", "cell"),
-    Column("task", "task"),
-    Column("transparency", "transparency"),
-    Column("n", "n", "int"),
-    Column("trials", "trials", "int"),
-    Column("mean", "mean", "own"),
-    Column("sd", "SD", "own"),
-    Column("geometric", "geometric mean", "own"),
-    Column("median", "median", "own"),
-    Column("minimum", "min", "own"),
-    Column("maximum", "max", "own"),
-)
+def cell_columns(factors: Sequence[str]) -> tuple[Column, ...]:
+    """The columns of a table of cells of these factors."""
+    return (
+        Column("cell", "cell"),
+        *(Column(name, name) for name in factors),
+        Column("n", "n", "int"),
+        Column("trials", "trials", "int"),
+        Column("mean", "mean", "own", "95 % interval", "low", "high"),
+        Column("sd", "SD", "own"),
+        Column("low", "from", "own", "95 % interval of the mean"),
+        Column("high", "to", "own", "95 % interval of the mean"),
+        Column("geometric", "geometric mean", "own"),
+        Column("median", "median", "own"),
+        Column("minimum", "min", "own"),
+        Column("maximum", "max", "own"),
+    )
 
 
 def cell_table(
     key: str,
     title: str,
     cells: Cells,
-    shown: Sequence[str],
+    context: Context,
     note: str = "",
     kind: str = "fixed",
     logs: Cells | None = None,
+    digits: int = 2,
 ) -> Table:
-    """Mean and s.d. of each task × transparency cell, over those who have it.
+    """Mean and s.d. of each cell, group by group, over those who have it.
 
     `kind` as in `Column`; `logs`: the same cells' mean logarithms, for the geometric mean.
     """
+    groups = groups_in(context, cells.participants)
+    names = [f.name for f in context.design.groups] if groups else []
     rows = []
-    for i, task in enumerate(cells.factors["task"]):
-        for j, level in enumerate(cells.factors["transparency"]):
-            has = np.isfinite(cells.values[:, i, j])
-            values = cells.values[has, i, j]
-            log = logs.values[has, i, j] if logs else None
+    for where, members in groups or [({}, np.ones(len(cells.participants), bool))]:
+        for index in np.ndindex(*cells.values.shape[1:]):
+            at = dict(zip(cells.factors, (known[i] for known, i in zip(
+                cells.factors.values(), index, strict=True)), strict=True))  # fmt: skip
+            if context.design.left_out({**where, **at}):
+                continue
+            values = cells.values[(slice(None), *index)]
+            has = np.isfinite(values) & members
+            log = logs.values[(slice(None), *index)][has] if logs else None
+            said = {k: context.design.task_said(v) if k == "task" else v for k, v in at.items()}
             rows.append(
                 {
-                    "cell": f"{task}/{level}",
-                    "task": name_of(task),
-                    "transparency": level,
-                    "digits": 2,
+                    "cell": "/".join((*where.values(), *at.values())),
+                    **where,
+                    **said,
+                    "digits": digits,
                     "kind": kind,
-                    "n": len(values),
-                    "trials": int(cells.counts[has, i, j].sum()),
-                    **_spread(values),
+                    "n": int(has.sum()),
+                    "trials": int(cells.counts[(slice(None), *index)][has].sum()),
+                    **_spread(values[has]),
                     "geometric": _geometric(log),
                 }
             )
-    return Table(key, title, CELL_COLUMNS, tuple(rows), tuple(shown), note)
+    factors = [*names, *cells.factors]
+    shown = [*factors, "n", "trials", "mean", "sd", *(["geometric"] if logs else []), "median"]
+    return Table(key, title, cell_columns(factors), tuple(rows), tuple(shown), note)
+
+
+def design_at(context: Context, cells: Cells) -> Design:
+    """The design as those have it who have any of these cells: a factor between people of which
+    they have a single level drops out (a task that only one group does)."""
+    design = context.design
+    there = np.isfinite(cells.values.reshape(len(cells.values), -1)).any(axis=1)
+    names = [p for p, t in zip(cells.participants, there, strict=True) if t]
+    left: list[Factor] = []
+    for factor in design.factors:
+        if factor.within:
+            left.append(factor)
+            continue
+        own = set(groups_of(context.study.trials, factor, names))
+        levels = tuple(level for level in factor.levels if level in own)
+        if len(levels) > 1:
+            base = factor.baseline if factor.baseline in levels else levels[0]
+            left.append(replace(factor, levels=levels, baseline=base, numbers=None))
+    return replace(design, factors=tuple(left))
+
+
+def groups_in(
+    context: Context, names: Sequence[str]
+) -> list[tuple[dict[str, str], NDArray[np.bool_]]]:
+    """The levels of the factors between people, and who of `names` has them; none without any."""
+    factors = context.design.groups
+    if not factors:
+        return []
+    own = [groups_of(context.study.trials, f, names) for f in factors]
+    found = []
+    for cell in context.design.cells(factors):
+        members = np.logical_and.reduce(
+            [np.array([x == cell[f.name] for x in got], dtype=bool)
+             for f, got in zip(factors, own, strict=True)]
+        )  # fmt: skip
+        found.append((cell, members))
+    return found
 
 
 def _spread(values: Any) -> Mapping[str, Any]:
     n = len(values)
     if n == 0:
         gone = Undefined("nobody has this cell")
-        return dict.fromkeys(("mean", "sd", "median", "minimum", "maximum"), gone)
+        return dict.fromkeys(("mean", "sd", "low", "high", "median", "minimum", "maximum"), gone)
+    low, high = mean_interval(values)
     return {
+        "low": low,
+        "high": high,
         "mean": float(values.mean()),
         "sd": float(np.std(values, ddof=1)) if n > 1 else Undefined(ONE_PARTICIPANT),
         "median": float(np.median(values)),
@@ -255,6 +291,6 @@ def missing_note(missing: Sequence[Missing]) -> list[Prose]:
     ]
 
 
-def keep(measures: Sequence[Measure | None]) -> list[Measure]:
+def keep(measures: Sequence[Pair | None]) -> list[Pair]:
     """Those that exist."""
     return [m for m in measures if m is not None]

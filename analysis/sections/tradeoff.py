@@ -7,12 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.analysis.cells import Missing, people
-from seethrough.analysis.comparison import Measure, compare
+from seethrough.analysis.cells import Array, Missing, people
+from seethrough.analysis.comparison import Pair, compare
+from seethrough.analysis.design import Factor
 from seethrough.analysis.figures.tradeoff import arrows
+from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.tables import name_of
 from seethrough.analysis.stats.ranks import sign_test
 from seethrough.analysis.stats.ties import difference_signs
 from seethrough.analysis.stats.undefined import Undefined, is_defined
@@ -39,18 +40,19 @@ WARNINGS = {
     "ies": "IES assumes that errors and time are exchangeable and misleads below 90 % correct.",
     "rcs": "RCS counts right answers per second and inherits the weights of IES.",
 }
-SCORES_SHOWN = ("label", "n", "mean_standard", "mean_dynamic", "F", "p", "pes", "dz", "bf10")
+SCORES_SHOWN = ("label", "n", "mean_baseline", "mean_level", "F", "p", "pes", "dz", "bf10")
 
 
 def tradeoff_section(context: Context) -> Section | None:
     """None unless somebody worked under both levels."""
-    found = changes(context.trials)
-    if not found:
+    found = changes(context.trials, context.design)
+    factor = context.design.main
+    if not found or factor is None:
         return None
-    context.missing["trade-off"] = _absent(found, people(context.trials))
+    context.missing["trade-off"] = _absent(found, context)
     table = Table(
         "tradeoff",
-        "From standard to dynamic: who became faster, and at what price",
+        f"From {factor.baseline} to {_others(factor)}: who became faster, and at what price",
         CHANGES,
         tuple(_row(c) for c in found),
         tuple(c.name for c in CHANGES[1:] if c.name not in ("r_low", "r_high")),
@@ -63,16 +65,30 @@ def tradeoff_section(context: Context) -> Section | None:
         _sentence(table, found, context.plan.alpha),
         arrows("tradeoff", found),
         table,
-        _conditional(context),
-        *_scores(context),
+        *_conditional(context, factor),
+        *_scores(context, factor),
     ]
     return Section("tradeoff", "What accuracy costs in time", tuple(blocks))
 
 
-def _absent(found: Sequence[Change], everybody: Sequence[str]) -> tuple[Missing, ...]:
-    """Who lacks time or error in a task, by name."""
-    there = {c.task: set(c.participants) for c in found}
-    lacks = {name: tuple(t for t, who in there.items() if name not in who) for name in everybody}
+def _others(factor: Factor) -> str:
+    """The levels that people step to from the baseline."""
+    others = [level for level in factor.levels if level != factor.baseline]
+    return others[0] if len(others) == 1 else "each other level"
+
+
+def _absent(found: Sequence[Change], context: Context) -> tuple[Missing, ...]:
+    """Who lacks time or error in a task that somebody of their group has, by name."""
+    everybody = people(context.trials)
+    own = [groups_of(context.study.trials, f, everybody) for f in context.design.groups]
+    group = dict(zip(everybody, zip(*own, strict=True) if own else [()] * len(everybody),
+                     strict=True))  # fmt: skip
+    there = {c.key: set(c.participants) for c in found}
+    met = {t: {group[name] for name in who} for t, who in there.items()}
+    lacks = {
+        name: tuple(t for t, who in there.items() if name not in who and group[name] in met[t])
+        for name in everybody
+    }
     return tuple(Missing(name, tasks) for name, tasks in lacks.items() if tasks)
 
 
@@ -82,8 +98,8 @@ def _row(c: Change) -> dict[str, object]:
     r = correlation(c.log_time[:, 1] - c.log_time[:, 0], np.diff(c.error).ravel())
     counts = [int(np.sum(faster & (worse == sign))) for sign in (1, -1, 0)]
     return {
-        "task": c.task,
-        "label": name_of(c.task),
+        "task": c.key,
+        "label": c.said,
         "error": c.error_label,
         "n": len(faster),
         "faster_worse": counts[0],
@@ -104,12 +120,12 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
     for c in found:
         runs += [
             ", " if runs else "",
-            table.cite(c.task, "faster_worse"),
+            table.cite(c.key, "faster_worse"),
             " of ",
-            table.cite(c.task, "n"),
-            f" in {name_of(c.task)}",
+            table.cite(c.key, "n"),
+            f" in {c.said}",
         ]
-    rows = {name_of(c.task): table.row(c.task) for c in found}
+    rows = {c.said: table.row(c.key) for c in found}
     group = [
         name
         for name, row in rows.items()
@@ -124,7 +140,7 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
     if group:
         verdicts.append(
             f"in {' and '.join(group)} most of those who became faster made more errors (the "
-            "technique's effect on both: it does not tell whether one was bought with the other)"
+            "level's effect on both: it does not tell whether one was bought with the other)"
         )
     if gained:
         verdicts.append(
@@ -137,59 +153,68 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
         else "in no task did most of the faster make more errors, nor those who gained more time "
         "lose more accuracy, so there is no sign that speed was bought with errors"
     )
-    said = say(
-        f"Faster and with more errors under dynamic transparency were {{}}; {verdict}.", runs
-    )
+    said = say(f"Faster and with more errors under {_under(found)} were {{}}; {verdict}.", runs)
     return said if gained else Prose((*said.runs, *_allowed(table, found)))
+
+
+def _under(found: Sequence[Change]) -> str:
+    """The level that is stepped to, in words, where there is one."""
+    said = {c.contrast.second for c in found if c.contrast is not None}
+    return said.pop() if len(said) == 1 else "the level than under the baseline"
 
 
 def _allowed(table: Table, found: Sequence[Change]) -> list[str | Cited]:
     """No sign is no proof: how strong a trade-off the intervals leave possible."""
-    known = {c.task: low for c in found if is_defined(low := table.row(c.task)["r_low"])}
+    known = {c.key: low for c in found if is_defined(low := table.row(c.key)["r_low"])}
+    said = {c.key: c.said for c in found}
     if not known:
         return [" That is no proof that nobody did: no correlation has an interval here."]
     task = min(known, key=lambda name: known[name])
     return [
-        f" That is no proof that nobody did: in {name_of(task)} the interval still allows a "
+        f" That is no proof that nobody did: in {said[task]} the interval still allows a "
         "correlation of ",
         table.cite(task, "r_low"),
         ".",
     ]
 
 
-def _conditional(context: Context) -> Table:
-    """Conditional accuracy."""
+def _conditional(context: Context, factor: Factor) -> list[Block]:
+    """Conditional accuracy, where answers are right or wrong."""
+    found = accuracy_by_speed(context.trials, factor)
     names = ("fastest third", "middle third", "slowest third")
     rows = tuple(
         {
-            "cell": f"{row.transparency}/{names[int(row.part)]}",
-            "transparency": str(row.transparency),
+            "cell": f"{row.level}/{names[int(row.part)]}",
+            factor.name: str(row.level),
             "third": names[int(row.part)],
             "share": float(row.share),
             "trials": int(row.trials),
         }
-        for row in accuracy_by_speed(context.trials).itertuples()
+        for row in found.itertuples()
     )
-    return Table(
+    table = Table(
         "conditional_accuracy",
         "Conditional accuracy: right answers by speed",
         (
             Column("cell", "cell"),
-            Column("transparency", "transparency"),
+            Column(factor.name, factor.name),
             Column("third", "trials"),
             Column("share", "share correct", "bound3"),
             Column("trials", "trials", "int"),
         ),
         rows,
-        ("transparency", "third", "share", "trials"),
-        "Speed within participant × task × transparency. If haste makes errors, the fastest third "
-        "is the least accurate.",
+        (factor.name, "third", "share", "trials"),
+        f"Speed within participant × task × {factor.name}. If haste makes errors, the fastest "
+        "third is the least accurate.",
     )
+    return [table] if context.trials["correct"].notna().any() else []
 
 
-def _scores(context: Context) -> list[Block]:
+def _scores(context: Context, factor: Factor) -> list[Block]:
     """The combined scores as ordinary measures, each with its warning."""
-    found = scores(context.trials)
+    if not context.trials["correct"].notna().any():
+        return []
+    found = scores(context.trials, factor)
     if found is None:
         return []
     blocks: list[Block] = []
@@ -202,12 +227,12 @@ def _scores(context: Context) -> list[Block]:
         if isinstance(values, Undefined):
             blocks.append(say(f"{label[0].upper()}{label[1:]}: {values}.", kind="note"))
         else:
-            pair = (values[:, 0], values[:, 1])
-            measures.append(Measure(key, label, "", digits, *pair, ratio_scale=key != "bis"))
+            measures += _score_pairs(key, label, digits, values, factor)
     if measures:
-        note = " ".join(WARNINGS[m.key] for m in measures)
+        note = " ".join(words for key, words in WARNINGS.items()
+            if any(m.key.partition("/")[0] == key for m in measures))  # fmt: skip
         table = replace(
-            compare(measures, context.plan.margins),
+            compare(measures),
             key="tests_combined",
             title="Combined scores over all tasks (secondary)",
             shown=SCORES_SHOWN,
@@ -215,3 +240,17 @@ def _scores(context: Context) -> list[Block]:
         )
         blocks.insert(0, table)
     return blocks
+
+
+def _score_pairs(key: str, label: str, digits: int, values: Array, factor: Factor) -> list[Pair]:
+    """A score's contrasts: each level against the baseline."""
+    contrasts, at = factor.contrasts(), factor.levels.index
+    return [
+        Pair(
+            f"{key}/{c.key}" if len(contrasts) > 1 else key,
+            f"{label}: {c.baseline} → {c.level}" if len(contrasts) > 1 else label,
+            "", digits, values[:, at(c.baseline)], values[:, at(c.level)],
+            ratio_scale=key != "bis", contrast=c,
+        )
+        for c in contrasts
+    ]  # fmt: skip

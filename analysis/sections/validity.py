@@ -7,14 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.comparison import Measure, apa_f, compare
+from seethrough.analysis.comparison import Pair, apa_f, compare
+from seethrough.analysis.design import Factor
 from seethrough.analysis.equivalence import no_difference
 from seethrough.analysis.figures.validity import learning_figure
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from seethrough.analysis.plan import Plan
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.difficulty import difficulty_blocks
-from seethrough.analysis.sections.tables import keep, negligible, not_found
+from seethrough.analysis.sections.tables import negligible, not_found
 from seethrough.analysis.stats.paired import one_sample
 from seethrough.analysis.stats.ties import difference_signs
 from seethrough.analysis.stats.undefined import is_defined
@@ -39,7 +40,7 @@ NO_DISPLAY = (
     "Missed frames are not compared: a simulated participant waits for no display, and its clock "
     "says nothing of one."
 )
-FAULTS_SHOWN = tuple("label n mean_standard mean_dynamic difference F p".split())
+FAULTS_SHOWN = tuple("label n mean_baseline mean_level difference F p".split())
 
 
 def validity_section(context: Context) -> Section:
@@ -54,7 +55,10 @@ def validity_section(context: Context) -> Section:
 
 
 def _order(context: Context) -> list[Block]:
-    tests = order_tests(context.trials)
+    main = context.design.main
+    if main is None or not context.design.measures():
+        return [say("Order effects: undefined, nobody met two conditions.", kind="note")]
+    tests = order_tests(context.trials, context.design)
     rows = tuple(
         {
             "effect": t.name,
@@ -71,10 +75,10 @@ def _order(context: Context) -> list[Block]:
         "Order effects on log time",
         ORDER,
         rows,
-        note="Period: position of the condition in the session. Carry-over: whether the condition "
-        "before had dynamic transparency. Sequence: between the orders of conditions. Reported, "
+        note="Period: position of the condition in the session. Carry-over: "
+        f"{_carried(main)}. Sequence: between the orders of conditions. Reported, "
         "and never used to choose an analysis: a test that chooses one biases it. All take the "
-        "technique's effect to be the same for everybody; where it is not, carry-over is found in "
+        "level's effect to be the same for everybody; where it is not, carry-over is found in "
         ".07 of studies without any, for .05.",
     )
     found = [t.name for t in tests if is_defined(t.p) and t.p < context.plan.alpha]
@@ -100,6 +104,14 @@ def _order(context: Context) -> list[Block]:
     if gone:
         blocks.append(say(f"Not testable here: {', '.join(gone)} (the table says why)."))
     return [*blocks, table]
+
+
+def _carried(main: Factor) -> str:
+    """What carry-over is of."""
+    others = [level for level in main.levels if level != main.baseline]
+    if len(others) == 1:
+        return f"whether the condition before had {main.label(others[0])}"
+    return f"which {main.name} the condition before had"
 
 
 def _order_f(table: Table, name: str) -> list[str | Cited]:
@@ -141,9 +153,12 @@ def _learning(context: Context) -> list[Block]:
     )
     shown = ("what", "n", "ratio", "t", "p")
     table = Table("learning", "Learning within a task set", columns, (row,), shown)
-    curve = learning_curve(context.trials)
-    figure = learning_figure("learning", curve)
-    return [_slope(table), figure, table, _curve_table(curve)]
+    factor = context.design.main or next(iter(context.design.factors), None)
+    if factor is None:
+        return [_slope(table), table]
+    curve = learning_curve(context.trials, factor)
+    figure = learning_figure("learning", curve, factor.levels)
+    return [_slope(table), figure, table, _curve_table(curve, factor.name)]
 
 
 def _slope(table: Table) -> Prose:
@@ -159,11 +174,11 @@ def _slope(table: Table) -> Prose:
     )
 
 
-def _curve_table(curve: pd.DataFrame) -> Table:
+def _curve_table(curve: pd.DataFrame, factor: str) -> Table:
     rows = tuple(
         {
-            "cell": f"{r.transparency}/{int(r.trial_in_set)}",
-            "transparency": str(r.transparency),
+            "cell": f"{r.level}/{int(r.trial_in_set)}",
+            factor: str(r.level),
             "position": int(r.trial_in_set),
             "time": float(r.time),
             "n": int(r.people),
@@ -175,26 +190,28 @@ def _curve_table(curve: pd.DataFrame) -> Table:
         "Time by position in the task set",
         (
             Column("cell", "cell"),
-            Column("transparency", "transparency"),
+            Column(factor, factor),
             Column("position", "trial", "int"),
             Column("time", "geometric mean (s)", "sig4"),
             Column("n", "n", "int"),
         ),
         rows,
-        ("transparency", "position", "time", "n"),
+        (factor, "position", "time", "n"),
     )
 
 
 def _faults(context: Context) -> list[Block]:
     trials, plan = context.trials, context.plan
-    simulated = context.study.source == "simulated"
-    missed = None if simulated else share_missed(trials)
-    faults = keep([missed, focus_losses(trials), timeouts(trials)])
+    simulated, main = context.study.source == "simulated", context.design.main
+    if main is None:
+        return []
+    missed = [] if simulated else share_missed(trials, main)
+    faults = [*missed, *focus_losses(trials, main), *timeouts(trials, main)]
     notes = [say(NO_DISPLAY, kind="note")] if simulated else []
     if not faults:
         return [*notes]
     table = replace(
-        compare(faults, plan.margins),
+        compare(faults),
         key="faults",
         title=f"{'Lost' if simulated else 'Missed frames, lost'} focus and time-outs by condition",
         shown=FAULTS_SHOWN,
@@ -202,18 +219,18 @@ def _faults(context: Context) -> list[Block]:
     return [*notes, *(_fault(table, m, plan) for m in faults), table]
 
 
-def _fault(table: Table, m: Measure, plan: Plan) -> Prose:
+def _fault(table: Table, m: Pair, plan: Plan) -> Prose:
     """One kind of fault: different, equivalent, or neither is shown."""
     name = f"{m.label[0].upper()}{m.label[1:]}"
-    if not difference_signs(m.standard, m.dynamic).any():
+    if not difference_signs(m.first, m.second).any():
         return say(
             f"{name}: the same for everybody under both conditions (M = {{}}).",
-            table.cite(m.key, "mean_standard"),
+            table.cite(m.key, "mean_baseline"),
         )
     start = say(
-        f"{name}: M = {{}} standard, {{}} dynamic, {{}}.",
-        table.cite(m.key, "mean_standard"),
-        table.cite(m.key, "mean_dynamic"),
+        f"{name}: M = {{}} {m.names[0]}, {{}} {m.names[1]}, {{}}.",
+        table.cite(m.key, "mean_baseline"),
+        table.cite(m.key, "mean_level"),
         apa_f(table, m.key),
     )
     p = table.row(m.key)["p"]

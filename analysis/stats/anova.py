@@ -30,9 +30,13 @@ from seethrough.analysis.stats.undefined import (
 Array = NDArray[np.float64]
 
 
+NO_HF: Number = Undefined("not computed")
+
+
 @dataclass(frozen=True, slots=True)
 class Effect:
-    """One row of an ANOVA table; `p_gg` uses Greenhouse–Geisser's ε (1 for one-df effects).
+    """One row of an ANOVA table; `p_gg` uses Greenhouse–Geisser's ε (1 for one-df effects), `p_hf`
+    Huynh and Feldt's (Lecoutre's form, at most 1), `p_lower` the least that ε can be.
 
     `ges` is generalised η² (Olejnik & Algina 2003, all factors within), `pes` partial η² with its
     90 % interval λ/(λ + df₂) from the noncentral F; that interval is undefined where F is so small
@@ -54,6 +58,24 @@ class Effect:
     ges: Number
     pes: Number
     pes_interval: Interval
+    eps_hf: Number = NO_HF
+    p_hf: Number = NO_HF
+    p_lower: Number = NO_HF
+    error_df: int = 0
+
+    @property
+    def few(self) -> bool:
+        """Whether the error has no more df than the effect has contrasts within people.
+
+        ε cannot be estimated then, and the lower bound decides.
+        """
+        q = self.df2 // self.error_df if self.error_df else 1
+        return q > 1 and self.error_df <= q
+
+    @property
+    def decisive(self) -> Number:
+        """The p that decides: by Greenhouse and Geisser's ε, by the lower bound where few."""
+        return self.p_lower if self.few else self.p_gg
 
 
 def helmert(k: int) -> tuple[Array, Array]:
@@ -140,18 +162,33 @@ def _effect(
         gone, ends = Undefined(reason), no_interval(reason)
         size = ges if n >= 2 else gone
         same = (gone, gone, gone, gone, gone, gone)
-        return Effect(name, n, df1, df2, ss_effect, ss_error, *same, size, gone, ends)
-    f = (ss_effect / df1) / (ss_error / df2)
+        return Effect(
+            name, n, df1, df2, ss_effect, ss_error, *same, size, gone, ends, gone, gone, gone, n - 1
+        )
+    return tested(name, n, 1, n - 1, (ss_effect, ss_error), centred, ges)
+
+
+def tested(
+    name: str, n: int, rank: int, free: int, ss: tuple[float, float], centred: Array, ges: Number
+) -> Effect:
+    """An effect's tests from its sums of squares (effect, error) and the residuals (n, q).
+
+    `rank`: the between effect's df, 1 where there is none; `free`: the error's df in each contrast.
+    """
+    q = centred.shape[1]
+    df1, df2 = q * rank, q * free
+    f = (ss[0] / df1) / (ss[1] / df2)
     eps = _greenhouse_geisser(centred)
-    w, w_p = _mauchly(centred)
-    pes = ss_effect / (ss_effect + ss_error)
+    hf = huynh_feldt(eps, q, free)
+    w, w_p = _mauchly(centred, free)
+    pes = ss[0] / (ss[0] + ss[1])
     return Effect(
         name,
         n,
         df1,
         df2,
-        ss_effect,
-        ss_error,
+        ss[0],
+        ss[1],
         f,
         f_tail(f, df1, df2),
         eps,
@@ -161,7 +198,21 @@ def _effect(
         ges,
         pes,
         _pes_interval(pes, f, df1, df2),
+        hf,
+        f_tail(f, df1 * hf, df2 * hf) if is_defined(hf) else hf,
+        f_tail(f, rank, free),
+        free,
     )
+
+
+def huynh_feldt(eps: float, q: int, free: int) -> Number:
+    """Huynh and Feldt's ε as Lecoutre corrected it, at most 1; `free`: N less the groups."""
+    if q == 1:
+        return 1.0
+    below = q * (free - q * eps)
+    if below <= 0:
+        return Undefined("too few participants for its contrasts")
+    return float(min(1.0, ((free + 1) * q * eps - 2) / below))
 
 
 def _pes_interval(pes: float, f: float, df1: int, df2: int) -> Interval:
@@ -180,18 +231,17 @@ def _greenhouse_geisser(centred: Array) -> float:
     return float(np.trace(cov) ** 2 / (q * np.sum(cov**2)))
 
 
-def _mauchly(centred: Array) -> tuple[Number, Number]:
+def _mauchly(centred: Array, df: int) -> tuple[Number, Number]:
     """Mauchly's W and its p, with Box's second-order term.
 
-    The term takes q, the number of contrasts (Anderson 2003, section 10.7). R's mauchly.test takes
-    the number of cells there, and so gives a slightly different p.
+    The term takes q, the number of contrasts (Anderson 2003, section 10.7); R's mauchly.test puts
+    the number of cells there, and its p differs slightly.
     """
-    n, q = len(centred), centred.shape[1]
+    q = centred.shape[1]
     if q == 1:
         return Undefined("one contrast is always spherical"), Undefined(
             "one contrast is always spherical"
         )
-    df = n - 1
     if df < q:
         few = Undefined("fewer participants than contrasts")
         return few, few

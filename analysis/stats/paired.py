@@ -1,7 +1,7 @@
 """Two conditions, one value each per participant: the test of their difference, and its size.
 
-Differences are `first − second`, here standard − dynamic: positive means less (time, error) with
-the technique. Ratios are second / first.
+Differences are `first − second`, a baseline less a level: positive means less (time, error) under
+the level. Ratios are second / first.
 """
 
 from __future__ import annotations
@@ -107,12 +107,22 @@ def shapiro(scores: Array) -> tuple[Number, Number]:
     return float(result.statistic), float(result.pvalue)
 
 
+def mean_interval(values: Array, level: float = 0.95) -> Interval:
+    """Student's interval of the mean of n values."""
+    n = len(values)
+    if n < 2:
+        return no_interval(ONE_PARTICIPANT)
+    mean = _mean(values)
+    half = t_quantile((1 + level) / 2, n - 1) * float(np.std(values - values[0], ddof=1)) / n**0.5
+    return mean - half, mean + half
+
+
 def ratio_of_means(first: Array, second: Array, level: float = 0.95) -> tuple[Number, Interval]:
     """mean(second) / mean(first) with Fieller's interval for paired data."""
     n = len(first)
     a, b = _mean(second), _mean(first)
     if b == 0:
-        why = "the standard mean is zero"
+        why = "the baseline's mean is zero"
         return Undefined(why), no_interval(why)
     if n < 2:
         return a / b, no_interval(ONE_PARTICIPANT)
@@ -120,7 +130,7 @@ def ratio_of_means(first: Array, second: Array, level: float = 0.95) -> tuple[Nu
     cov = np.cov(second, first)
     lead = b * b - t2 * cov[1, 1]
     if lead <= 0:
-        return a / b, no_interval("the standard mean is not clearly different from zero")
+        return a / b, no_interval("the baseline's mean is not clearly different from zero")
     middle = a * b - t2 * cov[0, 1]
     root = np.sqrt(max(0.0, middle**2 - lead * (a * a - t2 * cov[0, 0])))
     return a / b, (float((middle - root) / lead), float((middle + root) / lead))

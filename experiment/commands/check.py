@@ -199,6 +199,7 @@ def _difficulty(
             means = ", ".join(_means(m) for m in own if m.ok)
             said.say("difficulty", f"{task}, {along} {_names(own[0])}: {means}")
         for match in (m for m in own if not m.ok):
+            assert match.bound is not None  # else it is ok
             apart = f"apart {_apart(match, match.difference)}"
             why = (
                 f"not matched, expected at most {_apart(match, match.bound)}; farthest off: "

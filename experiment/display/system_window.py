@@ -10,7 +10,6 @@ import sys
 import time
 from collections.abc import Callable
 from ctypes import byref, c_ubyte
-from typing import Any
 
 import pyglet
 
@@ -39,7 +38,7 @@ class SystemWindow(pyglet.window.Window):  # type: ignore[misc]  # pyglet picks 
         """X11 only: the pointer's events come this way."""
         self._stamped(super().dispatch_platform_event_view, event, "view")
 
-    def _stamped(self, dispatch: Callable[[Any], None], event: object, queue: str) -> None:
+    def _stamped(self, dispatch: Callable[[object], None], event: object, queue: str) -> None:
         if self.event_time is None:
             return dispatch(event)
         self.event_time.stamp, self.event_time.queue = x11_stamp(event), queue
@@ -102,7 +101,7 @@ def open_window(table: DisplayTable, title: str) -> SystemWindow:
         raise no_window(error) from error
 
 
-_kept_handlers: list[Any] = []  # Xlib does not keep them
+_kept_handlers: list[object] = []  # Xlib does not keep them
 
 
 def say_when_the_server_goes() -> None:

@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime
 from math import inf
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.load.files import read_json
 from seethrough.experiment.export.dataset import Dataset, Row, as_json, check_labels, harmless, put
@@ -93,11 +92,11 @@ def _onset(started: str, starts: Sequence[datetime]) -> float:
     return (datetime.fromisoformat(started) - min(starts)).total_seconds() if started else inf
 
 
-def _presentation(data: Dataset, participant: str, session: str) -> dict[str, Any]:
+def _presentation(data: Dataset, participant: str, session: str) -> dict[str, object]:
     """How it was shown, from the session's sidecar."""
     folder = data.folder / "data" / data.source / participant
     found = list(folder.glob(f"*_session-{session}_trials_data.json"))
-    made: Any = read_json(found[0], data.folder).get("provenance") if found else None
+    made: object = read_json(found[0], data.folder).get("provenance") if found else None
     made = made if isinstance(made, Mapping) else {}
     display = made.get("display", {})
     return {
@@ -134,8 +133,8 @@ def _phenotype(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
     put(path / "questionnaire.json", as_json(about))
 
 
-def _column(column: Column) -> dict[str, Any]:
-    about: dict[str, Any] = {"Description": column.description}
+def _column(column: Column) -> dict[str, object]:
+    about: dict[str, object] = {"Description": column.description}
     if column.unit:
         about["Units"] = column.unit
     if column.levels:

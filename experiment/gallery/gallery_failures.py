@@ -154,7 +154,7 @@ def failures() -> dict[str, Failure]:
         ),
         "adaptive_cutaway": Failure(
             "A wide angle takes the context away with the occluder",
-            replace(named("adaptive_cutaway"), angle=1.2),
+            replace(named("adaptive_cutaway"), angle=70.0),
             Scene(one),
             gone_of_wall,
             0.8,

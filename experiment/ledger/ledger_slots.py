@@ -102,8 +102,8 @@ def next_slot(
     taken: list[tuple[set[int], set[int]]] = [(set(), set()) for _ in groups]
     for kind, slots in enumerate((live, complete)):
         for slot in slots:
-            group, number = place_of(slot, len(groups))
-            taken[group][kind].add(number)
+            of, place = place_of(slot, len(groups))
+            taken[of][kind].add(place)
     whole = all(done.issuperset(range(1, g.people + 1))
                 for (_, done), g in zip(taken, groups, strict=True))  # fmt: skip
     found = []

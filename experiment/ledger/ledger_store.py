@@ -143,7 +143,7 @@ def _sqlite(url: URL) -> Engine:
     journal = "DELETE" if network_drive(Path(url.database)) else "WAL"
 
     @sql.event.listens_for(engine, "connect")
-    def _(connection: Any, _: Any) -> None:
+    def _(connection: Any, _: object) -> None:
         connection.isolation_level = None  # the driver begins no transactions of its own
         for pragma in (f"journal_mode={journal}", "synchronous=FULL", "foreign_keys=ON"):
             connection.execute(f"PRAGMA {pragma}")

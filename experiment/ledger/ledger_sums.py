@@ -6,7 +6,6 @@ import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import astuple
-from typing import Any
 
 import sqlalchemy as sql
 from sqlalchemy.engine import Connection
@@ -54,7 +53,7 @@ def verify(at: Connection, study: str, where: str) -> None:
             raise InputError(f"{where}: {store.DAMAGED}: {what}")
 
 
-def _study(at: Connection, study: str) -> list[Any]:
+def _study(at: Connection, study: str) -> list[object]:
     row = at.execute(store.STUDIES.select().where(store.STUDIES.c.name == study)).one()
     return list(row)
 

@@ -9,7 +9,6 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -190,7 +189,7 @@ class Page:
     blocks: tuple[Block, ...] = ()
     buttons: tuple[str, ...] = ("continue",)
     about: tuple[tuple[str, str], ...] = ()
-    simulate: Callable[[Any], Answers] | None = field(default=None, compare=False)
+    simulate: Callable[[object], Answers] | None = field(default=None, compare=False)
 
     @property
     def asks(self) -> bool:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 from numpy.random import Generator as Random
@@ -46,7 +45,7 @@ class SimulatedParticipant:
         self._task, self._began = "", 0.0
         self._mood: Mood | None = None
 
-    def about(self, seed: int) -> dict[str, Any]:
+    def about(self, seed: int) -> dict[str, object]:
         """What a sidecar says of it, so that anybody can simulate it again."""
         return {
             "simulation_seed": seed,

@@ -31,7 +31,7 @@ class Part:
 
     item: str
     kind: str
-    parameters: Any
+    parameters: object
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import make_folder, write_new
@@ -32,7 +31,7 @@ def describe_dataset(data: Path, study: str, tables: Mapping[str, tuple[Column, 
     _check_name(path, study)
 
 
-def description(study: str, text: str, columns: Mapping[str, Column]) -> dict[str, Any]:
+def description(study: str, text: str, columns: Mapping[str, Column]) -> dict[str, object]:
     """Global metadata of a dataset with these columns."""
     return {
         "@context": "https://schema.org",

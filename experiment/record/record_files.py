@@ -14,7 +14,6 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -164,7 +163,7 @@ class Traces:
         self.events = Trace(folder / f"{name}_events.csv", EVENTS, guard)
         eye, forward = "eye_x,eye_y,eye_z", "forward_x,forward_y,forward_z"
         self.camera = Trace(folder / f"{name}_camera.csv", f"time,{eye},{forward},digest", guard)
-        self._last_camera: Any = None
+        self._last_camera: object = None
 
     def event(self, event: Event) -> None:
         """One input event."""

@@ -46,7 +46,7 @@ class Who:
     participant: str
     source: str
     slot: int
-    provenance: Mapping[str, Any]
+    provenance: Mapping[str, object]
     session: int = 1  # one more each time an interrupted session is gone on with
     design: Mapping[str, Any] = field(default_factory=dict)  # factors and tasks, for the analysis
 
@@ -221,7 +221,7 @@ class FileRecorder:
     def _file(self, name: str) -> Path:
         return self.folder / f"{self.stem}_{name}"
 
-    def _identity(self, row: str) -> dict[str, Any]:
+    def _identity(self, row: str) -> dict[str, object]:
         who = self.who
         return {
             "row_id": f"{who.source}-{who.participant}-{who.session}-{row}",

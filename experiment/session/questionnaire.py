@@ -20,8 +20,9 @@ from seethrough.experiment.questions.ready import question
 from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
+from seethrough.experiment.study.described import each_of
 from seethrough.experiment.study.design import PARTICIPANT, generator
-from seethrough.experiment.study.factors import ALONE, Levels
+from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.reading import Question
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import WORLDS
@@ -98,28 +99,18 @@ def _at(when: str, study: Study, slot: int) -> Iterator[Step]:
         if question_.when_asked != when:
             continue
         meant = tuple(at for at in cells if study.part(at).questions[name].meant_for(at))
-        each = _each(study, question_)
+        each = each_of(study, question_)
         for about in dict.fromkeys(tuple((f, at[f]) for f in each) for at in meant):
             there = tuple(at for at in meant if set(about) <= set(at.items()))
             yield from steps(_planned(study, name, question_, dict(about), there), study, slot)
-
-
-def _each(study: Study, asked_: Question) -> tuple[str, ...]:
-    """The factors for each of whose levels a question is asked once."""
-    if asked_.table.each is not None:
-        return asked_.table.each
-    if asked_.use == "ratings":
-        return tuple(f.name for f in study.factors if f.block)
-    if asked_.use in ("tlx", "sus"):
-        return tuple(f.name for f in study.factors if f.block and f.scenes == ALONE)
-    return ()
 
 
 def _planned(
     study: Study, name: str, asked_: Question, about: Mapping[str, str], cells: tuple[Levels, ...]
 ) -> Planned:
     """The question as it is asked about these levels."""
-    use, parameters, factor, of = asked_.use, asked_.parameters, "", ()
+    use, parameters, factor = asked_.use, asked_.parameters, ""
+    of: tuple[str, ...] = ()
     compared = [f for f in study.factors if f.name == asked_.table.of]
     if use == "comparison" and not compared:
         compared = [f for f in study.factors if f.block][:1]

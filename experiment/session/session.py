@@ -111,7 +111,8 @@ def _run_task_set(
 def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
     """The training trials, each with feedback, until the study's limit or criterion."""
     world, practice = run.world, study.part(task_set.trials[0].levels).practice
-    limit, right = practice.limit, []
+    limit = practice.limit
+    right: list[bool] = []
     began = world.clock.now()
     for trial in task_set.training:
         if practice.until is not None and sum(right[-practice.until[1] :]) >= practice.until[0]:

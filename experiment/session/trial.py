@@ -39,7 +39,10 @@ DIGEST_SOONEST = 0.25  # so that a short trial has some too
 
 POINTER, SECOND = "pointer", "second button"  # left and right, among the keys that are down
 
-BUTTONS = {POINTER: PointerRelease, SECOND: SecondRelease}
+BUTTONS: dict[str, type[PointerRelease] | type[SecondRelease]] = {
+    POINTER: PointerRelease,
+    SECOND: SecondRelease,
+}
 
 MENU = Page(
     "menu",

@@ -19,7 +19,7 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise, product
 from math import lcm
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from seethrough.experiment.study.conditions import Branch
 from seethrough.experiment.study.design import Design
@@ -112,7 +112,10 @@ def _stage(
         yield from _stage(group, inner, within, f"{where} {'/'.join(cell)}".strip())
 
 
-def _all(wanted: Iterable[Hashable], counts: Mapping[Hashable, int]) -> dict[Hashable, int]:
+Thing = TypeVar("Thing", bound=Hashable)
+
+
+def _all(wanted: Iterable[Thing], counts: Mapping[Thing, int]) -> dict[Hashable, int]:
     """Every thing that should occur, and every one that does."""
     return {key: counts.get(key, 0) for key in dict.fromkeys([*wanted, *counts])}
 
@@ -131,10 +134,11 @@ def _items(design: Design, group: int, people: Mapping[int, Sequence[Met]]) -> I
     for key, own in of.items():
         items = sorted({t.scene for _, t in own})
         cells = sorted({tuple(t.levels[n] for n in alone) for _, t in own})
-        met = [(t.scene, tuple(t.levels[n] for n in alone), row) for row, t in own]
-        in_cell, in_row = Counter(m[:2] for m in met), Counter((m[0], m[2]) for m in met)
+        shown = [(t.scene, tuple(t.levels[n] for n in alone), row) for row, t in own]
+        in_cell = Counter((scene, levels) for scene, levels, _ in shown)
+        in_row = Counter((scene, row) for scene, _, row in shown)
         wanted = list(product(items, cells, range(rows)))
         where = "/".join(key)
-        yield Count(group, "item × cell", where, _all([w[:2] for w in wanted], in_cell))
+        yield Count(group, "item × cell", where, _all([(w[0], w[1]) for w in wanted], in_cell))
         yield Count(group, "item × row", where, _all([(w[0], w[2]) for w in wanted], in_row))
-        yield Count(group, "item × cell × row", where, _all(wanted, Counter(met)))
+        yield Count(group, "item × cell × row", where, _all(wanted, Counter(shown)))

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
-from seethrough.experiment.study.factors import Factor
+from seethrough.experiment.questions.ready import question
+from seethrough.experiment.study.factors import ALONE, Factor
+from seethrough.experiment.study.reading import STARTS, Question
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.measure import TIME
@@ -23,7 +26,43 @@ def design_entry(study: Study) -> dict[str, Any]:
             {k: v for k, v in said.items() if v not in (None, "")}
             for said in analysis["predictions"]
         ],
-    }
+        "items": [item for name, asked in study.questions.items()
+                  for item in _items(study, name, asked)],
+    }  # fmt: skip
+
+
+def each_of(study: Study, asked: Question) -> tuple[str, ...]:
+    """The factors for each of whose levels a question is asked once."""
+    if asked.table.each is not None:
+        return asked.table.each
+    if asked.use == "ratings":
+        return tuple(f.name for f in study.factors if f.block)
+    if asked.use in ("tlx", "sus"):
+        return tuple(f.name for f in study.factors if f.block and f.scenes == ALONE)
+    return ()
+
+
+def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
+    """A question's items, but of what is asked at the start: for which levels, together with which,
+    of how many points. Where one has the question's own name, it is made of the others."""
+    if asked.use in STARTS:
+        return []
+    said = question(asked.use).items(asked.parameters, name)
+    known = {name: said[name]} if name in said else said
+    each = list(each_of(study, asked))
+    compared = asked.table.of or next((f.name for f in study.factors if f.block), "")
+    items = []
+    for item, words in known.items():
+        scale = re.search(r"\(0–(\d+)\)$", words)
+        items.append({
+            "name": item,
+            "label": item.replace("_", " "),
+            "each": each,
+            "group": name if each and len(known) > 1 else "",
+            "of": compared if asked.use == "comparison" and item == "preference" else "",
+            **({"points": int(scale[1]) + 1} if scale else {}),
+        })  # fmt: skip
+    return items
 
 
 def _factor(study: Study, factor: Factor) -> dict[str, Any]:
@@ -43,5 +82,6 @@ def _task(name: str, margins: dict[str, float]) -> dict[str, Any]:
     task = TASKS[name]
     measures = [measure.as_dict() for measure in (TIME, *task.measures)]
     for measure in measures:
-        measure["margin"] = margins.get(measure["name"], measure["margin"])
+        own = margins.get(measure["column"], measure["margin"])
+        measure["margin"] = margins.get(measure["name"], own)
     return {"name": name, "code": task.code, "measures": measures}

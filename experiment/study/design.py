@@ -247,7 +247,7 @@ class _Session:
     ) -> TaskSet:
         block, task_set, _ = place
         order = [self._round(mixed, (block, task_set, n)) for n in range(1, plan.trials + 1)]
-        trials = []
+        trials: list[Trial] = []
         for round_, cells in enumerate(order, start=1):
             for cell in cells:
                 in_set = len(trials) + 1

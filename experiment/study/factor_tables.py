@@ -234,7 +234,9 @@ class _Reader:
             return tuple(levels)
         for name in said:
             if name not in names:
-                self.faults.append(Fault(f"{self.where}.labels.{name}", said[name], known=names))
+                self.faults.append(
+                    Fault(f"{self.where}.labels.{name}", said[name], known=(*names,))
+                )
         return tuple(
             Level(lv.name, lv.part, said.get(lv.name, lv.label), lv.number) for lv in levels
         )

@@ -91,10 +91,11 @@ class Parser:
         return dict(texts)
 
     def _excluded(self, factors: tuple[Factor, ...], design: Any) -> tuple[Levels, ...]:
-        found = []
+        found: list[Levels] = []
         names = [factor.name for factor in factors]
         for number, entry in enumerate(design.exclude if design is not None else ()):
-            where, levels = f"design.exclude[{number}]", {}
+            where = f"design.exclude[{number}]"
+            levels: dict[str, str] = {}
             for name, value in entry.items():
                 level = level_name(value)
                 own = next((f for f in factors if f.name == name), None)

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from functools import cache
 
+from pydantic.fields import FieldInfo
+
 FIXED, SESSION, BLOCK, TRIAL = "fixed", "session", "block", "trial"
 
 # Tables whose keys plug-ins declare; every key in them has the table's scope.
@@ -36,8 +38,8 @@ def scope_of(path: tuple[str, ...]) -> str:
         return OF_PLUGINS[table]
     fields = TABLES[table].model_fields
     if rest and rest[0] in fields:
-        return str((fields[rest[0]].json_schema_extra or {}).get("scope", FIXED))
-    scopes = {str((f.json_schema_extra or {}).get("scope", FIXED)) for f in fields.values()}
+        return _said(fields[rest[0]])
+    scopes = {_said(field) for field in fields.values()}
     if rest:
         return TRIAL  # unknown: the table's own check says so
     return next(s for s in (FIXED, SESSION, BLOCK, TRIAL) if s in scopes)
@@ -46,3 +48,9 @@ def scope_of(path: tuple[str, ...]) -> str:
 def changes_scenes(path: tuple[str, ...]) -> bool:
     """Whether another value of the key may make other scenes, or ask something else of them."""
     return path[0] in SCENES or path[:2] == ("design", "tasks")
+
+
+def _said(field: FieldInfo) -> str:
+    """The scope that a key is declared with."""
+    more = field.json_schema_extra
+    return str(more.get("scope", FIXED)) if isinstance(more, dict) else FIXED

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, field_validator
 
 from seethrough import registry
 from seethrough.experiment.errors import shown
@@ -30,7 +30,7 @@ LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 def key(meaning: str, unit: str = "", said: str = "", scope: str = FIXED, **limits: Any) -> Any:
     """What is declared of a key: `said` says what is allowed where the limits do not, `scope` when
     it can change."""
-    more = {"unit": unit, "said": said, "scope": scope}
+    more: dict[str, JsonValue] = {"unit": unit, "said": said, "scope": scope}
     return Field(description=meaning, json_schema_extra=more, **limits)
 
 

@@ -146,7 +146,7 @@ def is_done_by_simulated_people(task: Any) -> Iterator[str]:
                 yield f"{where}: no answer after {len(trial.events)} events"
                 continue
             for measure in task.measures:
-                if trial.outcome.value(measure.name) is None:
+                if trial.outcome.value(measure.of) is None:
                     yield f"{where}: measure {measure.name}: expected a value"
 
 

@@ -100,7 +100,7 @@ class _Tried:
         said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
         return Finding("refuses", not taken, said)
 
-    def picture(self, case: Case, p: Any, state: Any = None) -> NDArray[np.uint8]:
+    def picture(self, case: Case, p: Any, state: object = None) -> NDArray[np.uint8]:
         """(h, w, 3) drawn by a fresh renderer."""
         renderer = Renderer(self.context, SIZE)
         renderer.draw(case.scene, case.camera, p, state=state)
@@ -258,7 +258,7 @@ class _Tried:
         return Finding("cost", True, f"{own / standard:.2f} × the standard frame at 400 × 300")
 
 
-def some_events() -> list[Any]:
+def some_events() -> list[object]:
     """A pointer that moves, presses and drags, and keys."""
     moves = [events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)]
     return [

@@ -12,13 +12,13 @@ import numpy as np
 from seethrough.renderer.declared import Key, Of, declared
 
 
-def values(parameters: object, name: str, said: Key) -> list[Any]:
+def values(parameters: object, name: str, said: Key) -> list[object]:
     """The default first, then choices, or the ends of what is allowed, of one parameter."""
     default = getattr(parameters, name)
     hint = get_type_hints(type(parameters))[name]
     kinds = [h for h in (get_args(hint) or (hint,)) if h is not type(None)]
     if tuple in (get_origin(hint), get_origin(kinds[0])):
-        found: list[Any] = []
+        found: list[object] = []
     elif kinds[0] is bool:
         found = [not default]
     elif said.choices:
@@ -34,7 +34,7 @@ def values(parameters: object, name: str, said: Key) -> list[Any]:
     return [default, *(v for v in dict.fromkeys(found) if v != default)]
 
 
-def pairwise(parameters: Any, rng: np.random.Generator) -> list[Any]:
+def pairwise(parameters: Any, rng: np.random.Generator) -> list[object]:
     """Parameters in which every two values of two parameters meet at least once: greedily, each
     time the best of some drawn at random."""
     named = {n: values(parameters, n, s) for n, s in declared(type(parameters)).items()}
@@ -69,7 +69,7 @@ def _pairs(chosen: dict[str, int]) -> set[tuple[tuple[str, int], tuple[str, int]
     return set(combinations(chosen.items(), 2))
 
 
-def refused(parameters: object) -> Iterator[tuple[str, Any]]:
+def refused(parameters: object) -> Iterator[tuple[str, object]]:
     """(name, value) that must be refused: beyond each end, and of no choice."""
     for name, said in declared(type(parameters)).items():
         if said.choices:

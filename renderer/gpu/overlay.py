@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.gpu.device import state
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.reused import spoil
 
 _VERTEX = """
@@ -103,7 +103,7 @@ class Overlay:
         target.viewport = (0, 0, width, height)
         context.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         context.enable(moderngl.BLEND)
-        state.blend(context, OVER)
+        pipeline.blend(context, OVER)
         self._program["u_size"] = (width, height)
         points = np.frombuffer(vertices, np.uint8).reshape(-1, STRIDE)
         for batch in batches:
@@ -111,11 +111,11 @@ class Overlay:
             left, top = max(left, 0), max(top, 0)
             if right <= left or bottom <= top or batch.count == 0:
                 continue
-            state.within(target, (left, height - bottom, right - left, bottom - top))
+            pipeline.within(target, (left, height - bottom, right - left, bottom - top))
             self._textures[batch.texture].use(0)
             chosen = indices[batch.first : batch.first + batch.count] + batch.base_vertex
             self._draw_points(points[chosen].tobytes(), batch.count)
-        state.within(target, None)
+        pipeline.within(target, None)
 
     def _draw_points(self, data: bytes, count: int) -> None:
         # Expanded to plain triangles: a HUD is a few thousand vertices, one buffer is simplest.

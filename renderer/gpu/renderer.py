@@ -19,7 +19,6 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Drawn, Visibility, visibility, visibility_of_shares
 from seethrough.renderer.techniques.base import Parameters, Shot
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SCENES_KEPT = 4  # a trial's own, its inset's, and the last ones of both
 
@@ -56,7 +55,7 @@ class Renderer:
         self._samples = min(samples, context.max_samples)
         self._target = FrameTarget(context, _checked(size), self._samples)
         self._small: FrameTarget | None = None
-        self._shown: tuple[Scene, Camera, Parameters, Any] | None = None
+        self._shown: tuple[Scene, Camera, Parameters, object] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -143,13 +142,20 @@ class Renderer:
             layers = [(w[ids <= n], ids[ids <= n], alpha[ids <= n]) for w, ids, alpha in layers]
         return visibility(layers, self._looking(size)[0].read(), n)
 
-    def _looked(self, scene, camera, technique, size, state=None) -> FramePlan:  # type: ignore[no-untyped-def]
+    def _looked(
+        self,
+        scene: Scene,
+        camera: Camera,
+        technique: Parameters,
+        size: tuple[int, int],
+        state: object = None,
+    ) -> FramePlan:
         """The plan of the frame, found at `size`."""
         technique = technique.technique.looked_at(technique)
         return plan(scene, camera, technique, size, self.without, size[1] / self.size[1], state)
 
     def shares(
-        self, scene: Scene, camera: Camera, technique: DynamicTransparency, size: tuple[int, int]
+        self, scene: Scene, camera: Camera, technique: Any, size: tuple[int, int]
     ) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
         """What each pixel shows when it is sorted by itself: from the front, objects + 1 (h, w),
         0 for none, and their shares of the pixel (h, w)."""
@@ -171,7 +177,22 @@ class Renderer:
             found.append((ids, alpha))
         return found
 
-    def _layers(self, scene, camera, technique, size, frame, state=None) -> list[Drawn]:  # type: ignore[no-untyped-def]
+    def needed(
+        self, scene: Scene, camera: Camera, technique: Parameters
+    ) -> dict[str, NDArray[np.float32]]:
+        """Name → (h, w) of the pictures that a technique's rule needs, of the frame's size."""
+        frame = plan(scene, camera, technique, self.size, self.without)
+        return self._layer.needed(self._table(scene), frame, camera, technique, self.size)
+
+    def _layers(
+        self,
+        scene: Scene,
+        camera: Camera,
+        technique: Parameters,
+        size: tuple[int, int],
+        frame: FramePlan,
+        state: object = None,
+    ) -> list[Drawn]:
         small, layer = self._looking(size)
         found: list[Drawn] = []
         last = np.zeros(size[::-1], dtype=np.float32)
@@ -247,7 +268,9 @@ def _about(
     return (*low, *high)
 
 
-def _shown(scene, camera, technique, state, size) -> Scene:  # type: ignore[no-untyped-def]
+def _shown(
+    scene: Scene, camera: Camera, technique: Parameters, state: object, size: tuple[int, int]
+) -> Scene:
     """What stands there in this frame: objects may have moved."""
     return technique.technique.shown(technique, state, Shot(scene, camera, size)).scene
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
+
+from seethrough.renderer.arrays import Bits, Bools, Floats, Ints, Real, Whole
 
 NONE = 0xFFFFFFFF  # a word for no cell, or no target
 BLOCK = 8  # pixels, on each side: also in shaders/block.vert and few.vert
@@ -20,7 +23,7 @@ def shape(size: tuple[int, int]) -> tuple[int, int]:
 
 
 @njit(cache=True, nogil=True)
-def mark(distance, left, top, width, number, bits):  # type: ignore[no-untyped-def]
+def mark(distance: Real, left: int, top: int, width: float, number: int, bits: Bits) -> None:
     """Set bit `number` of the blocks in which any of the (h, w) distances is within a mask's
     `width`; `left` and `top` are where they lie in the window."""
     bit = np.uint64(1) << np.uint64(number)
@@ -31,7 +34,7 @@ def mark(distance, left, top, width, number, bits):  # type: ignore[no-untyped-d
 
 
 @njit(cache=True)
-def covered(boxes, numbers, shape):  # type: ignore[no-untyped-def]
+def covered(boxes: Floats, numbers: Ints, shape: tuple[int, int]) -> Bits:
     """(shape) bits: of each block, the `numbers` (n,) of the boxes (n, 4), in pixels, that touch
     it. Numbers lie below 64."""
     bits = np.zeros(shape, np.uint64)
@@ -47,7 +50,7 @@ def covered(boxes, numbers, shape):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def runs(objects, masks, part):  # type: ignore[no-untyped-def]
+def runs(objects: Bits, masks: Bits, part: Ints) -> tuple[Ints, Bits]:
     """(k, 4) left, top, right, bottom in pixels of the rectangles into which a part falls, and
     (k, 2) the bits of `objects` and of `masks` that its blocks share; none without objects."""
     left, top, right, bottom = part[0] // BLOCK, part[1] // BLOCK, part[2], part[3]
@@ -79,7 +82,7 @@ def runs(objects, masks, part):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def shown(objects, masks, part):  # type: ignore[no-untyped-def]
+def shown(objects: Bits, masks: Bits, part: Ints) -> tuple[Ints, Bits]:
     """(k, 2) left and top in pixels of each of a part's blocks that holds an object, and (k, 2) the
     bits of `objects` and of `masks` in it."""
     left, top = part[0] // BLOCK, part[1] // BLOCK
@@ -98,7 +101,7 @@ def shown(objects, masks, part):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _count(bits):  # type: ignore[no-untyped-def]
+def _count(bits: np.uint64) -> int:
     count = 0
     while bits != 0:
         bits &= bits - np.uint64(1)
@@ -107,7 +110,7 @@ def _count(bits):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def most(slices, masks):  # type: ignore[no-untyped-def]
+def most(slices: Bits, masks: Bits) -> Ints:
     """The most bits of `slices` (h, w) and of `masks` (h, w) in any block that has both."""
     found = np.zeros(2, np.int64)
     for row in range(slices.shape[0]):
@@ -119,7 +122,15 @@ def most(slices, masks):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def grouped(found, which, corners, words, slices, masks, every):  # type: ignore[no-untyped-def]
+def grouped(
+    found: Ints,
+    which: Bits,
+    corners: Whole,
+    words: Whole,
+    slices: Ints,
+    masks: Ints,
+    every: bool,
+) -> tuple[NDArray[np.uint32], Ints, Bools]:
     """Blocks (k, 2) with their bits (k, 2), as `shown` gives them, grouped by how many bits they
     have of both kinds: the least of `slices` and of `masks` (ascending) that is enough.
 

@@ -13,6 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bits, Floats, Ints
 from seethrough.renderer.plan.blocks import BLOCK
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
@@ -41,7 +42,7 @@ def triangles(scene: Scene) -> Triangles:
 
 
 @lru_cache(maxsize=8)
-def _joined(meshes: tuple[Mesh, ...]) -> tuple[NDArray, NDArray, NDArray]:
+def _joined(meshes: tuple[Mesh, ...]) -> tuple[Floats, Ints, Ints]:
     """Points and corners of all meshes, and where each one's begin and end."""
     points = [mesh.vertices - mesh.center for mesh in meshes]
     ends = np.cumsum([[0, 0], *((len(m.vertices), len(m.triangles)) for m in meshes)], axis=0)
@@ -59,8 +60,17 @@ def lens(camera: Camera, size: tuple[int, int]) -> NDArray[np.float64]:
 
 @njit(cache=True, nogil=True)
 def cover(
-    points, corners, spans, numbers, turns, moves, lens, boxes, part, bits
-):  # type: ignore[no-untyped-def]  # fmt: skip
+    points: Floats,
+    corners: Ints,
+    spans: Ints,
+    numbers: Ints,
+    turns: Floats,
+    moves: Floats,
+    lens: Floats,
+    boxes: Floats,
+    part: Ints,
+    bits: Bits,
+) -> None:
     """Set in `bits` (h, w), of each block of a part (left, top, right, bottom in pixels), bit
     `numbers` (k,) of each object whose triangles can touch it, and its box (k, 4) does; of one that
     the near plane cuts, wherever its box does. No block beside the boxes, for what lies there was

@@ -6,11 +6,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats
+
 RAMP = 4  # from this many times the doubt allowed on, none is left
 
 
 @njit(cache=True)
-def union(boxes):  # type: ignore[no-untyped-def]
+def union(boxes: Floats) -> float:
     """The area that (k, 4) boxes cover together: strip by strip between their sides."""
     n = len(boxes)
     xs = np.sort(np.concatenate((boxes[:, 0], boxes[:, 2])))

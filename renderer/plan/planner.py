@@ -12,7 +12,6 @@ from collections.abc import Set
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,7 +111,7 @@ def plan(
     size: tuple[int, int],
     without: Set[str] = frozenset(),
     scale: float = 1.0,
-    state: Any = None,
+    state: object = None,
 ) -> FramePlan:
     """Decide what the frame of `size` (width, height) in pixels needs. Pure.
 

@@ -12,14 +12,16 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.plan.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN
+from seethrough.renderer.scene.scene import Scene
 
 STEPS = 100  # a gap of a hundredth of the objects' size is found in far fewer
 SLACK = 1e-7  # of the objects' size: a narrower gap is none
 
 
 @njit(cache=True)
-def separate(a, b, slack):  # type: ignore[no-untyped-def]
+def separate(a: Floats, b: Floats, slack: float) -> Floats:
     """(5,) a normal, the least of a (n, 3) and the greatest of b (m, 3) along it, if it separates
     them by more than `slack`; else zeros.
 
@@ -79,7 +81,7 @@ class Separations:
             known[self.second, self.first] = -found
         return known
 
-    def learn(self, pairs: NDArray[np.int64], scene) -> bool:  # type: ignore[no-untyped-def]
+    def learn(self, pairs: NDArray[np.int64], scene: Scene) -> bool:
         """Look for planes between (k, 2) objects not tried yet; whether any was found."""
         found = False
         for i, j in pairs.tolist():
@@ -97,6 +99,6 @@ class Separations:
         return found
 
 
-def _points(scene, i: int) -> NDArray[np.float64]:  # type: ignore[no-untyped-def]
+def _points(scene: Scene, i: int) -> NDArray[np.float64]:
     matrix = scene.objects[i].transform
     return scene.objects[i].mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]

@@ -41,7 +41,7 @@ class ExactPicture:
 
 
 def exact(
-    scene: Scene, camera: Camera, technique: Any, size: tuple[int, int], state: Any = None
+    scene: Scene, camera: Camera, technique: Any, size: tuple[int, int], state: object = None
 ) -> ExactPicture:
     """The picture of `size` (width, height) as a technique with these parameters defines it,
     without approximation. Without a `state` it is the one before the first event."""

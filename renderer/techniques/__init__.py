@@ -8,7 +8,7 @@ from typing import Any
 from seethrough import registry
 
 
-def named(name: str, tables: Mapping[str, Any] | None = None) -> Any:
+def named(name: str, tables: Mapping[str, object] | None = None) -> Any:
     """What draws a level that uses this technique: its parameters, which know their technique.
 
     `tables` has the parameters of techniques by their names; those that it lacks are the defaults.

@@ -14,7 +14,7 @@ from seethrough.tasks.kit.entry import NumberEntry
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Label
-from seethrough.tasks.kit.measure import CORRECT, COUNT_ERROR, Measure
+from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
@@ -36,7 +36,7 @@ class Count:
     source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
     worlds = ("abstract",)
     Parameters = NoParameters
-    measures: tuple[Measure, ...] = (COUNT_ERROR, CORRECT)
+    measures: tuple[Measure, ...] = (COUNT_ERROR, ABSOLUTE_ERROR, CORRECT)
     title, instruction = "count.title", "count.instruction"
     texts: Texts = OwnTexts("seethrough.tasks.count")
     simulate = STRATEGY

@@ -12,7 +12,7 @@ from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, V
 from seethrough.tasks.kit.entry import NumberEntry
 from seethrough.tasks.kit.events import Event, KeyPress
 from seethrough.tasks.kit.hud import Label
-from seethrough.tasks.kit.measure import CORRECT, COUNT_ERROR, Measure
+from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts
 from seethrough.tasks.worlds.building.building import Building, count_building
@@ -41,7 +41,7 @@ class CountInBuilding:
     source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
     worlds = ("building",)
     Parameters = NoParameters
-    measures: tuple[Measure, ...] = (COUNT_ERROR, CORRECT)
+    measures: tuple[Measure, ...] = (COUNT_ERROR, ABSOLUTE_ERROR, CORRECT)
     title, instruction = "count_in_building.title", "count_in_building.instruction"
     texts: Texts = OwnTexts("seethrough.tasks.count_in_building")
     simulate = STRATEGY

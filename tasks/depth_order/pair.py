@@ -100,4 +100,5 @@ def on_view(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, 2) places in half view heights from the middle of the view, y up."""
     seen = (points - camera.eye) @ camera.rotation
     with np.errstate(divide="ignore", invalid="ignore"):
-        return seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
+        places: NDArray[np.float64] = seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
+    return places

@@ -11,21 +11,32 @@ class Measure:
     """A measure by the `name` of its column.
 
     `direction` says which values are better. `adds` says how a person's trials in a cell become one
-    value: by their mean, sum or median, or as the share of those that are true. `log`: differences
+    value: by their mean, sum or median, or as the share of those that are true; signed errors as
+    "relative" ones, |Σ error| / Σ truth, where over- and underestimates cancel, or as "relative
+    absolute" ones, Σ |error| / Σ truth. `log`: differences
     are ratios, so logarithms are compared. `rows`: "right" leaves out trials whose answer is wrong.
     `margin` is a difference too small to matter, in the measure's unit (a ratio where `log`); most
-    measures leave that to the study.
+    measures leave that to the study. `column`: whose values it is made of, where that has another
+    name. `pool`: its tasks are also taken together. `price`: what time is set against.
     """
 
     name: str
     unit: str
     direction: Literal["less", "more"]
     scale: Literal["ratio", "count", "bounded", "ordinal", "binary", "censored"]
-    adds: Literal["mean", "sum", "median", "share"] = "mean"
+    adds: Literal["mean", "sum", "median", "share", "relative", "relative absolute"] = "mean"
     log: bool = False
     rows: Literal["all", "right"] = "all"
     margin: float | None = None
     label: str = ""
+    column: str = ""
+    pool: bool = False
+    price: bool = False
+
+    @property
+    def of(self) -> str:
+        """The column of its values."""
+        return self.column or self.name
 
     def as_dict(self) -> dict[str, Any]:
         """As a sidecar has it: plain JSON types."""
@@ -34,7 +45,13 @@ class Measure:
 
 # Times come from the session, not from a task: every task has this one, and every task knows
 # whether an answer is right.
-TIME = Measure("time", "s", "less", "ratio", log=True, label="completion time")
+TIME = Measure("time", "s", "less", "ratio", log=True, label="completion time", pool=True)
 CORRECT = Measure("correct", "", "more", "binary", "share", label="right answers")
-COUNT_ERROR = Measure("count_error", "objects", "less", "count", label="error of the count")
-DISTANCE = Measure("distance", "world units", "less", "ratio", label="distance of the mark")
+COUNT_ERROR = Measure(
+    "count_error", "", "less", "count", "relative", label="relative error", pool=True
+)
+ABSOLUTE_ERROR = Measure(
+    "absolute_error", "", "less", "count", "relative absolute", label="absolute relative error",
+    column="count_error", pool=True, price=True,
+)  # fmt: skip
+DISTANCE = Measure("distance", "units", "less", "ratio", label="distance", price=True)

@@ -9,15 +9,18 @@ from typing import get_args
 import pytest
 from published_design import columns, published
 
-from seethrough.analysis import exclude, plan
+from seethrough.analysis import before, exclude, plan
 from seethrough.analysis.load import schema
 from seethrough.analysis.load.chain import link, seal_of, start_of
 from seethrough.experiment.record import chain
 from seethrough.experiment.study import study_tables
 
+BEFORE = before.design_before({})
+
 
 @pytest.mark.parametrize(
-    ("table", "read"), [("trials", schema.TRIALS), ("questionnaire", schema.QUESTIONNAIRE)]
+    ("table", "read"),
+    [("trials", schema.trial_columns(BEFORE)), ("questionnaire", schema.answer_columns(BEFORE))],
 )
 def test_every_column_read_is_written_with_the_same_type(table: str, read: dict[str, str]) -> None:
     """Names and types agree; the recorder may write more than the analysis reads."""
@@ -29,7 +32,7 @@ def test_levels_are_the_same() -> None:
     """A level that the recorder may write is one that the analysis knows."""
     written = {c.name: c.levels for c in columns()["trials"] if c.levels}
     written["task"] = tuple(task["name"] for task in published()["tasks"])
-    assert {name: tuple(levels) for name, levels in schema.LEVELS.items()} == written
+    assert {name: tuple(levels) for name, levels in schema.levels(BEFORE).items()} == written
 
 
 def test_the_chain_is_the_same_chain(tmp_path: Path) -> None:

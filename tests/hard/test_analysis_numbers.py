@@ -9,7 +9,7 @@ import oracles
 import pytest
 
 from seethrough.analysis.cells import means
-from seethrough.analysis.comparison import Measure, compare, compare_logs
+from seethrough.analysis.comparison import Pair, compare, compare_logs
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.paired import one_sample, paired, ratio_of_means, tost
 from seethrough.analysis.stats.ranks import friedman
@@ -138,8 +138,8 @@ def test_perfect_agreement_of_all_participants():
 
 def test_zero_means_have_no_ratio_and_no_margin():
     zero = np.zeros(6)
-    assert ratio_of_means(zero, np.ones(6))[0] == Undefined("the standard mean is zero")
-    table = compare([Measure("m", "m", "", 2, zero, zero)], {"time": 1.2})
+    assert ratio_of_means(zero, np.ones(6))[0] == Undefined("the baseline's mean is zero")
+    table = compare([Pair("m", "m", "", 2, zero, zero)])
     assert str(table.row("m")["tost_p"]) == "undefined: no margin was declared before the data"
     assert tost(zero, 1.0).p == EQUAL
 
@@ -147,7 +147,7 @@ def test_zero_means_have_no_ratio_and_no_margin():
 def test_a_constant_ratio_of_times_is_equal_on_the_log_scale():
     times = np.array([12.5, 40.1, 33.3, 71.9])
     logs = (np.log(times), np.log(times * 0.5))
-    table = compare_logs([Measure("t", "t", "s", 2, times, times * 0.5, logs=logs)], {})
+    table = compare_logs([Pair("t", "t", "s", 2, times, times * 0.5, logs=logs)])
     assert table.row("t")["p"] == EQUAL
     assert table.row("t")["ratio"] == pytest.approx(0.5, rel=1e-12)
 

@@ -11,7 +11,7 @@ from made_data import Made, make_folder
 
 from seethrough.experiment.cli import main
 
-FIGURES = ("time", "errors", "ratings", "tradeoff", "learning")
+FIGURES = ("time", "count_error", "ratings", "tradeoff", "learning")
 
 
 def rewrite(folder: Path, change: Callable[[dict[str, str]], None]) -> None:

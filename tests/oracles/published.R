@@ -31,10 +31,10 @@ kind_of <- function(name) switch(sub("_.*", "", name), time = "time", error = "c
 # the data must have what is printed, or they are not the paper's
 check_moments <- function(row, m) {
   close <- function(a, b) stopifnot(abs(a / as.numeric(b) - 1) < 1e-9)
-  close(row$mean_standard, m$standard$mean)
-  close(row$sd_standard, m$standard$sd)
-  close(row$mean_dynamic, m$dynamic$mean)
-  close(row$sd_dynamic, m$dynamic$sd)
+  close(row$mean_baseline, m$standard$mean)
+  close(row$sd_baseline, m$standard$sd)
+  close(row$mean_level, m$dynamic$mean)
+  close(row$sd_level, m$dynamic$sd)
   close(row$F, m$F)
 }
 

@@ -13,7 +13,7 @@ invisible(Sys.setlocale("LC_COLLATE", "C"))
 here <- dirname(sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE)))
 for (file in c(
   "write", "read", "distributions", "cells", "pairs", "anova", "ranks", "compare", "sections", "validity",
-  "participants", "mixed"
+  "participants", "mixed", "robust"
 )) source(file.path(here, "r", paste0(file, ".R")), encoding = "UTF-8")
 
 main <- function(folder, out) {
@@ -28,7 +28,8 @@ main <- function(folder, out) {
   tables <- c(
     participants_tables(d), time_tables(d), accuracy_tables(d), ratings_tables(d),
     tradeoff_tables(d), list(order = order_rows(d)), learning_tables(d),
-    list(faults = fault_rows(d), difficulty = difficulty_rows(d), mixed_model = mixed_row(d))
+    list(faults = fault_rows(d), difficulty = difficulty_rows(d), mixed_model = mixed_row(d)),
+    list(robust = robust_rows(d))
   )
   write_tables(tables, out)
 }

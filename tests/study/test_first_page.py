@@ -38,13 +38,13 @@ class FirstPage(HTMLParser):
         if tag == "section":
             self._section += 1
             self._inside = self._section == 1
-        if tag == "details" or (tag == "p" and own.get("class") == "note"):
-            self._skip += 1  # the note says where the numbers are; folds are no first page
+        if tag in ("details", "table") or (tag == "p" and own.get("class") == "note"):
+            self._skip += 1  # the note says where the numbers are; a table is one; folds come later
         if tag == "data" and self._inside:
             self._data = own
 
     def handle_endtag(self, tag):
-        if tag in ("details", "p") and self._skip:
+        if tag in ("details", "table", "p") and self._skip:
             self._skip -= 1
         if tag == "data":
             self._data = None
@@ -146,15 +146,13 @@ def pairs(rows) -> dict[tuple[str, str], tuple[np.ndarray, np.ndarray]]:
         np.mean(x, axis=0) for x in zip(*logs, strict=True)
     )
     for file, prefix, value in (
-        ("tests_accuracy.csv", "error", error),
+        ("tests_count_error.csv", "count_error", error),
         ("tests_absolute_error.csv", "absolute_error", absolute_error),
     ):
         own = [both(task, value) for task in ("count", "count_in_building")]
         found[file, f"{prefix}_count"], found[file, f"{prefix}_count_in_building"] = own
-        found[file, f"{prefix}_combined"] = tuple(
-            np.mean(x, axis=0) for x in zip(*own, strict=True)
-        )
-    found["tests_accuracy.csv", "distance_unique"] = both("unique", mean_of("distance"))
+        found[file, f"{prefix}_overall"] = tuple(np.mean(x, axis=0) for x in zip(*own, strict=True))
+    found["tests_distance.csv", "distance_unique"] = both("unique", mean_of("distance"))
     for task in TASKS:
         found["friedman_correct.csv", f"correct_{task}"] = both(task, share)
     return found
@@ -183,7 +181,7 @@ def expected(own, file: str, row: str, column: str) -> float:
     ends = test.confidence_interval()
     families = {
         "tests_log_time.csv": [f"time_{t}" for t in TASKS],
-        "tests_accuracy.csv": ["error_count", "error_count_in_building"],
+        "tests_count_error.csv": ["count_error_count", "count_error_count_in_building"],
         "tests_absolute_error.csv": ["absolute_error_count", "absolute_error_count_in_building"],
         "friedman_correct.csv": [f"correct_{t}" for t in TASKS],
     }

@@ -59,8 +59,8 @@ def test_times_by_task_are_those_of_the_files(report):
         else:
             first, second = np.array(raw[task, "standard"]), np.array(raw[task, "dynamic"])
         test = stats.ttest_rel(first, second)
-        assert float(row["mean_standard"]) == pytest.approx(first.mean(), rel=1e-12)
-        assert float(row["sd_dynamic"]) == pytest.approx(second.std(ddof=1), rel=1e-12)
+        assert float(row["mean_baseline"]) == pytest.approx(first.mean(), rel=1e-12)
+        assert float(row["sd_level"]) == pytest.approx(second.std(ddof=1), rel=1e-12)
         assert float(row["F"]) == pytest.approx(test.statistic**2, rel=1e-10)
         assert float(row["p"]) == pytest.approx(test.pvalue, rel=1e-9)
 
@@ -123,7 +123,13 @@ def test_a_frozen_plan_is_followed_and_deviations_are_listed(tmp_path):
     ):
         assert deviation in text
     # the frozen tests run, and no others
-    assert [s.key for s in made.sections] == ["summary", "participants", "time", "provenance"]
+    assert [s.key for s in made.sections] == [
+        "summary",
+        "participants",
+        "methods",
+        "time",
+        "provenance",
+    ]
     with_other_rules = as_markdown(make_report(folder, Options(exclude=["focus_lost"])))
     assert "Exclusion rules are: focus\\_lost; planned were: timed\\_out" in with_other_rules
 

@@ -45,7 +45,7 @@ def test_data_mode_ends_in_a_report_that_says_what_it_is(tables, tmp_path):
     assert "never evidence" in sidecar["mode"]
     assert cli.main(["report", str(out), "--out", str(tmp_path / "report")]) == 0
     text = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
-    assert "never evidence" in text and "Ratings and preference" in text
+    assert "never evidence" in text and "Questionnaire" in text
     assert cli.main(["export", str(out), "--format", "wide", "--out", str(tmp_path / "w")]) == 0
 
 

@@ -5,21 +5,19 @@ from __future__ import annotations
 import pytest
 
 
-def differences(found, known, where="", rel=1e-6):
+def differences(found, known, where=""):
     """Paths at which two trees of numbers, texts and lists are not alike."""
     if isinstance(known, dict) and isinstance(found, dict):
         keys = set(known) ^ set(found)
-        parts = [
-            differences(found[k], known[k], f"{where}.{k}", rel) for k in set(known) & set(found)
-        ]
+        parts = [differences(found[k], known[k], f"{where}.{k}") for k in set(known) & set(found)]
     elif isinstance(known, list) and isinstance(found, list) and len(known) == len(found):
         keys = ()
-        parts = [differences(a, b, f"{where}[{n}]", rel)
+        parts = [differences(a, b, f"{where}[{n}]")
                  for n, (a, b) in enumerate(zip(found, known, strict=True))]  # fmt: skip
     elif isinstance(known, float) and isinstance(found, int | float):
         # Nine digits are written down; libraries of mathematics differ in the last, and what
         # cancels in a sum of thousands leaves their rounding.
-        same = found == pytest.approx(known, rel=rel, abs=1e-6)
+        same = found == pytest.approx(known, rel=1e-6, abs=1e-6)
         return [] if same else [f"{where}: {found} for {known}"]
     else:
         return [] if found == known else [f"{where}: {found} for {known}"]

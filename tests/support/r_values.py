@@ -21,6 +21,7 @@ from seethrough.analysis.page.tables_csv import as_csv
 from seethrough.analysis.stats.distributions import t_two_sided
 
 FOLDER = Path(__file__).parents[1] / "oracles"
+DESIGN_FOLDER = FOLDER / "designs"
 ABOUT = "made.json"
 
 CLOSED = 1e-8
@@ -40,7 +41,7 @@ FLOORS = {
 """What may be left of a number that is small because larger ones cancel in it."""
 CANCEL = 1e-14
 """Of means and s.d.: what rounding leaves of differences between equal sums in another order."""
-CANCELLING = ("difference", "within_half", "mean_standard", "mean_dynamic")
+CANCELLING = ("difference", "within_half", "mean_baseline", "mean_level")
 NEAR_1E9 = {"log": 1e-5, "": 1e-6}
 """Times near 10⁹: of a spread of some seconds seven digits are left in a mean, which is a double;
 their logarithms near 20.7 spread by some 10⁻⁸, and have six to seven."""
@@ -50,6 +51,9 @@ SAMPLED = 4.0
 WORDS = "words of ours, no number"
 WITHOUT: Mapping[tuple[str, str], str] = {
     ("ran", "*"): "versions, hashes, seeds and words",
+    ("dictionary", "*"): "words, no number",
+    ("flow", "*"): "counts of rows, held by tests/unit/analysis/test_methods.py",
+    ("predictions", "*"): "each p that decides stands in another table, too, and is held there",
     ("*", "label"): WORDS,
     ("*", "unit"): WORDS,
     ("*", "task"): "the label of the key's task",
@@ -138,7 +142,13 @@ def closed_form(case: str, table: str) -> float:
     """How close, relatively, a closed form of this folder's table has to be."""
     if case != "offset":
         return CLOSED
-    logs = table.endswith("_log") or table in ("tests_log_time", "order", "learning", "tradeoff")
+    logs = table.endswith("_log") or table in (
+        "tests_log_time",
+        "order",
+        "learning",
+        "tradeoff",
+        "robust",
+    )
     return NEAR_1E9["log" if logs else ""]
 
 
@@ -209,6 +219,10 @@ def _room(
     closed: float,
 ) -> float:
     """How far a number may be from R's."""
+    if column == "p_flip" and mine.get("method", "").endswith(" draws"):
+        draws = int(mine["method"].split()[0])
+        # R drew, too, twenty times as many
+        return SAMPLED * math.sqrt(truth * (1 - truth) * 1.05 / draws) + 1 / draws
     if column == "p_exact" and mine.get("method", "").endswith(" permutations"):
         draws = int(mine["method"].split()[0])
         # both count the observed order in: (hits + 1) / (draws + 1)
@@ -216,7 +230,7 @@ def _room(
     if table == "mixed_model" and column in FITTED:
         return FITTED[column](theirs) + CLOSED * abs(truth)
     floor = FLOORS.get(column, 0.0)
-    if column in CANCELLING and "sd_standard" in theirs:
-        sizes = ("mean_standard", "mean_dynamic", "sd_standard", "sd_dynamic")
+    if column in CANCELLING and "sd_baseline" in theirs:
+        sizes = ("mean_baseline", "mean_level", "sd_baseline", "sd_level")
         floor = CANCEL * sum(abs(float(theirs[c])) for c in sizes if theirs[c] != "undefined")
     return max(closed, SHAPIRO if column == "shapiro_p" else 0.0) * abs(truth) + floor

@@ -208,10 +208,10 @@ def _thirds_answers(person: int, answers: Answers) -> Answers:
 def _missing(person: int, plays: Plays) -> Plays:
     """P03 has no T3 with the technique, P05 no T2 at all, P07 a trial less, P09 half of T1."""
     lost = {
-        3: lambda t: t.task == "unique" and t.transparency == "dynamic",
+        3: lambda t: t.task == "unique" and t.levels[VIEW] == "dynamic",
         5: lambda t: t.task == "pattern",
         7: lambda t: t.number == 1,
-        9: lambda t: t.task == "count" and t.in_set > 1 and t.transparency == "standard",
+        9: lambda t: t.task == "count" and t.in_set > 1 and t.levels[VIEW] == "standard",
     }.get(person, lambda t: False)
     return [p for p in plays if not lost(p.trial)]
 
@@ -281,8 +281,12 @@ CASES = (
     Case("timed_out", study={"task": {"limit": LIMIT}}, change=_timed_out),
     Case("three", people=3),
     Case("two_hundred", people=200, source="simulated"),
-    Case("one_level", study={"design": {"transparency": ["standard"]}}),
-    Case("one_task", study={"design": {"tasks": ["count"]}}),
+    Case(
+        "one_level",
+        change=lambda _, plays: [p for p in plays if p.trial.levels[VIEW] == "standard"],
+        change_answers=lambda _, answers: [a for a in answers if a.transparency != "dynamic"],
+    ),
+    Case("one_task", change=lambda _, plays: [p for p in plays if p.trial.task == "count"]),
     Case("offset", change=_offset),
     Case("identical", change=_identical, change_answers=_identical_answers),
 )

@@ -15,7 +15,8 @@ from unittest.mock import patch
 import numpy as np
 from report_cases import Answer, Case, Draws, Play, plain_answers, plain_plays
 
-from seethrough.analysis.load.schema import CERTIFICATE
+from seethrough.analysis.before import design_before
+from seethrough.analysis.load.schema import certificate_columns
 from seethrough.analysis.published.grim import fitting_whole_numbers
 from seethrough.analysis.published.numbers import load_published
 from seethrough.analysis.published.report import reconstructed
@@ -44,7 +45,7 @@ def study_of(case: Case) -> Study:
     """The published study with the case's own name and changes."""
     path = find("published")
     table = tomllib.loads(path.read_text(encoding="utf-8"))
-    table["session"].pop("consent")
+    table["questions"].pop("consent")
     changes = {"study": {"name": "oracle", "participants": case.people}, **case.study}
     for name, change in changes.items():
         table[name] = {**table.get(name, {}), **change}
@@ -180,7 +181,7 @@ def _certificate(folder: Path) -> None:
     met: dict[tuple[str, str], dict[str, str]] = {}
     for row in _rows(folder.glob("data/*/*/*_trials_data.csv")):
         met.setdefault((row["scene"], row["task"]), row)
-    lines = [",".join(CERTIFICATE)]
+    lines = [",".join(certificate_columns(design_before({})))]
     for number, ((scene, task), row) in enumerate(sorted(met.items())):
         draws = Draws(3, number)
         path = round(60 + 40 * draws.share(), 2) if row["scenario"] == "walkthrough" else 0.0
@@ -230,7 +231,7 @@ def published_data() -> list[tuple[str, float, float]]:
     rows = [
         (m.key, float(a), float(b))
         for m in reconstructed(published, rng)
-        for a, b in zip(m.standard, m.dynamic, strict=True)
+        for a, b in zip(m.first, m.second, strict=True)
     ]
     ratings = [
         fitting_whole_numbers(

@@ -70,7 +70,7 @@ class Crowd:
         even = Halton(TRAITS, seed=generator(seed, (SIMULATED,)))
         self.traits = ndtri(even.random(count))
 
-    def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, Any]]:
+    def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, object]]:
         """Who, which task and level, and how long: every trial of `tasks`, after its training.
 
         What is drawn on the way is kept person by person: an interrupted fit goes on with it.

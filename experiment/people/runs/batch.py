@@ -35,7 +35,7 @@ class Batch:
     draws: bool = True
     code: str = field(default_factory=code_sha256)  # of the process that began the run
 
-    def about(self, study: Study) -> dict[str, Any]:
+    def about(self, study: Study) -> dict[str, object]:
         """The sidecar of every chunk: what the rows depend on."""
         return {
             "mode": "data: decisions from visibility tables; a tool for planning, never evidence",
@@ -69,7 +69,7 @@ def prepare(batch: Batch, study: Study | None = None, tables: bytes = b"") -> No
     _ready.update(batch=batch, study=study, pool=pool)
 
 
-def play_chunk(slots: Sequence[int], profile: Profile | None = None) -> list[dict[str, Any]]:
+def play_chunk(slots: Sequence[int], profile: Profile | None = None) -> list[dict[str, object]]:
     """Rows of the trial table of these slots, in order; `profile` instead of the batch's."""
     return [row for played in _sessions(slots, profile) for row in played.trials]
 
@@ -96,7 +96,7 @@ def in_chunks(slots: Sequence[int]) -> list[tuple[int, ...]]:
     return [tuple(slots[i : i + CHUNK]) for i in range(0, len(slots), CHUNK)]
 
 
-def play(batch: Batch, slots: Sequence[int], workers: int) -> Iterator[list[dict[str, Any]]]:
+def play(batch: Batch, slots: Sequence[int], workers: int) -> Iterator[list[dict[str, object]]]:
     """Rows chunk by chunk, the same whatever the number of workers."""
     return ordered_map(play_chunk, in_chunks(slots), workers, prepare, (batch,))
 

@@ -83,7 +83,7 @@ class Pool(StudyScenes):
     def _stream(self, task: str, which: int) -> tuple[int, ...]:
         return (STUDY_SCENES, POOL, sorted(self.study.tasks()).index(task), which)
 
-    def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> Any:
+    def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> object:
         setting = self.study.setting(trial)
         name = f"{trial.task}-" + "-".join(map(str, stream))
         if (name, setting.place) not in self._scenes:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -56,7 +55,7 @@ class DepthTest:
 
 
 @lru_cache(maxsize=4)
-def depth_test(seed: int, world: str, place: Any) -> DepthTest:
+def depth_test(seed: int, world: str, place: object) -> DepthTest:
     """The test of a study, in a world of such parameters: the same for everybody. Raises ValueError
     if no scene shows six kinds.
 

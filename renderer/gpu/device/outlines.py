@@ -16,7 +16,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Floats, Floats32, Ints, Whole
+from seethrough.renderer.arrays import Bits, Floats, Floats32, Ints
 from seethrough.renderer.masks import contours
 from seethrough.renderer.plan import blocks
 
@@ -106,7 +106,7 @@ def _fill(
     which: Ints,
     wanted: Wanted,
     out: Floats32,
-    bits: Whole,
+    bits: Bits,
     begin: int,
     step: int,
 ) -> None:

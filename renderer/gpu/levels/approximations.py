@@ -9,6 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.reused import spoil
 from seethrough.renderer.gpu.levels.polygon_painter import Corners, PolygonPainter
@@ -47,7 +48,9 @@ class WeightedPainter:
         for part, through in zip(self._emptied, (1.0, 0.0), strict=True):
             part.clear(0.0, 0.0, 0.0, through)
         context.enable_only(moderngl.BLEND | moderngl.DEPTH_TEST)
-        context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ZERO, moderngl.ONE_MINUS_SRC_ALPHA
+        pipeline.blend(
+            context, (moderngl.ONE, moderngl.ONE, moderngl.ZERO, moderngl.ONE_MINUS_SRC_ALPHA)
+        )
         self.frame.depth_mask = False
         self.frame.use()
         self.gather.set(range=depths)

@@ -10,20 +10,22 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.gpu.device import reused
+from seethrough.renderer.gpu.device import pipeline, reused
 from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
-from seethrough.renderer.gpu.per_pixel.exact_painter import ExactJob, ExactPainter
+from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
+from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
+from seethrough.renderer.gpu.rules.rule_program import RulePrograms
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import PEELS, REMOVAL, Shot
+from seethrough.renderer.techniques.base import PEELS, REMOVAL, Parameters, Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 if TYPE_CHECKING:
@@ -71,7 +73,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: object,
+        technique: Any,
         target: FrameTarget,
         scale: float = 1.0,
         after_level: AfterLevel | None = None,
@@ -113,7 +115,15 @@ class Layer:
             self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
         )
 
-    def _draw_ruled(self, table, frame, technique, state, shot, target) -> None:  # type: ignore[no-untyped-def]
+    def _draw_ruled(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        technique: Parameters,
+        state: object,
+        shot: Shot,
+        target: FrameTarget,
+    ) -> None:
         """What the technique's rule is asked about, by the painter that it names."""
         name = technique.technique.painter
         if name not in self._ruled:
@@ -123,7 +133,29 @@ class Layer:
         self._passes += 1
         self.peeled = painter.found[::-1]
 
-    def exact_layers(self, table, frame, camera, technique, size, scale):  # type: ignore[no-untyped-def]
+    def needed(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: Parameters,
+        size: tuple[int, int],
+    ) -> dict[str, NDArray[np.float32]]:
+        """Pictures that the technique's rule needs, by name (RulePrograms.needed)."""
+        camera = tight(camera, frame)
+        programs = RulePrograms(self._context, self._defines)
+        shot, matrix = Shot(table.scene, camera, size), clip_from_offset(camera, size)
+        return programs.needed(table, technique, shot, matrix)
+
+    def exact_layers(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: DynamicTransparency,
+        size: tuple[int, int],
+        scale: float,
+    ) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
         """Objects + 1 and shares at each pixel, from the front (ExactPainter.layers)."""
         reused.begin(self._context)
         camera = tight(camera, frame)
@@ -136,7 +168,15 @@ class Layer:
             self._exact = ExactPainter(self._context)
         return self._exact
 
-    def _job(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
+    def _job(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: DynamicTransparency,
+        scale: float,
+        size: tuple[int, int],
+    ) -> ExactJob:
         width = technique.width * scale
         return ExactJob(table, frame, camera, technique, width, size, self._matrix)
 
@@ -149,7 +189,15 @@ class Layer:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
         self._context.depth_func = "<="
 
-    def _before(self, table, frame, camera, technique, scale, size):  # type: ignore[no-untyped-def]
+    def _before(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: DynamicTransparency,
+        scale: float,
+        size: tuple[int, int],
+    ) -> tuple[list[list[Run]], list[list[Run]]]:
         """Put the objects in sequence, begin what the masks look up. Returns the runs of the opaque
         pass and of each level, and those that `_looked_up` draws."""
         wide = np.zeros(len(frame.reasons), dtype=bool)
@@ -173,7 +221,15 @@ class Layer:
         self._bind(table, sequence)
         return runs[: len(parts)], runs[len(parts) :]
 
-    def _looked_up(self, table, frame, camera, technique, runs, size):  # type: ignore[no-untyped-def]
+    def _looked_up(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        technique: DynamicTransparency,
+        runs: list[list[Run]],
+        size: tuple[int, int],
+    ) -> moderngl.Texture | None:
         """Draw what the masks look up. Returns the picture of counts if one is needed."""
         self._use(self._masks.cover)
         whole = len(self._masks.geometry.covered)
@@ -184,7 +240,9 @@ class Layer:
             return None
         return self._count(size, runs[-2], runs[-1])
 
-    def _count(self, size: tuple[int, int], targets: list[Run], occluders: list[Run]):  # type: ignore[no-untyped-def]
+    def _count(
+        self, size: tuple[int, int], targets: list[Run], occluders: list[Run]
+    ) -> moderngl.Texture:
         if self._counter is None:
             self._counter = LayerCounter(self._context)
         self._use(self._counter.program)
@@ -208,7 +266,7 @@ class Layer:
             self._context.disable(moderngl.BLEND)
         else:
             self._context.enable(moderngl.BLEND)
-            self._context.blend_func = blend
+            pipeline.blend(self._context, blend)
         for mesh, start, count in runs:
             mesh.draw(self._context, shader, start, count)
         self._passes += 1
@@ -232,7 +290,7 @@ class Layer:
         context = self._context
         context.disable(moderngl.CULL_FACE)
         context.enable(moderngl.BLEND)
-        context.blend_func = NOTHING
+        pipeline.blend(context, NOTHING)
         context.depth_func = "1"
         self._flat.set(depth=depth)
         array.render(moderngl.TRIANGLES)
@@ -253,7 +311,7 @@ class Layer:
 
                 self._clusters = ClusterPainter(self._context)
             self._context.enable(moderngl.BLEND)
-            self._context.blend_func = OBJECT
+            pipeline.blend(self._context, OBJECT)
             self._draws += self._clusters.draw(table.scene, members, camera, self._object)
             self._passes += 1
             self._bind(*self._bound)
@@ -272,30 +330,30 @@ class Layer:
         for k, level in enumerate(frame.levels):
             for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
                 if wide and part:
-                    target.framebuffer.scissor = _scope(frame, target.size)
+                    pipeline.within(target.framebuffer, _scope(frame, target.size))
                 solid = [run for run in part if every or not run[0].mesh.convex]
                 self._pass(self._depth, solid, NOTHING)
                 self._pass(self._object, part, OBJECT)
-                target.framebuffer.scissor = None
+                pipeline.within(target.framebuffer, None)
             self._draw_clusters(table, camera, frame, level)
             if after_level is not None and len(level.objects):
                 after_level(level.objects)
             if len(level.masks):
                 self._draw_masks(level.masks, technique.combine == "min")
 
-    def _draw_masks(self, targets, least: bool) -> None:  # type: ignore[no-untyped-def]
+    def _draw_masks(self, targets: NDArray[np.int64], least: bool) -> None:
         context = self._context
         context.enable(moderngl.BLEND)
         context.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        context.blend_func = MASK
+        pipeline.blend(context, MASK)
         if least:
-            context.blend_equation = moderngl.FUNC_ADD, moderngl.MIN
+            pipeline.combine(context, moderngl.FUNC_ADD, moderngl.MIN)
         self._draws += self._masks.draw(targets)
-        context.blend_equation = moderngl.FUNC_ADD
+        pipeline.combine(context, moderngl.FUNC_ADD)
         context.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
 
 
-def _counted(frame: FramePlan, technique: DynamicTransparency):  # type: ignore[no-untyped-def]
+def _counted(frame: FramePlan, technique: DynamicTransparency) -> NDArray[np.int64]:
     """Targets whose layers are counted."""
     all_of_them = "counting" in frame.without and technique.min_transmittance > 0
     return frame.masked if all_of_them else frame.counted

@@ -17,13 +17,19 @@ class LayerCounter:
         self._context = context
         self.program = program(context, "object.vert", "count.frag")
         self._size = (0, 0)
+        self.counts: moderngl.Texture
+        self._depth: moderngl.Renderbuffer
+        self._marking: moderngl.Framebuffer
+        self._counting: moderngl.Framebuffer
 
     def _reserve(self, size: tuple[int, int]) -> None:
         if size == self._size:
             return
         if self._size != (0, 0):
-            for thing in (self._marking, self._counting, self.counts, self._depth):
-                thing.release()
+            self._marking.release()
+            self._counting.release()
+            self.counts.release()
+            self._depth.release()
         self._size = size
         self.counts = kept(self._context.texture(size, 4, dtype="f2"))
         self.counts.filter = (moderngl.NEAREST, moderngl.NEAREST)

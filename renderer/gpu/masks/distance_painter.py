@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Floats, Floats32, Ints
-from seethrough.renderer.gpu.device import state, tiles
+from seethrough.renderer.gpu.device import pipeline, tiles
 from seethrough.renderer.gpu.device.outlines import Wanted
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
@@ -114,15 +114,15 @@ class DistancePainter:
             return draws + self._draw_rings(runs, technique)
         self._segment.set(size=size, width=width + 1.0)
         self._context.enable_only(moderngl.BLEND)
-        state.combine(self._context, moderngl.MIN)
+        pipeline.combine(self._context, moderngl.MIN)
         for target in made.covered.tolist():
             ends = outline_segments(table, target, camera, size).astype("f4")
             if len(ends):
                 self._select(framebuffer, target)
                 self._upload("segment", self._segment, "4f/i", ("in_segment",), ends)
                 self._arrays["segment"].render(moderngl.TRIANGLE_STRIP, _STRIP, instances=len(ends))
-        state.within(framebuffer, None)
-        state.combine(self._context, moderngl.FUNC_ADD)
+        pipeline.within(framebuffer, None)
+        pipeline.combine(self._context, moderngl.FUNC_ADD)
         return draws + len(made.covered)
 
     def _upload(
@@ -153,7 +153,7 @@ class DistancePainter:
             self._pictures[name] = (texture, self._context.framebuffer([texture]))
         framebuffer = self._pictures[name][1]
         framebuffer.use()
-        state.within(framebuffer, None)
+        pipeline.within(framebuffer, None)
         return framebuffer
 
     def _select(self, framebuffer: moderngl.Framebuffer, target: int) -> None:
@@ -161,7 +161,7 @@ class DistancePainter:
         left, bottom, right, top = self._made.tile[target].tolist()
         x, y = self._made.shift[target].tolist()
         framebuffer.viewport = (x, y, *self._size)
-        state.within(framebuffer, (left, bottom, right - left, top - bottom))
+        pipeline.within(framebuffer, (left, bottom, right - left, top - bottom))
 
     def _cover_targets(self, framebuffer: moderngl.Framebuffer, runs: list[list[Run]]) -> int:
         """Mark the pixels that lie on each target that is drawn whole."""
@@ -170,7 +170,7 @@ class DistancePainter:
             self._select(framebuffer, target)
             for mesh, start, count in part:
                 mesh.draw(self._context, self.cover, start, count)
-        state.within(framebuffer, None)
+        pipeline.within(framebuffer, None)
         return sum(len(part) for part in runs)
 
     def _outlines(self) -> moderngl.Framebuffer:

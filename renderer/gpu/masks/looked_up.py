@@ -20,7 +20,7 @@ class LookedUp:
     lies beside its target. All of the outline's kind, `width` pixels wide.
     """
 
-    distances: moderngl.Texture
+    distances: moderngl.Texture | None
     targets: NDArray[np.int64]
     shifts: NDArray[np.int64]
     depths: NDArray[np.float64]

@@ -12,6 +12,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.masks.looked_up import LookedUp
@@ -96,7 +97,18 @@ class ExactMasks:
         return LookedUp(texture, made.targets, made.shift[made.targets], depths[made.targets],
                         job.width, technique.alpha_target, technique.alpha_edge)  # fmt: skip
 
-    def fill(self, job, size, parts, corners, owners, bases, wiped, slices, hard):  # type: ignore[no-untyped-def]
+    def fill(
+        self,
+        job: ExactJob,
+        size: tuple[int, int],
+        parts: list[NDArray[np.int64]],
+        corners: list[tuple[int, int]],
+        owners: list[NDArray[np.int64]],
+        bases: list[tuple[int, int]],
+        wiped: NDArray[np.float64] | None,
+        slices: Cells,
+        hard: moderngl.Texture,
+    ) -> int:
         """Draw the entries of all masks, which look up where their targets show in `slices`, and
         what is `hard`. Returns the draw calls."""
         components = 2 if job.technique.granularity == "pixel" else 4
@@ -106,6 +118,7 @@ class ExactMasks:
         painter = self._painter
         depths, extents = _window_depth(job), job.frame.boxes.extents + SLACK
         painter.begin()
+        assert slices.depth is not None  # slices have one
         slices.depth.use(DEPTHS)
         slices.color.use(COLORS)
         hard.use(PARTS)
@@ -123,7 +136,7 @@ class ExactMasks:
                 shader.set(beside=float(depths[t]), target=t, extents=tuple(place))
                 shader.set(way=slices.way(max(owner, 0), corners[k]))
                 painter.draw_one(t)
-        self.entries.framebuffer.scissor = None
+        pipeline.within(self.entries.framebuffer, None)
         return sum(len(targets) for targets in parts)
 
 

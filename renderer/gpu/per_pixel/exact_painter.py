@@ -8,11 +8,14 @@ list of fragments of every pixel, and the same goes for the masks. One shader so
 from __future__ import annotations
 
 from collections.abc import Iterator
+from concurrent.futures import Future
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bits, Floats, Floats32, Ints, Real
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
@@ -71,9 +74,9 @@ class ExactPainter:
             for k, part in enumerate(parts):
                 bits = self._bits[k]
                 for place in within(part, job.frame.doubtful) if bits is None else part[None]:
-                    target.scissor = _gl(place, job.size)
+                    pipeline.within(target, _gl(place, job.size))
                     draws += self._sorter.sort(filled, part, k, bits, every)
-            target.scissor = None
+            pipeline.within(target, None)
             target.viewport = (0, 0, *job.size)
             passes += 2
         return passes, draws
@@ -131,7 +134,7 @@ class ExactPainter:
         """
         whole |= job.technique.min_transmittance > 0
         emptied: tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]] = ([], [])
-        size = tuple((parts[:, 2:] - parts[:, :2]).max(axis=0).tolist())
+        width, height = (parts[:, 2:] - parts[:, :2]).max(axis=0).tolist()
         slices: list[NDArray[np.int64]] = []
         entries: list[NDArray[np.int64]] = []
         corners: tuple[list[tuple[int, int]], list[tuple[int, int]]] = ([], [])
@@ -139,7 +142,7 @@ class ExactPainter:
         # For each cell of masks: the cells of its targets, the part's first one and how many.
         owners: list[NDArray[np.int64]] = []
         bases: list[tuple[int, int]] = []
-        shown: list[tuple[NDArray[np.int64], ...]] = []
+        shown: list[tuple[Ints, Ints, Floats, Ints]] = []
         for part in parts:
             corner = (int(part[0]), int(job.size[1] - part[3]))
             objects, which = _sets(job, part)
@@ -168,22 +171,28 @@ class ExactPainter:
         whole |= any(many)
         wiped = [None if whole else np.concatenate(rows) for rows in emptied]
         covering = [
-            None if m else self._cover(job, part, *row[:2])
+            None if m else self._cover(job, part, row[0], row[1])
             for m, part, row in zip(many, parts, shown, strict=True)
         ]
+        size = (width, height)
         draws = self._fill_slices(job, size, slices, corners[0], wiped[0])
+        made = self._slices
+        assert made is not None
         draws += self._masks.look_up(job)
         self._looked_up = None if whole else self._masks.looked_up(job)
         self._bits = [
-            None if begun is None else self._bits_of(job, begun, *row[2:])
+            None if begun is None else self._bits_of(job, begun, row[2], row[3])
             for begun, row in zip(covering, shown, strict=True)
         ]
-        if self._looked_up is not None and not any(too_many(*b[:2]) for b in self._bits):
+        over = any(too_many(b[0], b[1]) for b in self._bits if b is not None)
+        if self._looked_up is not None and not over:
             return draws
         args = (job, size, entries, corners[1], owners, bases, wiped[1])
-        return draws + self._masks.fill(*args, self._slices, self._textures["parts"])
+        return draws + self._masks.fill(*args, made, self._textures["parts"])
 
-    def _cover(self, job, part, objects, which):  # type: ignore[no-untyped-def]
+    def _cover(
+        self, job: ExactJob, part: Ints, objects: Ints, which: Ints
+    ) -> tuple[Bits, Future[None]]:
         """Begin to find which slices can show in each block of a part, beside the drawing."""
         table, bits = job.table, np.zeros(blocks.shape(job.size), np.uint64)
         every = table.triangles
@@ -193,7 +202,9 @@ class ExactPainter:
         args = (every.points, every.corners, spans, which, turns, moves, lens, boxes, part, bits)
         return bits, table.outlines.beside(coverage.cover, *args)
 
-    def _bits_of(self, job, covering, reach, mask):  # type: ignore[no-untyped-def]
+    def _bits_of(
+        self, job: ExactJob, covering: tuple[Bits, Future[None]], reach: Floats, mask: Ints
+    ) -> tuple[Bits, Bits, Bits]:
         """(h, w) of each block: which slices can show in it, which masks by their numbers, and
         which cells of masks."""
         marks = self._masks.marks()
@@ -204,12 +215,20 @@ class ExactPainter:
         begun.result()
         return slices, marks, blocks.covered(reach, mask, marks.shape) * (marks != 0)
 
-    def _fill_slices(self, job, size, parts, corners, wiped):  # type: ignore[no-untyped-def]
+    def _fill_slices(
+        self,
+        job: ExactJob,
+        size: tuple[int, int],
+        parts: list[Ints],
+        corners: list[tuple[int, int]],
+        wiped: Floats | None,
+    ) -> int:
         surfaces = job.technique.granularity == "surface"
         # 16-bit floats hold whole numbers up to 2048.
         dtype = "f2" if len(job.table.scene.objects) <= 2048 else "f4"
         kind = (dtype, True, surfaces, 4)
-        self._slices = emptied(self._context, self._slices, size, len(parts), kind, wiped)
+        cells = emptied(self._context, self._slices, size, len(parts), kind, wiped)
+        self._slices = cells
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = "<"
         base = job.table.first_triangle.astype(float)
@@ -217,10 +236,10 @@ class ExactPainter:
         shader = self._slice[surfaces]
         job.use(shader, sequence)
         for k, part in enumerate(runs):
-            self._slices.select(k, corners[k], job.size)
+            cells.select(k, corners[k], job.size)
             for mesh, start, count in part:
                 mesh.draw(self._context, shader, start, count)
-        self._slices.framebuffer.scissor = None
+        pipeline.within(cells.framebuffer, None)
         return sum(len(part) for part in runs)
 
     def _set_parts(self, job: ExactJob, opacity: NDArray[np.float64] | None) -> None:
@@ -232,7 +251,7 @@ class ExactPainter:
         rows[:n, 1] = 1.0 if opacity is None else opacity
         self._upload("parts", rows, _PER_ROW)
 
-    def _upload(self, name: str, rows: NDArray[np.float32], per_row: int) -> None:
+    def _upload(self, name: str, rows: Real, per_row: int) -> None:
         size = (per_row, len(rows) // per_row)
         if name not in self._textures or self._textures[name].size != size:
             if name in self._textures:
@@ -274,7 +293,7 @@ class ExactPainter:
         self._set_parts(job, 1 - (1 - job.technique.alpha_target) * best)
         return draws
 
-    def _lit(self, job: ExactJob, part: NDArray[np.int64]):  # type: ignore[no-untyped-def]
+    def _lit(self, job: ExactJob, part: Ints) -> tuple[Floats32, Floats32]:
         """Light on the masks behind each fragment of all slices, and its object or surface."""
         assert self._slices is not None
         cells = self._slices
@@ -314,8 +333,8 @@ def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], ND
 
 def _overlapping(extents: NDArray[np.float64], part: NDArray[np.int64]) -> NDArray[np.bool_]:
     """(n,) which extents reach into a part of the picture."""
-    low = (extents[:, :2] <= part[2:]).all(axis=1)
-    return low & (extents[:, 2:] >= part[:2]).all(axis=1)
+    low = np.all(extents[:, :2] <= part[2:], axis=1)
+    return low & np.all(extents[:, 2:] >= part[:2], axis=1)
 
 
 def bands(part: NDArray[np.int64], cells: int, tallest: int) -> list[NDArray[np.int64]]:

@@ -6,7 +6,6 @@ Only blocks of pixels that a mask touches are gone through; elsewhere the neares
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import moderngl
 import numpy as np
@@ -180,7 +179,7 @@ class PixelSorter:
     def _set(self, filled: Filled, shader: Shader, light: bool) -> None:
         technique = filled.technique
         filled.look_up(shader)
-        values: dict[str, Any] = {
+        values: dict[str, object] = {
             "columns": filled.slices.columns,
             "mask_columns": filled.entries.columns if filled.entries else 1,
             "per_pixel": technique.granularity == "pixel",

@@ -57,9 +57,12 @@ class FewSorter:
         """Draw those of the blocks `found` (k, 2) in which few can show. `bases` are the first
         cells of the part. Returns of which there are too many (k,), and the draws."""
         looked_up = filled.looked_up is not None
-        words = filled.looked_up.words if looked_up else _cell_words(filled.entries, bases[1])
+        if filled.looked_up is not None:
+            words = filled.looked_up.words
+        else:
+            words = _cell_words(filled.entries, bases[1])
         rows, starts, over = blocks.grouped(
-            *(found, which, _corners(filled.slices, bases[0]), words, SLICES, MASKS, every)
+            found, which, _corners(filled.slices, bases[0]), words, SLICES, MASKS, every
         )
         self._write(rows)
         self._context.enable_only(moderngl.PROGRAM_POINT_SIZE)

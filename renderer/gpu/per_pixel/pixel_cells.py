@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.reused import kept, spoil
 from seethrough.renderer.plan import blocks
@@ -122,7 +123,7 @@ class Cells:
 
     def clear(self) -> None:
         """Empty all cells and bind them."""
-        self.framebuffer.scissor = None
+        pipeline.within(self.framebuffer, None)
         self._emptied.clear(0.0, 0.0, 0.0, 0.0, depth=1.0, viewport=(0, 0, *self.whole))
         self.framebuffer.use()
 
@@ -134,7 +135,7 @@ class Cells:
         places = np.clip(boxes, 0, limit) + np.tile(base, 2)
         if self._wiper is None:
             self._wiper = Wiper(self._context)
-        self._emptied.scissor = None
+        pipeline.within(self._emptied, None)
         self._emptied.viewport = (0, 0, *self._room)
         self._emptied.use()
         self._wiper.draw(places, self._room)

@@ -13,6 +13,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
@@ -133,7 +134,7 @@ class PeelPainter:
                 self.found.append(_drawn(layer, buffers.lines if lines else layer, size))
             self._compose(color, buffers.total, UNDER)
         self._compose(buffers.sum, target.framebuffer, OVER)
-        target.framebuffer.scissor = None
+        pipeline.within(target.framebuffer, None)
         return draws
 
     def _bind(self, buffers: _Buffers, k: int) -> None:

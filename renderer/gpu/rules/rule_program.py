@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import moderngl
@@ -17,9 +17,6 @@ from seethrough.renderer.techniques.base import Shot
 
 PICTURES = 5  # the first texture unit of a rule's pictures
 
-# What a technique may need → which objects are drawn for it.
-NEEDED = {"target_depth"}
-
 
 class RulePrograms:
     """The programs of all techniques that were drawn, and their pictures."""
@@ -32,12 +29,12 @@ class RulePrograms:
         self._framebuffers: dict[tuple[int, int], moderngl.Framebuffer] = {}
 
     def ready(
-        self, table: SceneTable, technique: Any, state: Any, shot: Shot, matrix: bytes
+        self, table: SceneTable, technique: Any, state: object, shot: Shot, matrix: bytes
     ) -> Shader:
         """The technique's program with everything set but the sequence. Binds a framebuffer where
         the technique needs to know the targets' depth."""
         rules = technique.technique
-        needed = {name: self._target_depth(table, shot, matrix) for name in sorted(rules.needs)}
+        needed = self.needed(table, technique, shot, matrix)
         if rules.glsl not in self._programs:
             values = {"rule": rules.glsl}
             self._programs[rules.glsl] = program(
@@ -56,6 +53,13 @@ class RulePrograms:
                 self._upload(name, picture).use(unit)
                 shader.set(**{name: unit})
         return shader
+
+    def needed(
+        self, table: SceneTable, technique: Any, shot: Shot, matrix: bytes
+    ) -> dict[str, NDArray[np.float32]]:
+        """Name → (h, w) of the pictures that the technique needs."""
+        rules = technique.technique
+        return {name: self._target_depth(table, shot, matrix) for name in sorted(rules.needs)}
 
     def _upload(self, name: str, picture: NDArray[np.float32]) -> moderngl.Texture:
         size = (picture.shape[1], picture.shape[0])
@@ -118,6 +122,3 @@ def draw(
 def numbers(technique: Any, shot: Shot) -> NDArray[np.float64]:
     """(n,) the technique's own number of each object."""
     return np.asarray(technique.technique.objects(technique, shot.scene), dtype=float)
-
-
-Pictures = Mapping[str, NDArray[np.float32]]

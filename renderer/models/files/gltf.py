@@ -98,7 +98,7 @@ def _part(
 
 
 def _triangles(
-    file: GltfFile, primitive: dict[str, Any], count: int, what: str
+    file: GltfFile, primitive: dict[str, object], count: int, what: str
 ) -> NDArray[np.int64]:
     """(m, 3) vertices, of lists, strips and fans alike."""
     if "indices" in primitive:
@@ -124,7 +124,7 @@ def _triangles(
 
 def _colors(
     file: GltfFile,
-    attributes: dict[str, Any],
+    attributes: dict[str, object],
     material: Material,
     triangles: NDArray[np.int64],
     found: Found,

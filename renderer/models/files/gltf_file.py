@@ -156,7 +156,7 @@ class GltfFile:
         rows = np.ndarray((count, size), np.uint8, data, first, (step, 1))
         return np.ascontiguousarray(rows).view(kind).reshape(count, width)
 
-    def _is_fallback(self, view: dict[str, Any]) -> bool:
+    def _is_fallback(self, view: dict[str, object]) -> bool:
         """Whether the uncompressed data were left out."""
         buffer = self.row("buffers", view["buffer"])
         return "uri" not in buffer and not (view["buffer"] == 0 and self._chunk is not None)

@@ -28,7 +28,7 @@ class Node:
                 points = points + weight * self._file.numbers(target["POSITION"])
         return points
 
-    def skinned(self, points: Array, attributes: dict[str, Any]) -> Array:
+    def skinned(self, points: Array, attributes: dict[str, object]) -> Array:
         """Points (n, 3) where the skin's joints hold them, in the world."""
         assert self.joints is not None
         moved, total = np.zeros_like(points), np.zeros((len(points), 1))

@@ -157,8 +157,7 @@ def _close_diagonals(flat: Field, strides: NDArray[np.int64]) -> None:
     for _ in range(8):
         inside = flat < 0
         open_corners = []
-        for axis in range(3):
-            u, v = strides[(axis + 1) % 3], strides[(axis + 2) % 3]
+        for u, v in zip(np.roll(strides, -1), np.roll(strides, -2), strict=True):
             a, b, c, d = (inside[s : len(inside) - u - v + s] for s in (0, u, v, u + v))
             at = np.flatnonzero((a == d) & (b == c) & (a != b))
             first = np.where(inside[at], at + u, at)

@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,7 +58,7 @@ class AdaptiveCutaway(removal.Removal):
     removes = removal.CLIPPED
     needs = frozenset({"target_depth"})
 
-    def touches(self, p: AdaptiveParameters, state: Any, shot: Shot) -> Bools:
+    def touches(self, p: AdaptiveParameters, state: object, shot: Shot) -> Bools:
         """What is nearer than the farthest target."""
         from seethrough.renderer.scene.projection import screen_boxes
 
@@ -67,7 +66,7 @@ class AdaptiveCutaway(removal.Removal):
         far = boxes.far[shot.scene.targets & boxes.inside].max(initial=0.0)
         return removal.reached(shot, removal.whole(shot, 1), np.array([far]))
 
-    def known(self, p: AdaptiveParameters, state: Any, seen: Surfaces) -> Cones:
+    def known(self, p: AdaptiveParameters, state: object, seen: Surfaces) -> Cones:
         """The hole, from every point of a target."""
         width, height = seen.shot.size
         front = seen.targets & seen.front
@@ -83,7 +82,7 @@ class AdaptiveCutaway(removal.Removal):
         made = (_hole(p, d, seen.shot) for d in (depth, sure, wide))
         return Cones(*made)
 
-    def rule(self, p: AdaptiveParameters, state: Any, seen: Surfaces, known: Cones) -> Look:
+    def rule(self, p: AdaptiveParameters, state: object, seen: Surfaces, known: Cones) -> Look:
         """Removed before the depth at which the line of sight leaves the hole."""
         signed = known.depth[seen.pixel] - seen.depth
         slack = removal.uncertain(seen)
@@ -92,7 +91,7 @@ class AdaptiveCutaway(removal.Removal):
         return removal.look(p, seen, signed, known.depth > 0, doubt)
 
     def pictures(
-        self, p: AdaptiveParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+        self, p: AdaptiveParameters, state: object, shot: Shot, needed: Mapping[str, object]
     ) -> Mapping[str, NDArray[np.float32]]:
         """The hole, from the farthest target at each pixel."""
         from seethrough.renderer.techniques.adaptive_cutaway import cones

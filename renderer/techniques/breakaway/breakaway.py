@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,7 +47,7 @@ class Breakaway(removal.Removal):
     Parameters = BreakawayParameters
     removes = removal.CLIPPED
 
-    def touches(self, p: BreakawayParameters, state: Any, shot: Shot) -> Bools:
+    def touches(self, p: BreakawayParameters, state: object, shot: Shot) -> Bools:
         """What reaches into a hole's rectangle, and nearer than its target's end."""
         made = holes(shot)
         grow = (p.margin * shot.scale + 1) * np.array([-1, -1, 1, 1])
@@ -56,11 +55,13 @@ class Breakaway(removal.Removal):
         depths = np.array([hole.depth for hole in made])
         return removal.reached(shot, np.reshape(extents, (-1, 4)) + grow, depths)
 
-    def known(self, p: BreakawayParameters, state: Any, seen: Surfaces) -> list[Hole]:
+    def known(self, p: BreakawayParameters, state: object, seen: Surfaces) -> list[Hole]:
         """The holes."""
         return holes(seen.shot)
 
-    def rule(self, p: BreakawayParameters, state: Any, seen: Surfaces, known: list[Hole]) -> Look:
+    def rule(
+        self, p: BreakawayParameters, state: object, seen: Surfaces, known: list[Hole]
+    ) -> Look:
         """Removed within a hole, and before its target's end."""
         from seethrough.renderer.techniques.breakaway.border import room
 
@@ -79,7 +80,7 @@ class Breakaway(removal.Removal):
         return removal.look(p, seen, signed, pierced, doubt)
 
     def pictures(
-        self, p: BreakawayParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+        self, p: BreakawayParameters, state: object, shot: Shot, needed: Mapping[str, object]
     ) -> Mapping[str, NDArray[np.float32]]:
         """The depth at which each pixel's line of sight leaves the hole."""
         from seethrough.renderer.techniques.breakaway.border import filled

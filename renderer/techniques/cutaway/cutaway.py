@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,17 +54,17 @@ class Cutaway(removal.Removal):
     Parameters = CutawayParameters
     removes = removal.CLIPPED
 
-    def touches(self, p: CutawayParameters, state: Any, shot: Shot) -> Bools:
+    def touches(self, p: CutawayParameters, state: object, shot: Shot) -> Bools:
         """What is nearer than the end of a wedge."""
         made = wedges(p, shot)
         depths = np.array([w.depth for w in made])
         return removal.reached(shot, removal.whole(shot, len(made)), depths)
 
-    def known(self, p: CutawayParameters, state: Any, seen: Surfaces) -> list[Wedge]:
+    def known(self, p: CutawayParameters, state: object, seen: Surfaces) -> list[Wedge]:
         """The wedges."""
         return wedges(p, seen.shot)
 
-    def rule(self, p: CutawayParameters, state: Any, seen: Surfaces, known: list[Wedge]) -> Look:
+    def rule(self, p: CutawayParameters, state: object, seen: Surfaces, known: list[Wedge]) -> Look:
         """Removed inside a wedge: before all its planes, and before the box's end."""
         signed = np.full(len(seen.depth), -np.inf)
         for wedge in known:
@@ -76,7 +75,7 @@ class Cutaway(removal.Removal):
         return removal.look(p, seen, signed, pierced)
 
     def pictures(
-        self, p: CutawayParameters, state: Any, shot: Shot, needed: Mapping[str, Any]
+        self, p: CutawayParameters, state: object, shot: Shot, needed: Mapping[str, object]
     ) -> Mapping[str, NDArray[np.float32]]:
         """The depth at which each pixel's line of sight leaves the hole."""
         return {"clip": clip_depth(wedges(p, shot), shot)}
@@ -86,7 +85,7 @@ def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
     """One for each target that reaches beyond the near plane and has a box of some volume."""
     scene, camera = shot.scene, shot.camera
     targets = np.nonzero(scene.targets)[0]
-    center, sides = scene.centers[targets] - camera.eye, scene.box_sides[targets]
+    center, sides = scene.centers[targets] - camera.eye, _thick(scene.box_sides[targets])
     across = np.cross(sides[:, [1, 2, 0]], sides[:, [2, 0, 1]])
     across *= np.sign((across * sides).sum(axis=2, keepdims=True))
     lengths = np.linalg.norm(across, axis=2, keepdims=True)
@@ -102,6 +101,20 @@ def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
     for t in np.nonzero((depth > camera.near) & flat)[0]:
         chosen = order[t][away[t, order[t]] < 0]
         found.append(Wedge(normals[t, chosen], away[t, chosen], float(depth[t])))
+    return found
+
+
+def _thick(sides: Floats) -> Floats:
+    """(k, 3, 3) the sides of boxes, where one has no length a little of it: what is flat has two
+    faces as well."""
+    lengths = np.linalg.norm(sides, axis=2)
+    flat = lengths.min(axis=1) <= 1e-9 * lengths.max(axis=1)
+    found = sides.copy()
+    for t in np.nonzero(flat)[0]:
+        k = int(np.argmin(lengths[t]))
+        across = np.cross(sides[t, (k + 1) % 3], sides[t, (k + 2) % 3])
+        if across.any():
+            found[t, k] = across / np.linalg.norm(across) * lengths[t].max() * 1e-6
     return found
 
 

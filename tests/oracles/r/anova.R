@@ -38,7 +38,7 @@ effect_row <- function(part, n, residual, scale) {
   df1 <- q
   df2 <- q * (n - 1)
   gone <- c(
-    "F", "p", "eps", "p_gg", "mauchly_w", "mauchly_p", "ges", "pes", "pes_low", "pes_high",
+    "F", "p", "eps", "p_gg", "eps_hf", "p_hf", "p_lower", "mauchly_w", "mauchly_p", "ges", "pes", "pes_low", "pes_high",
     "bf10", "negligible_p"
   )
   out <- c(list(n = n, df1 = df1, df2 = df2), setNames(rep(list(undefined), length(gone)), gone))
@@ -53,6 +53,13 @@ effect_row <- function(part, n, residual, scale) {
   out$p <- pf(f, df1, df2, lower.tail = FALSE)
   out$eps <- eps
   out$p_gg <- pf(f, df1 * eps, df2 * eps, lower.tail = FALSE)
+  # Huynh and Feldt as Lecoutre corrected it (car has the same), at most 1
+  hf <- if (q == 1) 1 else min(1, (n * q * eps - 2) / (q * (n - 1 - q * eps)))
+  if (q == 1 || n - 1 > q * eps) {
+    out$eps_hf <- hf
+    out$p_hf <- pf(f, df1 * hf, df2 * hf, lower.tail = FALSE)
+  }
+  out$p_lower <- pf(f, 1, n - 1, lower.tail = FALSE)
   if (q > 1 && n - 1 >= q) {
     box <- mauchly_box(s, n - 1)
     out$mauchly_w <- box[1]
@@ -104,6 +111,9 @@ check_afex <- function(y, factors, rows) {
     ours <- c(row$df1, row$df2, row$F, row$ges, row$pes)
     # sums of squares of cells keep about ten digits beside a large one
     stopifnot(all(abs(ours / unlist(theirs[c("num Df", "den Df", "F", "ges", "pes")]) - 1) < 1e-7))
-    if (row$df1 > 1) stopifnot(abs(eps[name, "GG eps"] / row$eps - 1) < 1e-7)
+    if (row$df1 > 1) {
+      stopifnot(abs(eps[name, "GG eps"] / row$eps - 1) < 1e-7)
+      stopifnot(abs(min(1, eps[name, "HF eps"]) / row$eps_hf - 1) < 1e-7)
+    }
   }
 }

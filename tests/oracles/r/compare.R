@@ -73,7 +73,7 @@ log_row <- function(m, margins) {
   c(
     list(
       measure = m$key, n = length(m$x),
-      geometric_standard = exp(mean(m$x)), geometric_dynamic = exp(mean(m$y)),
+      geometric_baseline = exp(mean(m$x)), geometric_level = exp(mean(m$y)),
       ratio = exp(-own$difference), ratio_low = exp(-own$difference_high),
       ratio_high = exp(-own$difference_low)
     ),
@@ -86,7 +86,7 @@ friedman_of <- function(m, margins) {
   c(
     list(measure = m$key),
     test,
-    describe_two(m$x, m$y)[c("mean_standard", "sd_standard", "mean_dynamic", "sd_dynamic")],
+    describe_two(m$x, m$y)[c("mean_baseline", "sd_baseline", "mean_level", "sd_level")],
     list(difference = mean(m$x - m$y)),
     equivalence(m$x, m$y, m$kind, margins)
   )

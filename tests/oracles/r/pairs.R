@@ -106,8 +106,8 @@ describe_two <- function(x, y) {
   flat <- n > 1 && (diff(range(x)) == 0 || diff(range(y)) == 0)
   list(
     n = n,
-    mean_standard = mean(x), sd_standard = sd_of(x),
-    mean_dynamic = mean(y), sd_dynamic = sd_of(y),
+    mean_baseline = mean(x), sd_baseline = sd_of(x),
+    mean_level = mean(y), sd_level = sd_of(y),
     r = if (n < 2 || flat) undefined else cor(shifted(x), shifted(y)),
     within_half = within_half(x, y)
   )

@@ -64,10 +64,7 @@ missing_rows <- function(d) {
     `completion time` = lacking(by_task(rows, d$who, "time")),
     `relative error` = lacking(relative_error(rows, d$who, TRUE)),
     `absolute relative error` = lacking(relative_error(rows, d$who, FALSE)),
-    distance = lacking(table_of(
-      rows[rows$task == "unique", ], d$who, "distance",
-      list(transparency = levels_in(rows$transparency[rows$task == "unique"], LEVELS))
-    )),
+    distance = lacking(by_task(rows[rows$task == "unique", ], d$who, "distance")),
     `share correct` = lacking(by_task(rows, d$who, "correct")),
     ratings = if (nrow(q)) lacking(table_of(
       q, sort(unique(d$questions$participant), method = "radix"), "value", list(

@@ -10,11 +10,14 @@ task_factors <- function(rows) {
 by_task <- function(rows, who, column, f = mean) table_of(rows, who, column, task_factors(rows), f)
 
 spread_row <- function(v, log_v = NULL) {
-  names <- c("mean", "sd", "geometric", "median", "minimum", "maximum")
-  if (!length(v)) return(setNames(rep(list(undefined), 6), names))
+  names <- c("mean", "sd", "low", "high", "geometric", "median", "minimum", "maximum")
+  if (!length(v)) return(setNames(rep(list(undefined), length(names)), names))
+  half <- if (length(v) > 1) qt(0.975, length(v) - 1) * sd0(v) / sqrt(length(v)) else undefined
   geometric <- if (is.null(log_v)) undefined else exp(mean(log_v))
   list(
-    mean = mean(v), sd = if (length(v) > 1) sd0(v) else undefined, geometric = geometric,
+    mean = mean(v), sd = if (length(v) > 1) sd0(v) else undefined,
+    low = if (length(v) > 1) mean(v) - half else undefined,
+    high = if (length(v) > 1) mean(v) + half else undefined, geometric = geometric,
     median = median(v), minimum = min(v), maximum = max(v)
   )
 }
@@ -105,18 +108,28 @@ relative_error <- function(rows, who, cancel) {
 accuracy_tables <- function(d) {
   right <- by_task(d$rows, d$who, "correct")
   out <- list(correct_cells = cell_rows(right))
-  if (!two_levels(d$rows)) return(out)
-  errors <- task_measures(relative_error(d$rows, d$who, TRUE), "error", "combined", "counting", "count_error")
-  absolute <- task_measures(relative_error(d$rows, d$who, FALSE), "absolute_error", "combined", "counting", "count_error")
+  for (cancel in c(TRUE, FALSE)) {
+    name <- if (cancel) "count_error" else "absolute_error"
+    if (!any(!is.na(d$rows$count_error))) next
+    cells <- relative_error(d$rows, d$who, cancel)
+    out[[paste0(name, "_cells")]] <- cell_rows(cells)
+    if (!two_levels(d$rows)) next
+    measures <- task_measures(cells, name, "overall", "counting", "count_error")
+    out[[paste0("tests_", name)]] <- compare(measures, d$margins)
+    out[[paste0("anova_", name, "_task")]] <- anova_of(cells)
+    # only one of the two scenarios holds the task: there is no factor to test
+    out[[paste0("anova_", name, "_scenario")]] <- anova_of(by_scenario(cells, d$rows))
+  }
   marks <- d$rows[d$rows$task == "unique", ]
   if (nrow(marks)) {
-    place <- table_of(marks, d$who, "distance", list(transparency = LEVELS))
-    far <- of_cells(place$values, 1, "distance_unique", "", "distance")
-    out$tests_accuracy <- compare(keep(c(errors, list(far))), d$margins)
-  } else {
-    out$tests_accuracy <- compare(errors, d$margins)
+    place <- by_task(marks, d$who, "distance")
+    out$distance_cells <- cell_rows(place)
+    if (two_levels(d$rows)) {
+      far <- of_cells(place$values, 1, "distance_unique", "", "distance")
+      out$tests_distance <- compare(keep(list(far)), d$margins)
+    }
   }
-  out$tests_absolute_error <- compare(absolute, d$margins)
+  if (!two_levels(d$rows)) return(out)
   tasks <- right$factors$task
   shares <- keep(lapply(seq_along(tasks), function(i) {
     of_cells(right$values, i, paste0("correct_", tasks[i]), "tasks", "correct")

@@ -223,7 +223,7 @@ difficulty_rows <- function(d) {
       row$low <- row$difference_low
       row$high <- row$difference_high
       row <- row[c(
-        "measure", "n", "mean_standard", "mean_dynamic", "difference", "low", "high", "p"
+        "measure", "n", "mean_baseline", "mean_level", "difference", "low", "high", "p"
       )]
       # the scenes of the people who are compared
       both <- d$who[!is.na(cells$values[, i, 1]) & !is.na(cells$values[, i, 2])]

@@ -46,7 +46,7 @@ def test_a_missing_task_costs_that_task_and_the_mean_over_tasks(lacking):
         sizes = {r["measure"]: r["n"] for r in found[table].rows}
         assert sizes == {"time_overall": 7, "time_count": 8, "time_pattern": 8, "time_unique": 7,
                          "time_count_in_building": 8}  # fmt: skip
-    assert {r["measure"]: r["n"] for r in found["tests_accuracy"].rows}["distance_unique"] == 7
+    assert {r["measure"]: r["n"] for r in found["tests_distance"].rows}["distance_unique"] == 7
     assert [r["n"] for r in found["anova_time_task_log"].rows] == [7, 7, 7]
     assert {r["label"]: r["n"] for r in found["friedman_correct"].rows}["T3 unique"] == 7
     assert {r["task"]: r["n"] for r in found["tradeoff"].rows}["count"] == 8
@@ -96,7 +96,7 @@ def test_logarithms_are_of_trials(tmp_path):
     after = found["tests_log_time"].row("time_count")
     assert np.log(after["ratio"] / before["ratio"]) == pytest.approx(moved["by"] / 3 / 6, rel=1e-9)
     assert found["time_cells"].row("count/dynamic")["geometric"] == pytest.approx(
-        after["geometric_dynamic"], rel=1e-12
+        after["geometric_level"], rel=1e-12
     )
     assert found["time_cells"].row("count/dynamic")["mean"] > 50_000
 
@@ -126,8 +126,12 @@ def asked(*answers):
 
 def test_who_prefers_neither_is_a_tie():
     known = asked((1.0, "dynamic"), (1.0, "dynamic"), (0.0, "standard"), (0.0, "neutral"))
-    assert preferences(known) == (2, 1, 1)
-    assert preferences(asked((1.0, ""), (0.5, ""), (0.0, ""), (np.nan, ""))) == (1, 1, 1)
+    assert preferences(known, "preference") == (2, 1, 1)
+    assert preferences(asked((1.0, ""), (0.5, ""), (0.0, ""), (np.nan, "")), "preference") == (
+        1,
+        1,
+        1,
+    )
 
 
 def test_a_tie_is_in_neither_share_nor_test(tmp_path):

@@ -11,13 +11,16 @@ import pytest
 from made_data import Made, make_folder
 from scipy import stats
 
+from seethrough.analysis.before import design_before
 from seethrough.analysis.difficulty import balance, with_certificate
 from seethrough.analysis.errors import DataError
-from seethrough.analysis.load.schema import CERTIFICATE
+from seethrough.analysis.load.schema import certificate_columns
 from seethrough.analysis.load.study import load_study
 from seethrough.analysis.page.blocks import Table, walk
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.report import Options, make_report
+
+COLUMNS = certificate_columns(design_before({}))
 
 
 def scenes(
@@ -42,7 +45,7 @@ def scenes(
 
 def write(folder: Path, rows: list[dict[str, object]]) -> None:
     with open(folder / "certificate.csv", "w", newline="") as file:
-        table = csv.DictWriter(file, list(CERTIFICATE), lineterminator="\n")
+        table = csv.DictWriter(file, list(COLUMNS), lineterminator="\n")
         table.writeheader()
         table.writerows(rows)
 
@@ -64,7 +67,7 @@ def test_a_planted_difference_is_found_and_a_fair_one_is_not(folder):
     write(folder, scenes(trials, 3.0, np.random.default_rng(1)))
     study = load_study(folder)
     table = with_certificate(study.trials, study.certificate)
-    found = {(b.task, b.quantity): b for b in balance(table)}
+    found = {(b.task, b.quantity): b for b in balance(table, study.design)}
     assert len(found) == 4 * 6 - 2  # nobody walks in the abstract world
     for task in ("count", "pattern", "unique", "count_in_building"):
         # 3 occluders at a spread of 2; 24 scenes a level leave a standard error of 0.3
@@ -88,7 +91,7 @@ def test_means_and_intervals_are_those_of_scipy(folder):
     pair = [[np.mean(values[name, level]) for name in people] for level in ("standard", "dynamic")]
     test = stats.ttest_rel(*pair)
     ends = test.confidence_interval()
-    got = (row["mean_standard"], row["mean_dynamic"], row["low"], row["high"], row["p"])
+    got = (row["mean_baseline"], row["mean_level"], row["low"], row["high"], row["p"])
     assert got == pytest.approx((*map(np.mean, pair), *ends, test.pvalue), rel=1e-9)
     both = [[v for (_, at), own in values.items() if at == level for v in own]
             for level in ("standard", "dynamic")]  # fmt: skip

@@ -7,8 +7,8 @@ import pytest
 from made_data import Made, make_folder
 from scipy import stats
 
-from seethrough.analysis.comparison import Measure, compare, compare_logs
-from seethrough.analysis.equivalence import equivalence, log_equivalence
+from seethrough.analysis.comparison import Pair, compare, compare_logs
+from seethrough.analysis.equivalence import Margin, equivalence, log_equivalence
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load.study import load_study
 from seethrough.analysis.page.blocks import Table, walk
@@ -22,11 +22,12 @@ from seethrough.experiment.study.config import parse, shipped
 RNG = np.random.default_rng(8)
 FIRST = RNG.gamma(9, 3, 14)
 SECOND = 1.1 * FIRST + RNG.normal(0, 3, 14)
-MARGINS = {"time": 1.2, "count_error": 0.05, "correct": 0.10, "distance": 3.0}
+DECLARED = {"time": 1.2, "count_error": 0.05, "correct": 0.10, "distance": 3.0}
+TIME, SHARE, DISTANCE = Margin(1.2, ratio=True), Margin(0.10, more=True), Margin(3.0)
 
 
 def test_absolute_margins_are_two_t_tests():
-    row = equivalence(FIRST, SECOND, "distance", MARGINS)
+    row = equivalence(FIRST, SECOND, DISTANCE)
     gaps = FIRST - SECOND
     low = stats.ttest_1samp(gaps, -3.0, alternative="greater").pvalue
     high = stats.ttest_1samp(gaps, 3.0, alternative="less").pvalue
@@ -38,7 +39,7 @@ def test_absolute_margins_are_two_t_tests():
 
 
 def test_a_ratio_of_means_is_tested_without_taking_the_mean_as_known():
-    row = equivalence(FIRST, SECOND, "time", MARGINS)
+    row = equivalence(FIRST, SECOND, TIME)
     upper = stats.ttest_1samp(SECOND - 1.2 * FIRST, 0, alternative="less").pvalue
     lower = stats.ttest_1samp(SECOND - FIRST / 1.2, 0, alternative="greater").pvalue
     assert row["tost_p"] == pytest.approx(max(lower, upper), rel=1e-10)
@@ -51,13 +52,13 @@ def test_the_ratio_tests_are_fiellers_interval():
     low, high = ratio_of_means(FIRST, SECOND, level=0.90)[1]
     assert ratio_within(FIRST, SECOND, high).p_low == pytest.approx(0.05, rel=1e-9)
     assert ratio_within(SECOND, FIRST, 1 / low).p_low == pytest.approx(0.05, rel=1e-9)
-    row = equivalence(FIRST, SECOND, "time", MARGINS)
+    row = equivalence(FIRST, SECOND, TIME)
     assert (row["low90"], row["high90"]) == (low, high)
 
 
 def test_logarithms_are_tested_against_the_margins_logarithm():
     a, b = np.log(FIRST), np.log(np.abs(SECOND))
-    row = log_equivalence(a, b, "time", MARGINS)
+    row = log_equivalence(a, b, TIME)
     upper = stats.ttest_1samp(b - a, np.log(1.2), alternative="less")
     lower = stats.ttest_1samp(b - a, -np.log(1.2), alternative="greater")
     assert row["tost_p"] == pytest.approx(max(lower.pvalue, upper.pvalue), rel=1e-10)
@@ -69,8 +70,8 @@ def test_logarithms_are_tested_against_the_margins_logarithm():
 def test_shares_right_and_shares_wrong_pass_and_fail_together():
     """.938 → .854 right, 6 % → 15 % wrong: the same answers, the same p, whatever the coding."""
     right = np.repeat([1.0, 2 / 3], [13, 3]), np.repeat([1.0, 2 / 3], [9, 7])
-    coded_right = equivalence(*right, "correct", MARGINS)
-    coded_wrong = equivalence(*(1 - r for r in right), "count_error", {"count_error": 0.10})
+    coded_right = equivalence(*right, SHARE)
+    coded_wrong = equivalence(*(1 - r for r in right), Margin(0.10))
     assert coded_right["noninferior_p"] == pytest.approx(coded_wrong["noninferior_p"], rel=1e-9)
     assert coded_right["tost_p"] == pytest.approx(coded_wrong["tost_p"], rel=1e-9)
     assert coded_right["noninferior_p"] > 0.05
@@ -79,24 +80,24 @@ def test_shares_right_and_shares_wrong_pass_and_fail_together():
 def test_more_right_answers_are_never_worse():
     rng = np.random.default_rng(1)
     low, high = rng.uniform(0.5, 0.6, 16), rng.uniform(0.8, 0.9, 16)
-    assert equivalence(low, high, "correct", MARGINS)["noninferior_p"] < 1e-6
-    assert equivalence(high, low, "correct", MARGINS)["noninferior_p"] > 0.999
-    assert equivalence(high, low, "count_error", MARGINS)["noninferior_p"] < 1e-6
+    assert equivalence(low, high, SHARE)["noninferior_p"] < 1e-6
+    assert equivalence(high, low, SHARE)["noninferior_p"] > 0.999
+    assert equivalence(high, low, Margin(0.05))["noninferior_p"] < 1e-6
 
 
 def test_without_a_declared_margin_nothing_is_equivalent():
-    row = compare([Measure("m", "m", "", 2, FIRST, SECOND, kind="distance")], {}).row("m")
+    row = compare([Pair("m", "m", "", 2, FIRST, SECOND)]).row("m")
     gone = Undefined("no margin was declared before the data")
     names = ("tost_margin", "tost_p", "noninferior_p", "low90", "high90")
     assert [row[name] for name in names] == [gone] * 5
     logs = (np.log(FIRST), np.log(FIRST) + 0.1)
-    timed = Measure("t", "t", "s", 2, FIRST, SECOND, kind="time", logs=logs)
-    assert compare_logs([timed], {}).row("t")["tost_p"] == gone
+    timed = Pair("t", "t", "s", 2, FIRST, SECOND, logs=logs)
+    assert compare_logs([timed]).row("t")["tost_p"] == gone
 
 
 def test_z_scores_have_no_ratio():
-    z = Measure("bis", "bis", "", 2, FIRST - FIRST.mean(), FIRST.mean() - SECOND, ratio_scale=False)
-    row = compare([z], MARGINS).row("bis")
+    z = Pair("bis", "bis", "", 2, FIRST - FIRST.mean(), FIRST.mean() - SECOND, ratio_scale=False)
+    row = compare([z]).row("bis")
     assert str(row["ratio"]) == "undefined: differences of z scores have no ratio"
     assert str(row["ratio_low"]) == str(row["ratio"])
 
@@ -125,10 +126,14 @@ def test_the_published_study_declares_its_margins_and_its_limit(tmp_path):
 
     study = parse(tomllib.loads(shipped()["published"].read_text("utf-8")), "published.toml")
     config = study.resolved()
-    assert config["analysis"]["margins"] == MARGINS
+    assert config["analysis"]["margins"] == DECLARED
     folder = make_folder(tmp_path / "d", Made(participants=5, trials=2, config=config))
     plan = make_plan(load_study(folder))
-    assert plan.margins == MARGINS and plan.exclude == ("too_fast",) and plan.too_fast == 0.2
+    assert (
+        plan.margins == {**DECLARED, "absolute_error": 0.05}
+        and plan.exclude == ("too_fast",)
+        and plan.too_fast == 0.2
+    )
     text = as_markdown(make_report(folder, Options()))
     assert "Margins, declared before the data: relative error 0.05" in text
 

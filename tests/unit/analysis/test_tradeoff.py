@@ -8,8 +8,12 @@ import pandas as pd
 import pytest
 from scipy import stats
 
+from seethrough.analysis.before import design_before
 from seethrough.analysis.stats.undefined import Undefined
 from seethrough.analysis.tradeoff import accuracy_by_speed, changes, correlation, scores
+
+DESIGN = design_before({})
+MAIN = DESIGN.main
 
 
 def trials(rows: list[tuple]) -> pd.DataFrame:
@@ -33,7 +37,7 @@ BOTH = trials(
 
 
 def test_scores_by_hand():
-    found = scores(BOTH)
+    found = scores(BOTH, MAIN)
     assert found.participants == ("a", "b")
     # mean time of right answers / share correct; right answers / total time
     np.testing.assert_allclose(found.ies, [[10 / 0.5, 5.0], [20.0, 2 / 0.5]])
@@ -47,28 +51,28 @@ def test_inverse_efficiency_of_the_reference():
     """600 ms at 10 % errors is 666.667 ms (Vandierendonck 2018)."""
     expected = oracles.values()["speed_accuracy_checks"]["IES"]
     rows = [("a", level, 0.6, k > 0) for level in ("standard", "dynamic") for k in range(10)]
-    found = scores(trials(rows))
+    found = scores(trials(rows), MAIN)
     assert found.ies[0, 0] * 1000 == pytest.approx(expected["ies"], abs=1e-6)
 
 
 def test_nobody_right_makes_inverse_efficiency_undefined():
     rows = [("a", "standard", 3.0, 0), ("a", "dynamic", 2.0, 1)]
-    found = scores(trials(rows))
+    found = scores(trials(rows), MAIN)
     assert found.ies == Undefined("someone has no right answer in a condition")
 
 
 def test_accuracy_that_never_varies_makes_bis_undefined():
     rows = [("a", "standard", 3.0, 1), ("a", "dynamic", 2.0, 1)]
-    assert scores(trials(rows)).bis == Undefined("accuracy does not vary")
+    assert scores(trials(rows), MAIN).bis == Undefined("accuracy does not vary")
 
 
 def test_one_level_has_no_scores():
-    assert scores(BOTH[BOTH["transparency"] == "standard"]) is None
-    assert changes(BOTH[BOTH["transparency"] == "standard"]) == []
+    assert scores(BOTH[BOTH["transparency"] == "standard"], MAIN) is None
+    assert changes(BOTH[BOTH["transparency"] == "standard"], DESIGN) == []
 
 
 def test_changes_pair_participants():
-    (change,) = changes(BOTH)
+    (change,) = changes(BOTH, DESIGN)
     assert change.participants == ("a", "b")
     np.testing.assert_allclose(change.time, [[20, 5], [20, 5]])
     np.testing.assert_allclose(change.error, [[0.5, 0], [0, 0.5]])
@@ -97,6 +101,6 @@ def test_correlations_that_do_not_exist(x, why):
 
 def test_conditional_accuracy_by_hand():
     rows = [("a", "standard", t, c) for t, c in [(1, 0), (2, 1), (3, 1), (4, 1), (5, 1), (6, 1)]]
-    table = accuracy_by_speed(trials(rows))
+    table = accuracy_by_speed(trials(rows), MAIN)
     assert table["share"].tolist() == [0.5, 1.0, 1.0]
     assert table["trials"].tolist() == [2, 2, 2]

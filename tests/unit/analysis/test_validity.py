@@ -9,13 +9,17 @@ import statsmodels.formula.api as smf
 from made_data import Made, make_folder
 from scipy import stats
 
+from seethrough.analysis.before import design_before
 from seethrough.analysis.load.study import load_study
-from seethrough.analysis.measures import over_tasks, time_by_task
+from seethrough.analysis.measures import cells_of, over_tasks
 from seethrough.analysis.mixed import mixed_model
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.undefined import Undefined
 from seethrough.analysis.stats.within import dummies, one_way, term_tests
 from seethrough.analysis.validity import condition_means, learning_slopes, order_tests
+
+DESIGN = design_before({})
+TIME = DESIGN.measures()[0]
 
 
 @pytest.fixture(scope="module")
@@ -26,9 +30,10 @@ def trials(tmp_path_factory) -> pd.DataFrame:
 
 def test_order_effects_agree_with_a_model_of_all_dummies(trials):
     """statsmodels' OLS with a dummy per participant, F for the terms left out (type III)."""
-    rows = condition_means(trials)
+    rows = condition_means(trials, DESIGN)
+    rows = rows.assign(carry=(rows["before"] == "dynamic").astype(float))
     full = smf.ols("y ~ C(participant) + C(block) + C(condition) + carry", rows).fit()
-    tests = {t.name: t for t in order_tests(trials)}
+    tests = {t.name: t for t in order_tests(trials, DESIGN)}
     for name, formula in {
         "period": "y ~ C(participant) + C(condition) + carry",
         "carry-over": "y ~ C(participant) + C(block) + C(condition)",
@@ -49,13 +54,13 @@ def test_sequence_agrees_with_scipy():
 
 def test_a_planted_carry_over_is_found(trials):
     table = trials.copy()
-    rows = condition_means(trials)
-    after = rows[rows["carry"] == 1][["participant", "block"]]
+    rows = condition_means(trials, DESIGN)
+    after = rows[rows["before"] == "dynamic"][["participant", "block"]]
     marked = table.merge(after.assign(after=1.0), on=["participant", "block"], how="left")
     slower = np.where(marked["after"].notna(), 1.6, 1.0)
-    planted = {t.name: t for t in order_tests(table.assign(time=table["time"] * slower))}
+    planted = {t.name: t for t in order_tests(table.assign(time=table["time"] * slower), DESIGN)}
     assert planted["carry-over"].p < 0.001
-    assert {t.name: t for t in order_tests(table)}["carry-over"].p > 0.05
+    assert {t.name: t for t in order_tests(table, DESIGN)}["carry-over"].p > 0.05
 
 
 def test_a_planted_learning_slope_comes_back(trials):
@@ -101,9 +106,9 @@ def test_the_mixed_model_with_its_slope_is_the_anova_on_log_means():
     ]
     table = pd.DataFrame(rows)
     logs = table.assign(time=np.log(table["time"]))
-    cells = over_tasks(time_by_task(logs))
+    cells = over_tasks(cells_of(logs, DESIGN, TIME))
     f = repeated_measures(cells.values, ["transparency"])["transparency"].f
-    fit = mixed_model(table)
+    (fit,) = mixed_model(table, DESIGN)
     assert fit.p == pytest.approx(2 * stats.t.sf(abs(fit.t), n - 1), rel=1e-9)
     assert fit.t**2 == pytest.approx(f, rel=1e-6)
     assert fit.ratio == pytest.approx(
@@ -113,6 +118,8 @@ def test_the_mixed_model_with_its_slope_is_the_anova_on_log_means():
 
 def test_the_mixed_model_says_when_it_is_not_fitted(trials):
     two = trials[trials["participant"].isin(["P01", "P02"])]
-    assert mixed_model(two).p == Undefined("fewer than three participants with both levels")
+    assert mixed_model(two, DESIGN)[0].p == Undefined(
+        "fewer than three participants with every level"
+    )
     one = trials[trials["transparency"] == "standard"]
-    assert mixed_model(one).p == Undefined("there is only one transparency level")
+    assert mixed_model(one, DESIGN)[0].p == Undefined("not every level of transparency was met")

@@ -1,0 +1,256 @@
+"""The sidecars' `design` entry as a `Design`; every fault of it is one line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from seethrough.analysis import design as d
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.schema import FIXED
+
+ENTRY = "design"
+_NUMBER = (int, float)
+
+
+def read_design(entry: Any, where: str) -> d.Design:
+    """The design that a sidecar holds; `where` names the file. Raises DataError."""
+    reader = _Reader(where)
+    made = reader.design(entry)
+    if reader.lines:
+        raise DataError(reader.lines)
+    return made
+
+
+class _Reader:
+    """Collects a line for each fault, so that all of them are shown at once."""
+
+    def __init__(self, where: str) -> None:
+        self.where = where
+        self.lines: list[str] = []
+
+    def wrong(self, path: str, value: Any, expected: str) -> None:
+        self.lines.append(f"{self.where}: {path} = {value!r}: expected {expected}")
+
+    def value(
+        self, table: Mapping[str, Any], path: str, key: str, default: Any,
+        fits: Callable[[Any], bool], expected: str,
+    ) -> Any:  # fmt: skip
+        """`table[key]`, or `default` where it is not there; a line where it does not fit."""
+        found = table.get(key, default)
+        if found is None and default is None:
+            return None
+        if not fits(found):
+            self.wrong(f"{path}.{key}", found, expected)
+            return default
+        return found
+
+    def text(self, table: Mapping[str, Any], path: str, key: str, default: str | None = "") -> str:
+        if default is None and key not in table:
+            self.lines.append(f"{self.where}: {path}.{key}: missing")
+            return ""
+        return self.value(table, path, key, default or "", lambda v: isinstance(v, str), "a text")
+
+    def choice(
+        self, table: Mapping[str, Any], path: str, key: str, known: Sequence[str], default: str
+    ) -> str:
+        expected = f"one of {', '.join(known)}"
+        return self.value(table, path, key, default, lambda v: v in known, expected)
+
+    def tables(self, table: Mapping[str, Any], path: str, key: str) -> Iterator[tuple[str, Any]]:
+        """The tables of an array, each with its path."""
+        found = table.get(key, [])
+        if not isinstance(found, list):
+            self.wrong(f"{path}.{key}", found, "an array of tables")
+            return
+        for i, inner in enumerate(found):
+            if isinstance(inner, Mapping):
+                yield f"{path}.{key}[{i}]", inner
+            else:
+                self.wrong(f"{path}.{key}[{i}]", inner, "a table")
+
+    def texts(self, table: Mapping[str, Any], path: str, key: str) -> tuple[str, ...]:
+        found = table.get(key, [])
+        if isinstance(found, str):
+            return (found,)
+        if not isinstance(found, list) or not all(isinstance(x, str) for x in found):
+            self.wrong(f"{path}.{key}", found, "an array of texts")
+            return ()
+        return tuple(found)
+
+    def design(self, entry: Any) -> d.Design:
+        if not isinstance(entry, Mapping):
+            self.wrong(ENTRY, entry, "a table")
+            return d.NO_DESIGN
+        factors = tuple(self.factor(t, p) for p, t in self.tables(entry, ENTRY, "factors"))
+        tasks = tuple(self.task(t, p) for p, t in self.tables(entry, ENTRY, "tasks"))
+        for what, names in (("factors", [f.name for f in factors]),
+                            ("tasks", [t.name for t in tasks])):  # fmt: skip
+            for name in sorted({n for n in names if names.count(n) > 1}):
+                self.wrong(f"{ENTRY}.{what}", name, "each name once")
+        known = {f.name: f.levels for f in factors}
+        excluded = tuple(self.cell(t, p, known) for p, t in self.tables(entry, ENTRY, "excluded"))
+        made = d.Design(factors, tasks, excluded, items=self.items(entry))
+        stated = tuple(
+            self.prediction(t, p, made) for p, t in self.tables(entry, ENTRY, "predictions")
+        )
+        return d.Design(factors, self.with_margins(tasks, stated), excluded, stated, made.items)
+
+    def with_margins(
+        self, tasks: tuple[d.Task, ...], stated: tuple[d.Prediction, ...]
+    ) -> tuple[d.Task, ...]:
+        """The measures with the margins that the study's predictions declare of them."""
+        margins = {
+            name: (value, p.ratio) for p in stated for name, value in (p.margin or {}).items()
+        }
+        known = {m.name: m for t in tasks for m in t.measures}
+        for name, (value, ratio) in margins.items():
+            above = 1 if ratio or (name in known and known[name].log) else 0
+            if name in known and not above < value < 1e300:
+                self.wrong(f"{ENTRY}.predictions.margin.{name}", value,
+                           f"a number above {above}")  # fmt: skip
+                return tasks
+
+        def own(m: d.Measured) -> d.Measured:
+            if m.name not in margins:
+                return m
+            value, ratio = margins[m.name]
+            return replace(m, margin=value, ratio=ratio)
+
+        return tuple(replace(t, measures=tuple(map(own, t.measures))) for t in tasks)
+
+    def factor(self, table: Mapping[str, Any], path: str) -> d.Factor:
+        name = self.text(table, path, "name", None)
+        if name in FIXED:
+            self.wrong(f"{path}.name", name, "a name that is no fixed column")
+        levels = self.texts(table, path, "levels")
+        if len(levels) < 1 or len(set(levels)) < len(levels):
+            self.wrong(f"{path}.levels", list(levels), "levels, each once")
+            levels = tuple(dict.fromkeys(levels)) or ("?",)
+        numbers = self.value(
+            table, path, "numbers", None,
+            lambda v: isinstance(v, list) and len(v) == len(levels)
+            and all(isinstance(x, _NUMBER) and not isinstance(x, bool) for x in v),
+            "a number for each level",
+        )  # fmt: skip
+        labels = table.get("labels") or {}
+        if not isinstance(labels, Mapping):
+            self.wrong(f"{path}.labels", labels, "a table")
+            labels = {}
+        tasks = table.get("tasks")
+        if tasks is not None and not isinstance(tasks, Mapping):
+            self.wrong(f"{path}.tasks", tasks, "a table of level and tasks")
+            tasks = None
+        return d.Factor(
+            name,
+            self.choice(table, path, "kind", d.KINDS, d.WITHIN),
+            levels,
+            self.choice(table, path, "baseline", levels, levels[0]),
+            tuple(map(float, numbers)) if numbers is not None else None,
+            {str(k): str(v) for k, v in labels.items()},
+            self.choice(table, path, "scenes", ("alone", "changed"), "alone"),
+            self.text(table, path, "order"),
+            {k: tuple(v) for k, v in tasks.items()} if tasks else None,
+        )
+
+    def task(self, table: Mapping[str, Any], path: str) -> d.Task:
+        return d.Task(
+            self.text(table, path, "name", None),
+            self.text(table, path, "code"),
+            tuple(self.measure(t, p) for p, t in self.tables(table, path, "measures")),
+            self.text(table, path, "label"),
+        )
+
+    def measure(self, table: Mapping[str, Any], path: str) -> d.Measured:
+        name = self.text(table, path, "name", None)
+        log = self.value(table, path, "log", False, _is_bool, "true or false")
+        above = 1 if log else 0
+        return d.Measured(
+            name,
+            self.text(table, path, "column") or name,
+            self.text(table, path, "unit"),
+            self.choice(table, path, "direction", ("less", "more"), "less"),
+            self.choice(table, path, "scale", d.SCALES, "ratio"),
+            self.choice(table, path, "adds", d.ADDS, "mean"),
+            log,
+            self.choice(table, path, "rows", ("all", "right"), "all"),
+            self.margin(table, path, above),
+            self.text(table, path, "label"),
+            self.value(table, path, "pool", log, _is_bool, "true or false"),
+            self.value(table, path, "price", False, _is_bool, "true or false"),
+            self.value(table, path, "digits", 2 if log else 3, _is_digits, "0 to 9"),
+        )
+
+    def margin(self, table: Mapping[str, Any], path: str, above: float) -> float | None:
+        return self.value(
+            table, path, "margin", None,
+            lambda v: isinstance(v, _NUMBER) and not isinstance(v, bool) and above < v < 1e300,
+            f"a number above {above:g}",
+        )  # fmt: skip
+
+    def cell(
+        self, table: Mapping[str, Any], path: str, known: Mapping[str, Sequence[str]]
+    ) -> Mapping[str, str]:
+        for name, level in table.items():
+            if level not in known.get(name, ()):
+                self.wrong(f"{path}.{name}", level, f"a level of {name}")
+        return {str(k): str(v) for k, v in table.items()}
+
+    def items(self, entry: Mapping[str, Any]) -> tuple[d.Item, ...] | None:
+        if "items" not in entry:
+            return None
+        return tuple(
+            d.Item(
+                self.text(t, p, "name", None),
+                self.text(t, p, "label"),
+                self.texts(t, p, "each"),
+                self.text(t, p, "group"),
+                self.text(t, p, "of"),
+                self.value(t, p, "points", None, lambda v: isinstance(v, int), "a number"),
+            )
+            for p, t in self.tables(entry, ENTRY, "items")
+        )
+
+    def prediction(self, table: Mapping[str, Any], path: str, made: d.Design) -> d.Prediction:
+        name = self.text(table, path, "name", None)
+        margin = table.get("margin")
+        ratio = table.get("ratio")
+        measures = self.texts(table, path, "measure")
+        if isinstance(margin, _NUMBER) and not isinstance(margin, bool):
+            margin = dict.fromkeys(measures, margin)
+        if ratio is not None:
+            margin = dict.fromkeys(measures, ratio)
+        if margin is not None and not (
+            isinstance(margin, Mapping) and all(isinstance(v, _NUMBER) for v in margin.values())
+        ):
+            self.wrong(f"{path}.margin", margin, "a number, or one for each measure")
+            margin = None
+        contrast, _, level = self.text(table, path, "contrast").partition("=")
+        levels = made.levels
+        if contrast and contrast not in levels:
+            expected = ", ".join(levels) or "no factor"
+            self.wrong(f"{path}.contrast", contrast, f"a factor: {expected}")
+        elif level and level not in levels[contrast]:
+            self.wrong(f"{path}.contrast", level, f"a level of {contrast}")
+        return d.Prediction(
+            name,
+            self.text(table, path, "text") or self.text(table, path, "label"),
+            measures,
+            contrast if contrast in levels else "",
+            self.choice(table, path, "expect", d.EXPECT, "different"),
+            level or self.text(table, path, "level"),
+            {k: float(v) for k, v in margin.items()} if margin else None,
+            self.value(table, path, "value", None, lambda v: isinstance(v, _NUMBER), "a number"),
+            self.choice(table, path, "combine", ("all", "any"), "all"),
+            ratio is not None,
+            self.text(table, path, "reason"),
+        )
+
+
+def _is_bool(value: Any) -> bool:
+    return isinstance(value, bool)
+
+
+def _is_digits(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= 9
