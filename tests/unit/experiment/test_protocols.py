@@ -24,7 +24,7 @@ from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
 
 STUDY = load("demo")
-TRIAL = Trial(5, 1, 2, 2, "dynamic", "abstract", "count", "stream-1", (1, 1))
+TRIAL = Trial(5, 1, 2, 2, {}, "count", "stream-1", (1, 1))
 RECORD = TrialRecord(
     TRIAL, Outcome("12", "14", False, count_error=-2), 14, 10.0, 52.25, 2.25, False,
     2500, 3, 0.05, 12.5, 3.25,
@@ -40,13 +40,13 @@ def setup(kind):
         if kind == "offscreen"
         else TableDisplay(pool, clock, 4 / 3)
     )
-    trials = [s.trials[0] for s in session_for(1, STUDY.design.factors())]
+    trials = [s.trials[0] for s in session_for(1, STUDY.plan)]
     trial = next(t for t in trials if t.task == "count")
     task, state = TASKS["count"], pool.begin(TASKS["count"], trial, 4 / 3)
     views = [task.view(state)]
     turned = next(t for t in trials if t.task == "pattern")
     views.append(TASKS["pattern"].view(pool.begin(TASKS["pattern"], turned, 4 / 3)))
-    return display, clock, task, views, STUDY.technique(trial.transparency)
+    return display, clock, task, views, STUDY.part(trial.levels).technique
 
 
 @pytest.mark.parametrize("kind", ["offscreen", "tables"])
