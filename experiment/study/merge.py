@@ -14,7 +14,7 @@ def merged(table: Mapping[str, Any], part: Mapping[str, Any]) -> dict[str, Any]:
     for key, value in part.items():
         old = result.get(key)
         both = isinstance(value, Mapping) and isinstance(old, Mapping)
-        result[key] = merged(old, value) if both else value  # type: ignore[arg-type]
+        result[key] = merged(result[key], value) if both else value
     return result
 
 
@@ -30,9 +30,8 @@ def leaves(part: Mapping[str, Any], where: Path = ()) -> Iterator[tuple[Path, An
 
 def nested(path: Path, value: Any) -> dict[str, Any]:
     """The part that sets one key."""
-    for name in reversed(path):
-        value = {name: value}
-    return value  # type: ignore[no-any-return]
+    first, *rest = path
+    return {first: nested(tuple(rest), value) if rest else value}
 
 
 def overlap(a: Path, b: Path) -> bool:
