@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from seethrough import registry
 from seethrough.tasks.kit.base import Setting, Task
-from seethrough.tasks.kit.world import World
+from seethrough.tasks.kit.world import ANYWHERE, World
 
 Plugin = TypeVar("Plugin")
 
@@ -33,14 +33,19 @@ TASKS: Mapping[str, Task] = Registered("task")
 WORLDS: Mapping[str, World] = Registered("world")
 
 
+def worlds_of(task: Task) -> tuple[str, ...]:
+    """The names of the worlds that a task can be set in."""
+    return tuple(WORLDS) if tuple(task.worlds) == ANYWHERE else tuple(task.worlds)
+
+
 def world_of(task: Task) -> World:
     """The world that a task is set in where a study does not say it: its first."""
-    return WORLDS[task.worlds[0]]
+    return WORLDS[worlds_of(task)[0]]
 
 
 def setting(task: Task, place: object = None, own: object = None) -> Setting:
     """A task in its first world, or in the one whose parameters are given; else with defaults."""
-    worlds = [WORLDS[name] for name in task.worlds]
+    worlds = [WORLDS[name] for name in worlds_of(task)]
     world = next((w for w in worlds if place is None or isinstance(place, w.Parameters)), None)
     if world is None:
         raise ValueError(f"{type(place).__name__}: {task.name} cannot be set there")

@@ -25,6 +25,8 @@ from seethrough.analysis.sections.tables import (
 from seethrough.analysis.stats.split_plot import split_plot
 from seethrough.analysis.stats.undefined import is_defined
 
+UNLIKE = 2.0
+"""Ratio of the groups' s.d. from which a pooled error is warned of."""
 MOST_CHOICES = 4096
 """Ways of leaving levels out that are tried for the largest complete sub-table."""
 
@@ -151,7 +153,13 @@ def _groups(context: Context, design: Design, cells: Cells) -> tuple[np.ndarray 
     if len(spreads) > 1 and min(spreads) > 0:
         note += f"; the largest of their s.d. is {significant(max(spreads) / min(spreads))} times "
         note += "the smallest"
-    return codes, f"{note}. The pooled error takes them to be equal; the contrasts do not."
+    note += ". The pooled error takes them to be equal; the contrasts do not."
+    if len(spreads) > 1 and max(spreads) > UNLIKE * min(spreads):
+        note += (
+            " Where the smaller group spreads three times as much (12 and 5 people), F rejects in "
+            ".19 to .22 of studies without a difference, for .05: read the contrasts."
+        )
+    return codes, note
 
 
 def complete(design: Design, cells: Cells) -> tuple[Cells, str]:

@@ -16,6 +16,7 @@ from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.levels import of_blocks
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import TaskSet, session_for
+from seethrough.experiment.study.design_table import minutes
 from seethrough.experiment.study.factors import ALONE, WITHIN
 from seethrough.experiment.study.own_model_files import models_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
@@ -117,7 +118,10 @@ def _design(study: Study, said: Verdicts) -> None:
         per_session = sum(len(s.trials) for s in sessions[0])
         total, where = group.people * per_session, f"{name}: " if name else ""
         text = f"{where}{group.people} participants × {per_session} trials = {total} trials"
-        said.say("design", text)
+        took = minutes(per_session, sum(len(s.training) for s in sessions[0]))
+        most = study.session.limit / 60
+        long = [WARNING, f"some {took:.0f} minutes, expected at most session.limit ({most:g})"]
+        said.say("design", text, *(long if 0 < most < took else []))
         rows = Counter(map(partial(_conditions, study), sessions))
         for order, number in sorted(rows.items())[:MOST_ORDERS]:
             said.say("design", f"{where}{number} × {' → '.join(order)}")

@@ -56,7 +56,7 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0 if status == "complete" else 1
 
 
-def _brought(study: Study, said: Sequence[str]) -> dict[str, str]:
+def _brought(study: Study, said: Sequence[str], ask: bool) -> dict[str, str]:
     """The level of every measured factor, from the command line or asked on the terminal, before a
     slot is taken. Raises InputError."""
     measured = {f.name: f for f in study.factors if is_measured(f)}
@@ -67,7 +67,7 @@ def _brought(study: Study, said: Sequence[str]) -> dict[str, str]:
             known = ", ".join(f"{f.name}={level}" for f in measured.values() for level in f.names)
             raise InputError(f"--set = {text}: expected one of {known or 'no measured factors'}")
         brings[name] = level
-    for factor in (f for name, f in measured.items() if name not in brings):
+    for factor in (f for name, f in measured.items() if ask and name not in brings):
         levels = ", ".join(factor.names)
         if not sys.stdin.isatty():
             raise InputError(f"--set: missing, expected {factor.name}=LEVEL, one of {levels}")
@@ -113,7 +113,9 @@ def _human(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
     from seethrough.experiment.ledger.ledger_plan import plan_of
 
     url, plan = arguments.ledger or study.session.ledger, plan_of(study)
-    brings = _brought(study, arguments.brings)
+    begun = arguments.participant and folder_of(data, "human", arguments.participant).exists()
+    # Who goes on, or has a slot by number, has their group.
+    brings = _brought(study, arguments.brings, ask=not begun and arguments.slot is None)
     if not place.exists_elsewhere(data, url) and (kind := network_drive(data)):
         print(
             f"{data}: a network drive ({kind}): the ledger's locks may not hold between stations; "

@@ -121,6 +121,7 @@ NOTES = (
 
 TABLES = {"trials": TRIALS, "questionnaire": QUESTIONNAIRE, "notes": NOTES}
 FACTORS_AFTER = {"trials": "attempt", "questionnaire": "item", "notes": ""}
+MEASURES_AFTER = "distance"  # of the trial table: what tasks measure besides what ours do
 RESERVED = tuple(dict.fromkeys(column.name for table in TABLES.values() for column in table))
 
 
@@ -129,31 +130,55 @@ def factor_column(name: str, levels: Sequence[str] = ()) -> Column:
     return Column(name, "text", "factor of the study", levels=tuple(levels))
 
 
-def with_factors(factors: Iterable[Mapping[str, Any]]) -> dict[str, tuple[Column, ...]]:
-    """Every table's columns in a study with these factors, as a sidecar describes them.
+def measure_columns(tasks: Iterable[Mapping[str, Any]]) -> tuple[Column, ...]:
+    """The columns of what tasks measure, as a sidecar describes them, where no table has them."""
+    measures = {m["name"]: m for task in tasks for m in task["measures"]}
+    return tuple(
+        Column(name, "number", m["label"] or f"measure {name}", m["unit"])
+        for name, m in measures.items()
+        if name not in RESERVED
+    )
+
+
+def with_factors(
+    factors: Iterable[Mapping[str, Any]], tasks: Iterable[Mapping[str, Any]] = ()
+) -> dict[str, tuple[Column, ...]]:
+    """Every table's columns in a study with these factors and tasks, as a sidecar describes them.
 
     Answers on a page say the levels that they are about: those that everybody meets.
     """
+    measures = measure_columns(tasks)
     own = [(f["kind"], factor_column(f["name"], f["levels"])) for f in factors]
     everybodys = tuple(column for kind, column in own if kind == "within")
     every = tuple(column for _, column in own)
-    return {t: _inserted(t, every if t == "trials" else everybodys) for t in TABLES}
+    found = {t: _inserted(t, every if t == "trials" else everybodys) for t in TABLES}
+    return {**found, "trials": _after(found["trials"], MEASURES_AFTER, measures)}
 
 
 def _inserted(table: str, factors: tuple[Column, ...]) -> tuple[Column, ...]:
-    columns = TABLES[table]
-    at = next((i for i, c in enumerate(columns, start=1) if c.name == FACTORS_AFTER[table]), None)
-    return columns if at is None else (*columns[:at], *factors, *columns[at:])
+    return _after(TABLES[table], FACTORS_AFTER[table], factors)
+
+
+def _after(columns: tuple[Column, ...], name: str, more: tuple[Column, ...]) -> tuple[Column, ...]:
+    at = next((i for i, c in enumerate(columns, start=1) if c.name == name), None)
+    return columns if at is None else (*columns[:at], *more, *columns[at:])
 
 
 def columns_in(table: str, header: Sequence[str]) -> tuple[Column, ...]:
     """The columns of a file of a table by its header: those that stand where factors do are its
-    study's factors."""
+    study's factors, those that stand where measures do its tasks'."""
+    found = _inserted(table, tuple(map(factor_column, _own(table, header, FACTORS_AFTER[table]))))
+    measures = _own(table, header, MEASURES_AFTER)
+    return _after(
+        found, MEASURES_AFTER, tuple(Column(n, "number", f"measure {n}") for n in measures)
+    )
+
+
+def _own(table: str, header: Sequence[str], after: str) -> list[str]:
+    """Names in a header that follow a column of a table and are none of its columns."""
     known = {column.name for column in TABLES[table]}
-    after = FACTORS_AFTER[table]
     rest = header[list(header).index(after) + 1 :] if after in header else []
-    names = takewhile(lambda name: name not in known, rest)
-    return _inserted(table, tuple(factor_column(name) for name in names))
+    return list(takewhile(lambda name: name not in known, rest))
 
 
 def versions(columns: Sequence[Column]) -> list[tuple[Column, ...]]:

@@ -75,7 +75,7 @@ class FileRecorder:
         self._now = now
         self.folder = folder_of(data, who.source, who.participant)
         self.stem = stem_of(who.study, who.participant, who.session)
-        self._columns = with_factors(who.design.get("factors", ()))
+        self._columns = with_factors(who.design.get("factors", ()), who.design.get("tasks", ()))
         _check_alike(data, who)
         describe_dataset(data, who.study, self._columns)
         try:

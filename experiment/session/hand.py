@@ -6,9 +6,8 @@ The same in a session and in its replay, so that a frame follows from the log al
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
-from seethrough.renderer.techniques.base import Shot
+from seethrough.renderer.techniques.base import Own, Shot
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Wheel
 
@@ -18,7 +17,7 @@ HEIGHT = 1000  # of the shot that events are told in: positions are in view unit
 class Hand:
     """Keeps the state of a trial's technique (its parameters), from the first event on."""
 
-    def __init__(self, technique: Any, aspect: float) -> None:
+    def __init__(self, technique: Own, aspect: float) -> None:
         self._technique, self._rules = technique, technique.technique
         self._size = (round(aspect * HEIGHT), HEIGHT)
         self.state = self._rules.begin(technique)

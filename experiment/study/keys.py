@@ -14,6 +14,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel
 
+from seethrough import registry
 from seethrough.experiment.errors import shown
 from seethrough.experiment.study import plugins
 from seethrough.experiment.study.factor_tables import FACTOR_KEYS
@@ -56,15 +57,26 @@ def tables() -> dict[str, Any]:
             cls = plugins.parameters(kind, name)
             found[f"{kind}.{name}"] = cls
             found |= {f"{kind}.{name}.{n}": c for n, c in plugins.inner_tables(cls).items()}
-    found |= {"task": TaskTable, "task.NAME": TaskTable, "questions.NAME": QuestionTable}
+    found |= {"task": TaskTable, "task.NAME": TaskTable, **_own("task")}
+    found |= {"questions.NAME": QuestionTable, **_own("question", "questions")}
     found |= {name: TABLES[name] for name in ("display", "session", "analysis")}
     return found | {"analysis.margins": MarginsTable, "analysis.predictions": PredictionTable}
+
+
+def _own(kind: str, table: str = "") -> dict[str, Any]:
+    """Tables of the tasks or question kinds that have parameters of their own."""
+    classes = {name: registry.get(kind, name).Parameters for name in registry.names(kind)}
+    return {f"{table or kind}.{name}": cls for name, cls in classes.items() if declared(cls)}
 
 
 def about(table: str) -> str:
     """What the reference says above a table's keys."""
     kind, _, name = table.partition(".")
     said = {"technique": "The technique", "world": "The world"}
+    if kind == "questions" and table not in ABOUT:
+        return f'Further keys of a question with `use = "{name}"`, or of that name.'
+    if kind == "task" and table not in ABOUT:
+        return f"Further keys of the task `{name}`."
     return ABOUT.get(
         table, f'{said.get(kind, "")} `{name}`: parameters of [{kind}] use = "{name}".'
     )
@@ -179,9 +191,9 @@ study."""
 
 _TAIL = """## `[texts]`
 
-Any text that participants read, by its name in `experiment/pages/languages/en.toml`,
-table and key with
-a dot between: `"welcome.text" = "Hello."` An unknown name is refused.
+Any text that participants read, by its name in `experiment/pages/languages/en.toml` or in the
+`texts/en.toml` of a task or world, table and key with a dot between: `"welcome.text" = "Hello."`
+An unknown name is refused.
 
 ## When is an answer right?
 
@@ -192,6 +204,8 @@ The column `correct` of a trial says it (data/README.md):
 - T3 `unique`: the mark lies in the same room as the thing. Rooms differ in size, so a mark may be
   right at 9 world units from the thing, or wrong at 1 where a wall lies between; how far it is off
   stands in `distance`.
+- `depth_order`: the mark is that of the thing whose middle is nearer.
+- `read`: the digit is the one on the sign.
 """
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from seethrough.experiment.record.columns import RESERVED
-from seethrough.experiment.study.cells import every_combination, parts_of
+from seethrough.experiment.study.cells import Part, every_combination, parts_of
 from seethrough.experiment.study.design import Design
 from seethrough.experiment.study.factor_tables import level_name, read_factors
 from seethrough.experiment.study.factors import (
@@ -65,8 +65,9 @@ class Parser:
             return None, self.faults
         cells = every_cell(factors, excluded)
         parts, unfit = parts_of(self.base, factors, cells)
-        if unfit or (more := self._of_all(found, factors, excluded, cells)):
-            return None, unfit or more
+        more = unfit or [*self._of_all(found, factors, excluded, cells), *_outlast(found, parts)]
+        if more:
+            return None, more
         return Study(
             found["study"], factors, found["design"], found["practice"], found["display"],
             found["session"], found["questions"], found["analysis"], texts, tables, parts,
@@ -142,6 +143,19 @@ class Parser:
             if said.contrast and said.contrast not in names:
                 faults.append(Fault(f"{where}.contrast", said.contrast, known=tuple(names)))
         return faults
+
+
+def _outlast(found: Mapping[str, Any], parts: Mapping[Cell, Part]) -> list[Fault]:
+    """Trials that may take longer than the whole session."""
+    most = found["session"].limit
+    longest = {
+        (task, part.limits.of(task)) for part in parts.values() for task in part.design.tasks
+    }
+    return [
+        Fault("task.limit", limit, f"at most session.limit ({most:g}), within which {task} ends")
+        for task, limit in sorted(longest)
+        if 0 < most < limit
+    ]
 
 
 def _left_without(factors: tuple[Factor, ...], excluded: list[Levels]) -> list[Fault]:

@@ -7,6 +7,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from seethrough import registry
 from seethrough.experiment.study.parameter_tables import Fault
+from seethrough.tasks import catalog
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 
@@ -30,7 +31,7 @@ def parameters(kind: str, name: str) -> Any:
 
 def worlds_of(task: str) -> tuple[str, ...]:
     """The worlds that a task can live in."""
-    return tuple(registry.get("task", task).worlds)
+    return catalog.worlds_of(registry.get("task", task))
 
 
 def further_faults(place: Any) -> list[Fault]:

@@ -16,7 +16,7 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
-from seethrough.tasks.catalog import WORLDS, setting
+from seethrough.tasks.catalog import WORLDS, setting, worlds_of
 from seethrough.tasks.kit.base import Outcome, Setting, Task, View
 from seethrough.tasks.kit.hud import Button, Entry, FloorPlan, Inset, Label
 from seethrough.tasks.kit.measure import Measure
@@ -27,7 +27,7 @@ BLIND = 200  # events of somebody who does not know what to do
 
 
 def _settings(task: Task) -> Iterator[Setting]:
-    for world in task.worlds:
+    for world in worlds_of(task):
         yield setting(task, WORLDS[world].Parameters())
 
 
@@ -36,7 +36,7 @@ def says_what_it_is(task: Any) -> Iterator[str]:
     yield from describes_itself(task, ("code", "title", "instruction"))
     if not task.worlds:
         yield "worlds = (): expected one or more"
-    yield from (f"worlds: {w}: no such world" for w in task.worlds if w not in WORLDS)
+    yield from (f"worlds: {w}: no such world" for w in worlds_of(task) if w not in WORLDS)
     names = [m.name for m in task.measures if isinstance(m, Measure)]
     if len(names) < len(task.measures) or len(set(names)) < len(names):
         yield f"measures = {task.measures!r}: expected Measures, each of another name"

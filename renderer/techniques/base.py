@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,10 @@ Indices = NDArray[np.int64]
 MASKS = "masks"  # by levels and pixels, with a mask about each target
 REMOVAL = "removal"  # in one pass that leaves out what the rule takes away
 PEELS = "peels"  # layer by layer from the front, each as strongly as the rule says
+
+# What only a technique itself knows the type of: its parameters, its state, the events that it is
+# told of, and what it finds out for its rule.
+Own: TypeAlias = Any
 
 
 @dataclass(frozen=True)
@@ -174,53 +178,53 @@ class Technique(Protocol):
     painter: str
     glsl: str
     needs: frozenset[str]
-    Parameters: Any
+    Parameters: Own
 
-    def begin(self, p: Any) -> Any:
+    def begin(self, p: Own) -> Own:
         """The state before the first event."""
 
-    def on_event(self, p: Any, state: Any, event: Any, shot: Shot) -> tuple[Any, bool]:
+    def on_event(self, p: Own, state: Own, event: Own, shot: Shot) -> tuple[Own, bool]:
         """The state after an event, and whether the event is used up."""
 
-    def shown(self, p: Any, state: Any, shot: Shot) -> Shown:
+    def shown(self, p: Own, state: Own, shot: Shot) -> Shown:
         """What stands there in this frame."""
 
-    def touches(self, p: Any, state: Any, shot: Shot) -> Bools:
+    def touches(self, p: Own, state: Own, shot: Shot) -> Bools:
         """(n,) the objects whose surfaces the rule may change: more may be named, none left out."""
 
-    def known(self, p: Any, state: Any, seen: Surfaces) -> Any:
+    def known(self, p: Own, state: Own, seen: Surfaces) -> Own:
         """What is not local to a pixel: all that `rule` may know beside its own pixel's rows."""
 
-    def rule(self, p: Any, state: Any, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: Own, state: Own, seen: Surfaces, known: Own) -> Look:
         """How each surface shows."""
 
-    def uniforms(self, p: Any, state: Any, shot: Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, Own]:
         """Values of the uniforms that `glsl` declares."""
 
     def pictures(
-        self, p: Any, state: Any, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
+        self, p: Own, state: Own, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
     ) -> Mapping[str, NDArray[np.float32]]:
         """Name → (h, w) of the pictures that `glsl` looks up, made from those that it `needs`."""
 
-    def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
+    def objects(self, p: Own, scene: Scene) -> NDArray[np.int64]:
         """(n,) a number of each object's, the Surface's `number` in `glsl`."""
 
-    def drawn(self, p: Any, state: Any) -> Any:
+    def drawn(self, p: Own, state: Own) -> Own:
         """The parameters as the state has them, for a painter that knows parameters alone."""
 
-    def sides(self, p: Any) -> bool:
+    def sides(self, p: Own) -> bool:
         """Whether back faces can show."""
 
-    def layers(self, p: Any) -> int | None:
+    def layers(self, p: Own) -> int | None:
         """How many layers are peeled at most; None: all."""
 
-    def edges(self, p: Any) -> Mapping[str, Any]:
+    def edges(self, p: Own) -> Mapping[str, Own]:
         """What shaders/edges.frag draws lines with along the edges of each layer; empty: none."""
 
-    def looked_at(self, p: Any) -> Any:
+    def looked_at(self, p: Own) -> Own:
         """The parameters with which `look` finds what is seen."""
 
-    def exactly(self, p: Any) -> Any:
+    def exactly(self, p: Own) -> Own:
         """The parameters with which what is drawn is the rule at every pixel, however long it
         takes."""
 
@@ -233,69 +237,69 @@ class Plain:
     painter = REMOVAL
     needs: frozenset[str] = frozenset()
     glsl = "float opacity(Surface s) { return 1.0; }\nbool opened(Surface s) { return false; }\n"
-    Parameters: Any
+    Parameters: Own
 
     def __init__(self) -> None:
         self.Parameters.technique = self
 
-    def begin(self, p: Any) -> Any:
+    def begin(self, p: Own) -> Own:
         """No state."""
         return None
 
-    def on_event(self, p: Any, state: Any, event: Any, shot: Shot) -> tuple[Any, bool]:
+    def on_event(self, p: Own, state: Own, event: Own, shot: Shot) -> tuple[Own, bool]:
         """Nothing is used up."""
         return state, False
 
-    def shown(self, p: Any, state: Any, shot: Shot) -> Shown:
+    def shown(self, p: Own, state: Own, shot: Shot) -> Shown:
         """The scene as it is."""
         return Shown(shot.scene)
 
-    def touches(self, p: Any, state: Any, shot: Shot) -> Bools:
+    def touches(self, p: Own, state: Own, shot: Shot) -> Bools:
         """Nothing."""
         return np.zeros(len(shot.scene.objects), dtype=bool)
 
-    def known(self, p: Any, state: Any, seen: Surfaces) -> Any:
+    def known(self, p: Own, state: Own, seen: Surfaces) -> Own:
         """Nothing but what stands at a pixel."""
         return None
 
-    def rule(self, p: Any, state: Any, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: Own, state: Own, seen: Surfaces, known: Own) -> Look:
         """Opaque front faces."""
         return Look(seen.front, np.ones(len(seen.depth)))
 
-    def uniforms(self, p: Any, state: Any, shot: Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, Own]:
         """None."""
         return {}
 
     def pictures(
-        self, p: Any, state: Any, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
+        self, p: Own, state: Own, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
     ) -> Mapping[str, NDArray[np.float32]]:
         """Those that it needs, as they are."""
         return needed
 
-    def objects(self, p: Any, scene: Scene) -> NDArray[np.int64]:
+    def objects(self, p: Own, scene: Scene) -> NDArray[np.int64]:
         """1 what may be penetrated, 0 targets and what may not."""
         return (~(scene.targets | scene.impenetrable)).astype(np.int64)
 
-    def drawn(self, p: Any, state: Any) -> Any:
+    def drawn(self, p: Own, state: Own) -> Own:
         """As they are."""
         return p
 
-    def sides(self, p: Any) -> bool:
+    def sides(self, p: Own) -> bool:
         """They can."""
         return True
 
-    def layers(self, p: Any) -> int | None:
+    def layers(self, p: Own) -> int | None:
         """All."""
         return None
 
-    def edges(self, p: Any) -> Mapping[str, Any]:
+    def edges(self, p: Own) -> Mapping[str, Own]:
         """No lines."""
         return {}
 
-    def looked_at(self, p: Any) -> Any:
+    def looked_at(self, p: Own) -> Own:
         """As it is drawn."""
         return p
 
-    def exactly(self, p: Any) -> Any:
+    def exactly(self, p: Own) -> Own:
         """As it is drawn."""
         return p

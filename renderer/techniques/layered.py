@@ -9,7 +9,7 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import base
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
 
 SURFACES = ("front", "all")
 
@@ -45,24 +45,24 @@ class Layering(base.Plain):
         super().__init__()
         self.glsl = self.strength + _GLSL
 
-    def touches(self, p: Any, state: Any, shot: Shot) -> Bools:
+    def touches(self, p: Own, state: Own, shot: Shot) -> Bools:
         """Whatever may be penetrated."""
         return self.objects(p, shot.scene) != 0
 
-    def uniforms(self, p: Any, state: Any, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> dict[str, Any]:
         """Whether far sides show."""
         return {"inside": p.surfaces == "all"}
 
-    def sides(self, p: Any) -> bool:
+    def sides(self, p: Own) -> bool:
         """Where far sides show."""
         return bool(p.surfaces == "all")
 
-    def layers(self, p: Any) -> int | None:
+    def layers(self, p: Own) -> int | None:
         """As the study has it."""
         found: int | None = p.layers
         return found
 
-    def look(self, p: Any, seen: Surfaces, opacity: Floats, doubt: Bools | None = None) -> Look:
+    def look(self, p: Own, seen: Surfaces, opacity: Floats, doubt: Bools | None = None) -> Look:
         """How surfaces show with these opacities (m,), where they may be penetrated."""
         ruled = self.objects(p, seen.shot.scene)[seen.object] != 0
         kept = seen.front | (ruled & (p.surfaces == "all"))

@@ -7,11 +7,10 @@ Where the pointer has not moved, or is captured to walk, the place is the middle
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from seethrough.renderer.techniques.base import Floats, Shot
+from seethrough.renderer.techniques.base import Floats, Own, Shot
 
 
 @dataclass(frozen=True)
@@ -40,7 +39,7 @@ def lens(shot: Shot) -> float:
     return float(0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
 
 
-def followed(state: Pointing, event: Any, step: float) -> tuple[Pointing, bool]:
+def followed(state: Pointing, event: Own, step: float) -> tuple[Pointing, bool]:
     """The state after an event: the pointer moves it, q and e bring it nearer and farther by a
     `step` (a share), and so does the wheel. A move of the pointer is left to others as well."""
     kind = type(event).__name__

@@ -16,7 +16,7 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import base
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Surfaces
 
 CAPS = ("none", "inside", "flat")
 WALL = (0.36, 0.34, 0.33)
@@ -61,11 +61,11 @@ class Removal(base.Plain):
         super().__init__()
         self.glsl = self.removes + _GLSL
 
-    def uniforms(self, p: Any, state: Any, shot: base.Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, Any]:
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
 
-    def sides(self, p: Any) -> bool:
+    def sides(self, p: Own) -> bool:
         """Where cuts show a wall."""
         return bool(p.cap != "none")
 

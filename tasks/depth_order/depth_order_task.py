@@ -15,7 +15,7 @@ from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import Button, Label, Rect
 from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import ANYWHERE, Texts
 
 MARKS = ("A", "B")
 SIZE, GAP, EDGE = 0.08, 0.015, 0.02
@@ -47,7 +47,7 @@ class DepthOrder(Basics):
 
     name, code = "depth_order", "D"
     source = "Elmqvist, Assarsson and Tsigas 2007, section VI-G"
-    worlds = ("abstract", "building")
+    worlds = ANYWHERE
     Parameters = DepthOrderParameters
     measures: tuple[Measure, ...] = (CORRECT,)
     texts: Texts = OwnTexts("seethrough.tasks.depth_order")

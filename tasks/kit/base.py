@@ -111,7 +111,8 @@ class Basics:
 class Task(Protocol):
     """One task, without state of its own: states are frozen values that replace each other.
 
-    `code` is how a paper calls it (T1), `worlds` are those it can be set in, `measures` what it
+    `code` is how a paper calls it (T1), `worlds` are those it can be set in (or
+    ANYWHERE), `measures` what it
     measures beside the time, `title` and `instruction` the names of its texts, and `simulate` how a
     simulated person does it.
     """

@@ -16,6 +16,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 
 OWN, SHARED = "own", "shared"
+ANYWHERE = ("*",)  # the worlds of a task that takes any place with targets
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
 NO_TEXTS: Texts = MappingProxyType({})
 

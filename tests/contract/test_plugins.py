@@ -3,6 +3,7 @@ with no edit elsewhere; and the suite finds what is wrong."""
 
 from __future__ import annotations
 
+import csv
 import shutil
 import subprocess
 import sys
@@ -125,6 +126,58 @@ def test_a_strangers_package_is_listed_and_passes(kind, whose, strangers):
         run = seethrough(strangers, kind, *words)
         assert run.returncode == 0, run.stdout + run.stderr
         assert words[0] == "check" or name in run.stdout
+
+
+STUDY = """
+[study]
+name = "toys"
+title = "Toys"
+description = "What strangers' packages bring along."
+participants = 2
+seed = 1
+[display]
+width = 160
+height = 120
+[factors.view]
+levels.plain = { technique.use = "standard" }
+levels.xray = { technique.use = "dynamic" }
+[factors.place]
+levels.cube = { world.use = "abstract", design.tasks = ["toy_task"] }
+levels.row = { world.use = "toy_world", design.tasks = ["depth_order"] }
+[world.abstract]
+objects = 40
+[world.toy_world]
+balls = 8
+[design]
+trials = 1
+[questions]
+liked = { use = "toy_question", when = "condition", text = "Did you like it?" }
+"""
+
+
+def test_strangers_objects_go_through_a_whole_study(strangers, tmp_path):
+    """Checked, played, replayed to the pixel: the task in our world, our task in the world."""
+    study, data = tmp_path / "toys.toml", tmp_path / "data"
+    study.write_text(STUDY, "utf-8")
+    for words in (
+        ("check", str(study), "--config-only"),
+        ("simulate", str(study), "--participants", "1", "--out", str(data)),
+        ("replay", str(data), "--participant", "S01", "--trial", "1", "--verify"),
+    ):
+        run = seethrough(strangers, *words)
+        assert run.returncode == 0, run.stdout + run.stderr
+    folder = data / "data" / "simulated" / "S01"
+    found = {}
+    for kind in ("trials", "questionnaire"):
+        (table,) = folder.glob(f"*{kind}_data.csv")
+        with open(table, encoding="utf-8", newline="") as file:
+            found[kind] = list(csv.DictReader(file))
+    cells = {(r["view"], r["place"], r["world"], r["task"]) for r in found["trials"]}
+    where = (("cube", "abstract", "toy_task"), ("row", "toy_world", "depth_order"))
+    assert cells == {(view, *rest) for view in ("plain", "xray") for rest in where}
+    assert all(row["answer"] and row["correct"] for row in found["trials"])
+    assert [row["item"] for row in found["questionnaire"]] == ["liked"] * 4
+    assert {row["value"] for row in found["questionnaire"]} <= {"0", "1"}
 
 
 @pytest.mark.parametrize("kind", RULES)

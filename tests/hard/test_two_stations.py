@@ -59,7 +59,7 @@ def play(study, participant, slot, source, data, guard):
     try:
         while not end.exists():
             number += 1
-            trial = Trial(number, 1, 1, number, "standard", "abstract", "count", "s", (1, 1))
+            trial = Trial(number, 1, 1, number, {{}}, "count", "s", (1, 1))
             recorder.trial_begins(trial)
             time.sleep(0.05)
             answer = Outcome("1", "1", True)

@@ -104,9 +104,9 @@ def test_tables_hold_what_the_eyes_see(context, views):
     display = STUDY.display.model_copy(update={"width": 1024, "height": 768})
     study = replace(STUDY, display=display)
     eyes, draws = Looking(context, (1024, 768), simple=True), LazyDraw(study)
-    for level, technique in (("standard", Standard()), ("dynamic", DynamicTransparency())):
+    for technique in (Standard(), DynamicTransparency()):
         eyes.technique = technique
         for view in views:
-            drawn, seen = draws(level)(view.scene, view.camera), eyes.look(view)
+            drawn, seen = draws(technique)(view.scene, view.camera), eyes.look(view)
             np.testing.assert_array_equal(drawn.area, seen.area)
             np.testing.assert_array_equal(drawn.contrast, seen.contrast)

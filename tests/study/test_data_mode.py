@@ -38,7 +38,7 @@ def test_where_tables_are_exact_a_whole_session_is_the_same_event_for_event(cont
                           without=LATTICE, keep=True)  # fmt: skip
     assert eyes.status == tables.status == "complete"
     assert {(r.trial.task, r.trial.levels["transparency"]) for r in eyes.records} == {
-        (task, level) for task in TASKS for level in ("standard", "dynamic")
+        (task, level) for task in study.tasks() for level in ("standard", "dynamic")
     }
     for record, ours, theirs in zip(eyes.records, tables.events, eyes.events, strict=True):
         assert ours == theirs, record.trial.task

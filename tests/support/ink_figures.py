@@ -155,6 +155,8 @@ def ink():
             for color in np.unique(corners["color"]):
                 own = corners["at"][(corners["color"] == color).any(axis=1)].astype(float)
                 found.setdefault(f"{color:08x}{picture}", []).append(own)
+            if picture:  # which corner of it lies where: a picture's rows begin at the bottom
+                found.setdefault("picture corners", []).append(corners["uv"].astype(float))
     return {name: _figures(np.concatenate(parts)) for name, parts in sorted(found.items())}
 
 

@@ -27,6 +27,7 @@ from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import cell, csv_line, header_of
 from seethrough.experiment.study.config import Study
+from seethrough.experiment.study.described import design_entry
 
 CHUNK = 16  # participants a folder: the published study's number
 NAME = re.compile(r"S(\d{5,})-S(\d{5,})")
@@ -85,7 +86,8 @@ def _plain(rows: Sequence[Mapping[str, object]], columns: tuple[Column, ...]) ->
 
 def columns_of(study: Study) -> dict[str, tuple[Column, ...]]:
     """Every table's columns in a study."""
-    return with_factors(factor.described() for factor in study.factors)
+    entry = design_entry(study)
+    return with_factors(entry["factors"], entry["tasks"])
 
 
 def _chained(

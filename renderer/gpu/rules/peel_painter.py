@@ -20,7 +20,7 @@ from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import Shot
+from seethrough.renderer.techniques.base import Own, Shot
 
 # Texture units, beyond those of a rule's pictures.
 ABOVE, BELOW, COVERED, LAYER = 10, 11, 12, 13
@@ -89,8 +89,8 @@ class PeelPainter:
         self,
         table: SceneTable,
         frame: FramePlan,
-        technique: Any,
-        state: Any,
+        technique: Own,
+        state: Own,
         shot: Shot,
         target: FrameTarget,
         matrix: bytes,

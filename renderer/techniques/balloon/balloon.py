@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from seethrough.renderer.declared import key
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import base, pointing
-from seethrough.renderer.techniques.base import Floats, Shot, Shown
+from seethrough.renderer.techniques.base import Floats, Own, Shot, Shown
 from seethrough.renderer.techniques.pointing import Pointing
 
 ROD = (0.25, 0.25, 0.28)
@@ -54,7 +53,7 @@ class Balloon(base.Plain):
         return Pointing(None, p.depth)
 
     def on_event(
-        self, p: BalloonParameters, state: Pointing, event: Any, shot: Shot
+        self, p: BalloonParameters, state: Pointing, event: Own, shot: Shot
     ) -> tuple[Pointing, bool]:
         """The pointer carries the ball, keys and wheel move it away."""
         return pointing.followed(state, event, p.step)

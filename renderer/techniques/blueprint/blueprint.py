@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Bools, Indices, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Indices, Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 LINE = (0.12, 0.2, 0.45)
@@ -47,7 +47,7 @@ class Blueprint(Layering):
     Parameters = BlueprintParameters
     strength = "uniform float fill;\nfloat opacity_of(Surface s) { return fill; }\n"
 
-    def known(self, p: BlueprintParameters, state: Any, seen: Surfaces) -> tuple[Bools, Bools]:
+    def known(self, p: BlueprintParameters, state: Own, seen: Surfaces) -> tuple[Bools, Bools]:
         """(m,) which surfaces are on an edge, and for which that is in doubt."""
         ruled = self.objects(p, seen.shot.scene)[seen.object] != 0
         kept = seen.front | (ruled & (p.surfaces == "all"))
@@ -59,7 +59,7 @@ class Blueprint(Layering):
         return _edges(p, seen, rows, layer)
 
     def rule(
-        self, p: BlueprintParameters, state: Any, seen: Surfaces, known: tuple[Bools, Bools]
+        self, p: BlueprintParameters, state: Own, seen: Surfaces, known: tuple[Bools, Bools]
     ) -> Look:
         """Lines on edges, a faint fill elsewhere."""
         edge, doubt = known
@@ -68,7 +68,7 @@ class Blueprint(Layering):
         tint[edge] = (*LINE, 1.0)
         return Look(found.kept, found.opacity, tint, found.doubt)
 
-    def uniforms(self, p: BlueprintParameters, state: Any, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: BlueprintParameters, state: Own, shot: Shot) -> dict[str, Any]:
         """The fill."""
         return {**super().uniforms(p, state, shot), "fill": p.fill}
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 THINGS = ("distractors", "everything")
@@ -44,11 +44,11 @@ class Constant(Layering):
         open_ = ~scene.impenetrable & (~scene.targets | (p.things == "everything"))
         return open_.astype(np.int64)
 
-    def rule(self, p: ConstantParameters, state: Any, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: ConstantParameters, state: Own, seen: Surfaces, known: Own) -> Look:
         """The same for each surface."""
         return self.look(p, seen, np.full(len(seen.depth), p.alpha))
 
-    def uniforms(self, p: ConstantParameters, state: Any, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: ConstantParameters, state: Own, shot: Shot) -> dict[str, Any]:
         """The opacity."""
         return {**super().uniforms(p, state, shot), "alpha": p.alpha}
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import pointing, removal
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.pointing import Pointing
 
 MOST = 16  # holes: one more, and the first is filled
@@ -72,7 +72,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
         return Digging(Pointing(None, p.depth))
 
     def on_event(
-        self, p: DigParameters, state: Digging, event: Any, shot: Shot
+        self, p: DigParameters, state: Digging, event: Own, shot: Shot
     ) -> tuple[Digging, bool]:
         """Dig, deepen and fill."""
         kind, word = type(event).__name__, getattr(event, "key", "")
@@ -97,7 +97,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
             found |= _apart(scene.centers, start, end) < p.radius + scene.radii
         return found & ~scene.targets & ~scene.impenetrable
 
-    def rule(self, p: DigParameters, state: Digging, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: DigParameters, state: Digging, seen: Surfaces, known: Own) -> Look:
         """Removed near the axis of a hole."""
         signed = np.full(len(seen.depth), -np.inf)
         for start, end in _axes(state, seen.shot.camera.eye):

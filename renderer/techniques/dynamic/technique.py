@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -28,7 +27,7 @@ class DynamicRendering(base.Plain):
         return Pointing(p.pointer, 0.0) if p.mode == "active" else None
 
     def on_event(
-        self, p: DynamicTransparency, state: Pointing | None, event: Any, shot: base.Shot
+        self, p: DynamicTransparency, state: Pointing | None, event: base.Own, shot: base.Shot
     ) -> tuple[Pointing | None, bool]:
         """The pointer carries the searchlight, and others see its moves too."""
         if state is None or type(event).__name__ != "PointerMove":
@@ -39,19 +38,19 @@ class DynamicRendering(base.Plain):
         """With the searchlight where the pointer is."""
         return p if state is None else replace(p, pointer=state.pointer)
 
-    def touches(self, p: DynamicTransparency, state: Any, shot: base.Shot) -> base.Bools:
+    def touches(self, p: DynamicTransparency, state: base.Own, shot: base.Shot) -> base.Bools:
         """Whatever is not impenetrable, where there is a target."""
         scene = shot.scene
         return np.full(len(scene.objects), bool(scene.targets.any())) & ~scene.impenetrable
 
-    def known(self, p: DynamicTransparency, state: Any, seen: base.Surfaces) -> Any:
+    def known(self, p: DynamicTransparency, state: base.Own, seen: base.Surfaces) -> base.Own:
         """The masks."""
         from seethrough.renderer.techniques.dynamic import exact
 
         return exact.known(self.drawn(p, state), seen)
 
     def rule(
-        self, p: DynamicTransparency, state: Any, seen: base.Surfaces, known: Any
+        self, p: DynamicTransparency, state: base.Own, seen: base.Surfaces, known: base.Own
     ) -> base.Look:
         """Opacities of the front-most surface of each object."""
         from seethrough.renderer.techniques.dynamic import exact

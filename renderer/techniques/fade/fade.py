@@ -13,7 +13,7 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import pointing
-from seethrough.renderer.techniques.base import Bools, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.pointing import Pointing
 
@@ -55,7 +55,7 @@ float opacity_of(Surface s) {
         return Pointing(None, 1.0)
 
     def on_event(
-        self, p: FadeParameters, state: Pointing, event: Any, shot: Shot
+        self, p: FadeParameters, state: Pointing, event: Own, shot: Shot
     ) -> tuple[Pointing, bool]:
         """The pointer carries it."""
         if type(event).__name__ != "PointerMove":
@@ -71,7 +71,7 @@ float opacity_of(Surface s) {
         box = np.array([[x - half, y - half, x + half, y + half]])
         return reached(shot, box, np.array([np.inf]))
 
-    def rule(self, p: FadeParameters, state: Pointing, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: FadeParameters, state: Pointing, seen: Surfaces, known: Own) -> Look:
         """By the distance of the pixel from the pointer."""
         height = seen.shot.size[1]
         away = np.hypot(*(seen.place - state.pixel(seen.shot)).T) / height

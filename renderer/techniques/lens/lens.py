@@ -15,7 +15,7 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import pointing, removal
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.pointing import Pointing
 
 SHAPES = ("tube", "ball")
@@ -69,7 +69,7 @@ bool pierced(Surface s) {
         return Pointing(None, p.depth)
 
     def on_event(
-        self, p: LensParameters, state: Pointing, event: Any, shot: Shot
+        self, p: LensParameters, state: Pointing, event: Own, shot: Shot
     ) -> tuple[Pointing, bool]:
         """The pointer carries it, keys and wheel move it away."""
         return pointing.followed(state, event, p.step)
@@ -86,7 +86,7 @@ bool pierced(Surface s) {
             box = removal.whole(shot, 1)
         return removal.reached(shot, box, np.array([end]))
 
-    def rule(self, p: LensParameters, state: Pointing, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: LensParameters, state: Pointing, seen: Surfaces, known: Own) -> Look:
         """Removed in the tube or ball."""
         x, y = state.pixel(seen.shot)
         width, height = seen.shot.size

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 
@@ -40,11 +40,11 @@ class SeeThrough(Layering):
         kinds = np.array([thing.kind in p.kinds for thing in scene.objects], dtype=bool)
         return (kinds & ~scene.targets & ~scene.impenetrable).astype(np.int64)
 
-    def rule(self, p: SeeThroughParameters, state: Any, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: SeeThroughParameters, state: Own, seen: Surfaces, known: Own) -> Look:
         """The same for each surface of the kinds."""
         return self.look(p, seen, np.full(len(seen.depth), p.alpha))
 
-    def uniforms(self, p: SeeThroughParameters, state: Any, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: SeeThroughParameters, state: Own, shot: Shot) -> dict[str, Any]:
         """The opacity."""
         return {**super().uniforms(p, state, shot), "alpha": p.alpha}
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 
@@ -49,14 +49,14 @@ float opacity_of(Surface s) {
 }
 """
 
-    def rule(self, p: ViewDependentParameters, state: Any, seen: Surfaces, known: Any) -> Look:
+    def rule(self, p: ViewDependentParameters, state: Own, seen: Surfaces, known: Own) -> Look:
         """By the angle between normal and line of sight."""
         lengths = np.linalg.norm(seen.normal, axis=1) * np.linalg.norm(seen.offset, axis=1)
         facing = np.abs((seen.normal * seen.offset).sum(axis=1)) / np.maximum(lengths, 1e-300)
         alpha = p.least + (p.most - p.least) * (1 - np.minimum(facing, 1.0) ** p.falloff)
         return self.look(p, seen, alpha)
 
-    def uniforms(self, p: ViewDependentParameters, state: Any, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: ViewDependentParameters, state: Own, shot: Shot) -> dict[str, Any]:
         """The curve."""
         curve = {"least": p.least, "most": p.most, "falloff": p.falloff}
         return {**super().uniforms(p, state, shot), **curve}

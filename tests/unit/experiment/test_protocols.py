@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from desktop import Desktop, Program, wait_until
 from protocol_suites import keeps_to_display, keeps_to_input, keeps_to_recorder
+from published_design import published
 from recorded import VIEW
 
 from seethrough.experiment.display.clock import SimulatedClock
@@ -24,7 +25,8 @@ from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
 
 STUDY = load("demo")
-TRIAL = Trial(5, 1, 2, 2, "dynamic", "abstract", "count", "stream-1", (1, 1))
+LEVELS = {"transparency": "dynamic", "scenario": "abstract"}
+TRIAL = Trial(5, 1, 2, 2, LEVELS, "count", "stream-1", (1, 1), world="abstract")
 RECORD = TrialRecord(
     TRIAL, Outcome("12", "14", False, count_error=-2), 14, 10.0, 52.25, 2.25, False,
     2500, 3, 0.05, 12.5, 3.25,
@@ -40,13 +42,13 @@ def setup(kind):
         if kind == "offscreen"
         else TableDisplay(pool, clock, 4 / 3)
     )
-    trials = [s.trials[0] for s in session_for(1, STUDY.design.factors())]
+    trials = [s.trials[0] for s in session_for(1, STUDY.plan)]
     trial = next(t for t in trials if t.task == "count")
     task, state = TASKS["count"], pool.begin(TASKS["count"], trial, 4 / 3)
     views = [task.view(state)]
     turned = next(t for t in trials if t.task == "pattern")
     views.append(TASKS["pattern"].view(pool.begin(TASKS["pattern"], turned, 4 / 3)))
-    return display, clock, task, views, STUDY.technique(trial.transparency)
+    return display, clock, task, views, STUDY.part(trial.levels).technique
 
 
 @pytest.mark.parametrize("kind", ["offscreen", "tables"])
@@ -67,6 +69,7 @@ import sys
 sys.path[:0] = {path!r}
 import numpy as np
 from recorded import VIEW
+from published_design import published
 from protocol_suites import keeps_to_display, keeps_to_input
 from test_protocols import STUDY, setup
 from seethrough.experiment.display.clock import RealClock
@@ -101,7 +104,9 @@ def test_the_window_and_who_is_watched_in_it(tmp_path):
 
 
 def test_the_recorder_of_files(tmp_path):
-    recorder = FileRecorder(tmp_path, Who("test", "P01", "human", 1, {"seed": 3}))
+    recorder = FileRecorder(
+        tmp_path, Who("test", "P01", "human", 1, {"seed": 3}, design=published())
+    )
     folder = tmp_path / "data" / "human" / "P01"
 
     def read():

@@ -3,6 +3,7 @@
 import csv
 import json
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from published_design import columns, published
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, next_free, stem_of
+from seethrough.experiment.record.columns import columns_in
 from seethrough.experiment.record.record_files import cell
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
@@ -170,3 +172,22 @@ def test_answers_and_notes_are_on_disk_at_once(tmp_path):
 def test_numbers_of_numpy_are_written_as_numbers():
     values = (np.float64(0.1), np.float32(0.5), np.int64(3), np.bool_(True), 0.1, True, None)
     assert [cell(v) for v in values] == ["0.1", "0.5", "3", "true", "0.1", "true", ""]
+
+
+def test_what_a_task_measures_besides_has_a_column(tmp_path):
+    """As the sidecar's design declares it, read back by the file's header alone."""
+    misses = {"name": "misses", "unit": "clicks", "label": "clicks on other things"}
+    task = {"name": "select", "code": "S", "measures": [{**misses}, {**misses, "name": "correct"}]}
+    who = Who("test", "P01", "human", 1, {"seed": 3}, design={**DESIGN, "tasks": [task]})
+    rec = FileRecorder(tmp_path, who, now=lambda: "2026-01-02T03:04:05.678Z")
+    outcome = Outcome("3", "3", True, more={"misses": 2})
+    play(rec, replace(RECORD, outcome=outcome))
+    rec.close("left")
+    (table,) = (tmp_path / "data" / "human" / "P01").glob("*_trials_data.csv")
+    (row,) = rows(table)
+    names = list(row)
+    assert row["misses"] == "2" and row["correct"] == "true" and names[-1] == "chain"
+    assert names[names.index("distance") + 1] == "misses" and names.count("correct") == 1
+    assert [c.name for c in columns_in("trials", names)] == names
+    (column,) = [c for c in columns_in("trials", names) if c.name == "misses"]
+    assert column.type == "number"

@@ -226,6 +226,12 @@ def test_two_factors_on_one_key_too_many_cells_and_too_few_people():
         study(factors={"view": {**two["view"], "people": 3}})
 
 
+def test_a_trial_that_may_outlast_the_session_is_refused():
+    with pytest.raises(InputError, match=r"task\.limit = 700\.0: expected at most session\.limit"):
+        study(task={"limit": 700.0}, session={"limit": 600.0})
+    assert study(task={"limit": 700.0}, session={"limit": 0.0}).session.limit == 0
+
+
 def test_a_measured_factor_sets_nothing_and_a_group_has_its_quota():
     measured = {"vary": "measured", "values": ["novice", "expert"],
                 "people": {"novice": 6, "expert": 2}}  # fmt: skip
