@@ -36,7 +36,8 @@ class Cells:
     def at(self, **levels: str) -> Array:
         """The values at the given levels, factors not named averaged over: (n,), NaN if lacking."""
         picked = self.values[self._index(levels)]
-        return picked.reshape(len(picked), -1).mean(axis=1)
+        found: Array = picked.reshape(len(picked), -1).mean(axis=1)
+        return found
 
     def both(self, factor: str, first: str, second: str, **levels: str) -> tuple[Array, Array]:
         """The values at two levels of a factor, over the other factors' cells that both have.
@@ -75,7 +76,7 @@ class Cells:
 
     def whole(self) -> Cells:
         """Only the participants who have every cell."""
-        kept = np.isfinite(self.values.reshape(len(self.values), -1)).all(axis=1)
+        kept = np.all(np.isfinite(self.values.reshape(len(self.values), -1)), axis=1)
         names = tuple(p for p, k in zip(self.participants, kept, strict=True) if k)
         return Cells(self.values[kept], self.counts[kept], names, self.factors)
 
@@ -108,8 +109,11 @@ def level_codes(column: pd.Series, levels: Sequence[str]) -> NDArray[np.intp]:
     if isinstance(column.dtype, pd.CategoricalDtype):
         place = {level: i for i, level in enumerate(levels)}
         known = [place.get(str(c), -1) for c in column.cat.categories]
-        return np.array([*known, -1], dtype=np.intp)[column.cat.codes]
-    return pd.Categorical(column.astype("str"), categories=list(levels)).codes.astype(np.intp)
+        own: NDArray[np.intp] = np.array([*known, -1], dtype=np.intp)[column.cat.codes]
+        return own
+    made = pd.Categorical(column.astype("str"), categories=list(levels))
+    codes: NDArray[np.intp] = made.codes.astype(np.intp)
+    return codes
 
 
 def people(table: pd.DataFrame) -> list[str]:
@@ -144,7 +148,9 @@ def sums(
     size = int(np.prod(shape))
     counts = np.bincount(flat[known], minlength=size).reshape(shape)
     totals = [
-        np.bincount(flat[known], weights=column[known], minlength=size).reshape(shape)
+        np.bincount(flat[known], weights=column[known], minlength=size)
+        .reshape(shape)
+        .astype(float, copy=False)
         for column in values.T
     ]
     return totals, counts, tuple(names)

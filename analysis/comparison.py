@@ -81,17 +81,18 @@ def pair_of(
     family: str = "",
     margin: Margin | None = None,
     ratio_scale: bool = True,
-    **at: str,
+    at: Mapping[str, str] | None = None,
 ) -> Pair | None:
     """The pair of those who have both levels of a within contrast; None unless somebody has.
 
     Over the other factors' cells that both levels have: cells that the study leaves out for
-    everybody are in neither mean.
+    everybody are in neither mean. `at` are levels of other factors to stay at.
     """
     if not {contrast.baseline, contrast.level} <= set(cells.factors.get(contrast.factor, ())):
         return None
-    pair = np.stack(cells.both(contrast.factor, contrast.baseline, contrast.level, **at), axis=1)
-    both = np.isfinite(pair).all(axis=1)
+    levels = (contrast.baseline, contrast.level)
+    pair = np.stack(cells.both(contrast.factor, *levels, **(at or {})), axis=1)
+    both = np.all(np.isfinite(pair), axis=1)
     if not both.any():
         return None
     names = tuple(p for p, b in zip(cells.participants, both, strict=True) if b)

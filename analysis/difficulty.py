@@ -69,7 +69,7 @@ def balance(trials: pd.DataFrame, design: Design) -> list[Balance]:
         for task in cells.factors["task"]:
             for contrast in contrasts:
                 key = f"{quantity}_{task}" + (f"/{contrast.key}" if len(contrasts) > 1 else "")
-                pair = pair_of(key, quantity, "", 3, cells, contrast, task=task)
+                pair = pair_of(key, quantity, "", 3, cells, contrast, at={"task": task})
                 # nobody walks in a world that one turns about
                 if pair is None or (quantity == "path" and not _any(pair)):
                     continue

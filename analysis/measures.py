@@ -127,4 +127,5 @@ def ratings(asked: pd.DataFrame, names: Sequence[str], factors: Sequence[Factor]
 def answers(questionnaire: pd.DataFrame, item: str) -> Array:
     """All values of an item asked once per participant."""
     values = questionnaire.loc[questionnaire["item"] == item, "value"].to_numpy(dtype=np.float64)
-    return values[~np.isnan(values)]
+    given: Array = values[~np.isnan(values)]
+    return given

@@ -105,7 +105,7 @@ def _change(
     if any(not set(levels) <= set(c.factors[contrast.factor]) for c in every):
         return None
     parts = [np.stack(c.pick(task=task.name).both(contrast.factor, *levels), axis=1) for c in every]
-    has = np.isfinite(np.concatenate(parts, axis=1)).all(axis=1)
+    has = np.all(np.isfinite(np.concatenate(parts, axis=1)), axis=1)
     if not has.any():
         return None
     time, log, off = (part[has] for part in parts)
@@ -165,7 +165,7 @@ def scores(trials: pd.DataFrame, factor: Factor) -> Scores | None:
     factors = {factor.name: levels}
     columns = ["one", "time", "correct", "right_time"]
     (count, time, right, right_time), _, names = sums(table, columns, factors)
-    whole = (count > 0).all(axis=1)
+    whole = np.all(count > 0, axis=1)
     if not whole.any():
         return None
     count, time, right, right_time = (x[whole] for x in (count, time, right, right_time))
@@ -181,7 +181,8 @@ def _bis(share: Array, time: Array) -> Array | Undefined:
     for values, what in ((share, "accuracy"), (time, "time")):
         if is_constant(values.ravel()):
             return Undefined(f"{what} does not vary")
-    return (share - share.mean()) / share.std() - (time - time.mean()) / time.std()
+    score: Array = (share - share.mean()) / share.std() - (time - time.mean()) / time.std()
+    return score
 
 
 def accuracy_by_speed(trials: pd.DataFrame, factor: Factor, parts: int = 3) -> pd.DataFrame:

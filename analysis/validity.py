@@ -83,7 +83,8 @@ def learning_slopes(trials: pd.DataFrame) -> Array:
     if not len(parts):
         return np.empty(0)
     slopes = parts.assign(slope=parts["xy"] / parts["xx"])
-    return slopes.groupby("participant", observed=True)["slope"].mean().to_numpy()
+    of_people: Array = slopes.groupby("participant", observed=True)["slope"].mean().to_numpy()
+    return of_people
 
 
 def learning_curve(trials: pd.DataFrame, factor: Factor) -> pd.DataFrame:

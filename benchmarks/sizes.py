@@ -154,9 +154,9 @@ def at_the_margin(rng: Generator) -> Found:
     a, b = normal_pairs(rng, 16)
     logs = log_equivalence(a / 10, b / 10 + float(np.log(1.2)), share)
     found = {}
-    for name, own in (("difference", absolute), ("ratio", ratio), ("log ratio", logs)):
-        found[f"TOST, {name}"] = below(own["tost_p"])
-        found[f"no worse, {name}"] = below(own["noninferior_p"])
+    for name, tests in (("difference", absolute), ("ratio", ratio), ("log ratio", logs)):
+        found[f"TOST, {name}"] = below(tests["tost_p"])
+        found[f"no worse, {name}"] = below(tests["noninferior_p"])
     ends = (ratio["low90"], ratio["high90"])
     return {**found, "90 % interval of the ratio": inside(ends, 1.2)}
 

@@ -50,13 +50,17 @@ class _Reader:
         if default is None and key not in table:
             self.lines.append(f"{self.where}: {path}.{key}: missing")
             return ""
-        return self.value(table, path, key, default or "", lambda v: isinstance(v, str), "a text")
+        found: str = self.value(
+            table, path, key, default or "", lambda v: isinstance(v, str), "a text"
+        )
+        return found
 
     def choice(
         self, table: Mapping[str, Any], path: str, key: str, known: Sequence[str], default: str
     ) -> str:
         expected = f"one of {', '.join(known)}"
-        return self.value(table, path, key, default, lambda v: v in known, expected)
+        found: str = self.value(table, path, key, default, lambda v: v in known, expected)
+        return found
 
     def tables(self, table: Mapping[str, Any], path: str, key: str) -> Iterator[tuple[str, Any]]:
         """The tables of an array, each with its path."""
@@ -183,11 +187,12 @@ class _Reader:
         )
 
     def margin(self, table: Mapping[str, Any], path: str, above: float) -> float | None:
-        return self.value(
+        found: float | None = self.value(
             table, path, "margin", None,
             lambda v: isinstance(v, _NUMBER) and not isinstance(v, bool) and above < v < 1e300,
             f"a number above {above:g}",
         )  # fmt: skip
+        return found
 
     def cell(
         self, table: Mapping[str, Any], path: str, known: Mapping[str, Sequence[str]]

@@ -72,10 +72,10 @@ def compared(
     several = prediction.combine == "any"
     used = holm(known) if several else known
     shown = [p < alpha for p in used]
-    fits = [fit for *_, fit in tests]
-    reached = [s and f for s, f in zip(shown, fits, strict=True)]
+    fitting = [fit for *_, fit in tests]
+    reached = [s and f for s, f in zip(shown, fitting, strict=True)]
     supported = any(reached) if several else all(reached)
-    against = any(s and not f for s, f in zip(shown, fits, strict=True))
+    against = any(s and not f for s, f in zip(shown, fitting, strict=True))
     verdict = "supported" if supported else "contradicted" if against else "not shown"
     runs: list[str | Cited] = [f"{start}{verdict}. "]
     for i, (column, table, row, _, _) in enumerate(tests):

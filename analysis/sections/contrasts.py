@@ -214,7 +214,7 @@ def _trends(design: Design, cells: Cells, where: str, factor: Factor) -> Iterato
     axis = list(cells.factors).index(factor.name) + 1
     moved = np.moveaxis(cells.values, axis, -1)
     flat = moved.reshape(len(moved), -1, len(known))
-    flat = flat[:, np.isfinite(flat).any(axis=0).all(axis=1)]
+    flat = flat[:, np.all(np.any(np.isfinite(flat), axis=0), axis=1)]
     if not flat.shape[1]:
         return
     for degree, kind in TRENDS.items():

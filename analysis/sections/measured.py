@@ -86,13 +86,13 @@ def _pair(
     key = pair_key(measure.name, where, contrast, several)
     margin = margin_of(measure)
     about = (key, label, measure.unit, measure.digits)
-    raw = pair_of(*about, cells, contrast, family, margin, **at)
+    raw = pair_of(*about, cells, contrast, family, margin, at=at)
     if raw is None:
         return None
     raw = replace(raw, of=measure.name, where=where)
     if logs is None:
         return raw
-    log = pair_of(*about, logs, contrast, family, margin, **at)
+    log = pair_of(*about, logs, contrast, family, margin, at=at)
     if log is None or len(log.first) != len(raw.first):
         return None
     return replace(raw, logs=(log.first, log.second))

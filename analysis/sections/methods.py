@@ -55,8 +55,8 @@ def _participants(context: Context) -> Prose:
             f", aged {ages.min():g} to {ages.max():g} (M = {fixed(float(ages.mean()), 1)}{spread}"
         )
         said += f", n = {len(ages)})"
-    genders = asked.loc[asked["item"] == GENDER, "text"].astype("str") if len(asked) else []
-    if len(genders):
+    genders = asked.loc[asked["item"] == GENDER, "text"].astype("str") if len(asked) else None
+    if genders is not None and len(genders):
         counts = genders.value_counts()
         said += f"; gender as they gave it: {', '.join(f'{k} {v}' for k, v in counts.items())}"
     return say(f"Participants: {said}.")

@@ -49,7 +49,7 @@ def omnibus(
             words = f"{note} Logarithms of trials' values.".strip()
             decides = _table(context, f"anova_{measure.name}{name}_log", f"{title}, logarithms",
                              own_logs, words)  # fmt: skip
-            tables = [t for t in (decides,) if t is not None] + [Fold("On the raw scale", (raw,))]
+            tables = [*(t for t in (decides,) if t is not None), Fold("On the raw scale", (raw,))]
         if decides is not None:
             found[f"anova{name}"] = decides
             blocks += _sentences(context, measure, decides, name)

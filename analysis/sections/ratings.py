@@ -108,7 +108,7 @@ def _ratings(
                 at = {"item": item, **dict(zip((f.name for f in others), where, strict=True))}
                 key = "_".join((item, *where)) + ending
                 label = ", ".join((item, *where)) + words
-                each.append(pair_of(key, label, "", 2, cells, contrast, "ratings", **at))
+                each.append(pair_of(key, label, "", 2, cells, contrast, "ratings", at=at))
         if len(cells.factors["item"]) > 1 or others:
             key = f"{_stem(name)}_overall{ending}"
             overall.append(pair_of(key, f"overall{words}", "", 2, cells, contrast))

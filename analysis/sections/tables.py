@@ -207,7 +207,7 @@ def design_at(context: Context, cells: Cells) -> Design:
     """The design as those have it who have any of these cells: a factor between people of which
     they have a single level drops out (a task that only one group does)."""
     design = context.design
-    there = np.isfinite(cells.values.reshape(len(cells.values), -1)).any(axis=1)
+    there = np.any(np.isfinite(cells.values.reshape(len(cells.values), -1)), axis=1)
     names = [p for p, t in zip(cells.participants, there, strict=True) if t]
     left: list[Factor] = []
     for factor in design.factors:
