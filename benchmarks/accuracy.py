@@ -1,7 +1,7 @@
 """How far each way of drawing is from the exact picture, and what it costs.
 
 `seethrough bench accuracy --json FILE --figure FILE.svg` compares every order of objects, on the
-three scenes of paper 004 and on scenes built to break each order, with the exact picture of the
+three scenes of Elmqvist2009 and on scenes built to break each order, with the exact picture of the
 GPU (which the tests hold to the float64 reference): the share of pixels that differ by more than
 2/255, the mean, 99.9th percentile and largest difference, the share of pixels with a wrong order,
 FLIP where flip-evaluator is installed, and the frame's time against the standard frame's. Then it

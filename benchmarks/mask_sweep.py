@@ -1,6 +1,6 @@
 """What masks are made of: resolution, width and opacity, with error, visibility and time.
 
-The defaults of the technique (paper 004 prints only 128 × 128) are chosen by these tables:
+The defaults of the technique (Elmqvist2009 prints only 128 × 128) are chosen by these tables:
 
 - *Resolution*: the paper's ring growth on coarse cells against the exact distance to the outline,
   all else equal and sorted by pixel, so that the masks alone differ.

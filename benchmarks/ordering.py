@@ -1,7 +1,7 @@
 """Depth orderings side by side: what each costs, and whether its picture is exact.
 
 `seethrough bench ordering --json FILE`, or `python -m seethrough.benchmarks.ordering --json FILE
---figure FILE.svg` for the figure of error against time as well. Paper 002's objects are lost:
+--figure FILE.svg` for the figure of error against time as well. Chen1996's objects are lost:
 ratios and the order of methods on stand-ins are compared with its own, no number of it is
 reproduced. Times are processor time, the fastest of several: all orderings run on one thread, and
 other work on the machine does not count.
@@ -31,7 +31,7 @@ from seethrough.renderer.polygons.polygons import Polygons, polygons_from
 from seethrough.renderer.polygons.prepared import Prepared
 
 HELP = "depth orderings: splits, relations, times, memory and image error"
-SEEDS = 100  # of the BSP baseline: the mean of 20, as in paper 002, still moves by 3 %
+SEEDS = 100  # of the BSP baseline: the mean of 20, as in Chen1996, still moves by 3 %
 ORDERS = 20  # random input orders of the dynamic version
 LOOKAHEAD = 4  # candidates of each rule that are tried out, see `feudal_lookahead`
 LISTS = 40  # view vectors whose priority lists are compared
@@ -107,7 +107,7 @@ def bare(polygons: Polygons) -> Polygons:
 
 
 def closed_volume(made: TranslucentScene) -> Iterator[Row]:
-    """What tables 6 and 7 of paper 002 list, for a stand-in of one of its lost objects: ratios."""
+    """What tables 6 and 7 of Chen1996 list, for a stand-in of one of its lost objects: ratios."""
     streams = np.random.SeedSequence(3, spawn_key=(6,)).spawn(SEEDS + ORDERS)
     rngs = [np.random.default_rng(s) for s in streams]
     trees = [bsp.prepare(made.polygons, "fewest", rng=r) for r in rngs[:SEEDS]]

@@ -4,7 +4,7 @@
 exact give the exact picture, then error and time of every way, then which to pick when, as the
 numbers have it; with `--figure FILE.svg` it draws error against time. `python -m
 benchmarks.ordering_accuracy --figure FILE.svg --pictures FOLDER` draws that figure alone, and paper
-000's figures 4 to 6.
+Kang2008's figures 4 to 6.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Paper 000's figures 4 to 6: what a missing order looks like, and what its order costs.
+"""Kang2008's figures 4 to 6: what a missing order looks like, and what its order costs.
 
 `python -m seethrough.benchmarks.ordering_accuracy --pictures FOLDER` draws them. Unblended: nothing
 shows through. Unsorted: blended in the order the polygons happen to be stored. Sorted: by `boxes`.

@@ -1,4 +1,4 @@
-"""Dynamic transparency as paper 004 (§V) draws it, to be measured against: two passes for each
+"""Dynamic transparency as Elmqvist2009 (§V) draws it, to be measured against: two passes for each
 object in the order of the centres, and for each target a mask by ping-pong in two small buffers.
 """
 

@@ -1,6 +1,6 @@
-"""What a new view costs once the tree is there: paper 002's postprocessing phase.
+"""What a new view costs once the tree is there: Chen1996's postprocessing phase.
 
-Paper 002, tables 6 and 7, compares the time to get the priority list of a closed volume for a new
+Chen1996, tables 6 and 7, compares the time to get the priority list of a closed volume for a new
 view vector, faces that look away culled, from the feudal priority tree and from the BSP tree of
 the baseline (fewest splits of five random candidates). So is it here, on stand-ins for its objects,
 which are lost (decisions/0007): the ratio can be compared, the times cannot.

@@ -1,4 +1,4 @@
-"""The three scenes of paper 004's performance table."""
+"""The three scenes of Elmqvist2009's performance table."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class ViewState:
     lines: bool = False
 
     def pressed(self, key: str) -> ViewState:
-        """After a key: paper 001's t, o, l and p; arrows turn, page up and down move."""
+        """After a key: LabBSP2010's t, o, l and p; arrows turn, page up and down move."""
         match key:
             case "t":
                 return replace(self, texturing=not self.texturing)

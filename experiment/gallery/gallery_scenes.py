@@ -40,7 +40,7 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
 
 
 def _scenes(aspect: float, seed: int) -> Iterator[Plate]:
-    """Paper 004's scenes, each drawn both ways, and the contact sheet of the models."""
+    """Elmqvist2009's scenes, each drawn both ways, and the contact sheet of the models."""
     from seethrough.renderer.models.forms.sheet import contact_sheet_scene
     from seethrough.renderer.models.vehicles.jeep import jeep_scene
 

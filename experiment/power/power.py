@@ -173,7 +173,7 @@ def enough(points: Sequence[Power]) -> Mapping[str, int | None]:
     return answer
 
 
-# Paper 004, tables 3 and 4: (name, standard mean and s.d., dynamic mean and s.d., F(1, 15)).
+# Elmqvist2009, tables 3 and 4: (name, standard mean and s.d., dynamic mean and s.d., F(1, 15)).
 PUBLISHED = (
     ("time, overall", 65.17, 27.75, 28.69, 11.02, 49.54),
     ("time T1 count", 56.26, 38.72, 40.44, 20.99, 7.54),

@@ -89,7 +89,7 @@ RATING = ((1.52, 3.09), (0.59, 0.38))  # means and s.d. over the items; r is not
 
 
 def published() -> Sequence[RankEffect]:
-    """What the paper tests by ranks (004, §VII)."""
+    """What the paper tests by ranks (Elmqvist2009, §VII)."""
     rating = NormalEffect("rating, overall", *RATING, 0.0)
     correct = SampledEffect("right answers T2", np.array(T2_CORRECT))
     preferred = SampledEffect("preference", np.array(PREFERRED))

@@ -1,5 +1,6 @@
-"""Ready-made questions, each a page of one or several kinds. Sources: ratings 004 §VI-G; NASA-TLX
-raw (Hart & Staveland 1988, public domain); SUS (Brooke 1996, free to use with its name)."""
+"""Ready-made questions, each a page of one or several kinds. Sources: ratings Elmqvist2009 §VI-G;
+NASA-TLX raw (Hart & Staveland 1988, public domain); SUS (Brooke 1996, free to use with its
+name)."""
 
 from __future__ import annotations
 

@@ -18,7 +18,8 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicT
 
 
 def opacity(distance: NDArray[np.float64], technique: DynamicTransparency) -> NDArray[np.float64]:
-    """Mask (…) at `distance` pixels from the outline, 0 on the target itself (004 §V-D, Fig. 3)."""
+    """Mask (…) at `distance` pixels from the outline, 0 on the target itself (Elmqvist2009 §V-D,
+    Fig. 3)."""
     t, e = technique.alpha_target, technique.alpha_edge
     if technique.width == 0:
         return np.where(distance <= 0, t, 1.0)
@@ -27,7 +28,8 @@ def opacity(distance: NDArray[np.float64], technique: DynamicTransparency) -> ND
 
 
 def ring_opacities(technique: DynamicTransparency, size: tuple[int, int]) -> NDArray[np.float64]:
-    """(k,) opacity of each ring of cells, from the target outwards (004 §V-D, algorithm 2).
+    """(k,) opacity of each ring of cells, from the target outwards (Elmqvist2009 §V-D, algorithm
+    2).
 
     As many rings as cells fit into the width of the mask, at least one if it has a width.
     """

@@ -96,7 +96,7 @@ class FramePlan:
 
 
 def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> NDArray[np.bool_]:
-    """(n,) what never turns transparent in this frame (004 §III-C.3)."""
+    """(n,) what never turns transparent in this frame (Elmqvist2009 §III-C.3)."""
     if technique.penetrable_within is None:
         return scene.impenetrable
     low, high = scene.corners.min(axis=1), scene.corners.max(axis=1)
@@ -237,7 +237,8 @@ def _far_to_near(scene: Scene, camera: Camera, objects: Indices) -> Indices:
 def _counted(
     relation: NDArray[np.int8], masked: NDArray[np.bool_], technique: DynamicTransparency
 ) -> Indices:
-    """Targets with more objects in front than may each keep alpha_target (notation: 004 §V-D)."""
+    """Targets with more objects in front than may each keep alpha_target (notation: Elmqvist2009
+    §V-D)."""
     tau, alpha = technique.min_transmittance, technique.alpha_target
     if tau == 0:
         return np.zeros(0, np.int64)

@@ -1,1 +1,2 @@
-"""Who is drawn before whom: one file each method of papers 000-003."""
+"""Who is drawn before whom: one file each method of papers Kang2008, LabBSP2010, Chen1996 and
+WebSorting."""

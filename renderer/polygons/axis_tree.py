@@ -1,4 +1,4 @@
-"""Median split by x, y and z in turn, the camera's coordinate compared at each node (paper 003).
+"""Median split by x, y and z in turn, the camera's coordinate compared at each node (WebSorting).
 
 A heuristic, and measurably the worst of the sorts (`seethrough bench accuracy`): a node parts the
 polygons' *centres*, polygons reach through its plane uncut, and what lies in a camera's own half

@@ -1,4 +1,4 @@
-"""Oriented bounding boxes: fitting them, their contours, and what separates two (paper 000)."""
+"""Oriented bounding boxes: fitting them, their contours, and what separates two (Kang2008)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which boxes overlap in the picture, and which of two is in front (paper 000)."""
+"""Which boxes overlap in the picture, and which of two is in front (Kang2008)."""
 
 from __future__ import annotations
 

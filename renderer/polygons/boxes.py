@@ -1,4 +1,4 @@
-"""Objects ordered by their oriented bounding boxes, anew in every frame (paper 000).
+"""Objects ordered by their oriented bounding boxes, anew in every frame (Kang2008).
 
 From the eye each box shows up to three faces; a six-bit code of these looks up its contour. Where
 two contours overlap, one box is in front: the graph of these relations gives the order, and what

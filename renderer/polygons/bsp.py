@@ -1,13 +1,13 @@
-"""Binary space partition by the polygons' own planes (papers 001 and 002).
+"""Binary space partition by the polygons' own planes (papers LabBSP2010 and Chen1996).
 
 The order is exact, for every eye, up to the rounding of cut points: whatever lies on the eye's
 side of a plane cannot be hidden by what lies on the other. Polygons of one plane stay together
 in a node and are drawn in their input order. The price is paid before the first frame: polygons
 that reach through a plane are cut, and nothing may move afterwards.
 
-Splitters: `first` takes the first polygon of the list (001); `fewest` the one of k random
-candidates that cuts fewest (002's baseline, k = 5); `sampled`, ours, weighs cuts against balance
-on a small sample, which gives lower trees of fewer pieces in a fraction of the time.
+Splitters: `first` takes the first polygon of the list (LabBSP2010); `fewest` the one of k random
+candidates that cuts fewest (Chen1996's baseline, k = 5); `sampled`, ours, weighs cuts against
+balance on a small sample, which gives lower trees of fewer pieces in a fraction of the time.
 """
 
 from __future__ import annotations
@@ -58,11 +58,11 @@ def prepare(
     """Build the tree.
 
     `rng` draws the candidates; without one a fixed stream is used. `tolerance` is the distance
-    (world units) within which a corner counts as on the plane: 0 is exact, 001 uses 10⁻³.
-    `halves` cuts triangles into triangles only (001); by default if all polygons are triangles.
-    `closed` leaves out the faces that look away from the eye: for opaque closed volumes (002).
-    `most` bounds the pieces that cutting may make: where everything crosses everything, 100
-    triangles fall into 25,000. Raises ValueError for polygons that `polygons.check` refuses and
+    (world units) within which a corner counts as on the plane: 0 is exact, LabBSP2010 uses 10⁻³.
+    `halves` cuts triangles into triangles only (LabBSP2010); by default if all polygons are
+    triangles. `closed` leaves out the faces that look away from the eye: for opaque closed volumes
+    (Chen1996). `most` bounds the pieces that cutting may make: where everything crosses everything,
+    100 triangles fall into 25,000. Raises ValueError for polygons that `polygons.check` refuses and
     for an unknown splitter, TooManyPieces beyond that bound.
     """
     if splitter not in SPLITTERS:

@@ -3,7 +3,7 @@
 A fragment is a loop of corners in one long array of rows (x, y, z). A cut walks the loop once,
 inserts the points where it crosses the plane, and links the chains of each side along the cut
 line. So a concave polygon may fall into more than two pieces, and a triangle falls in the two ways
-of paper 001, figure 3. New points are computed from the edge's lower end (in x, then y, then z),
+of LabBSP2010, figure 3. New points are computed from the edge's lower end (in x, then y, then z),
 so that two neighbours cut their common edge at the very same point. What else corners carry is not
 touched here: every row remembers the two rows it lies between, and `interpolate` follows up.
 """

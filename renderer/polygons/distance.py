@@ -1,4 +1,4 @@
-"""Sort by distance, again whenever the camera moved (paper 003), or by view depth (paper 004).
+"""Sort by distance, again whenever the camera moved (WebSorting), or by view depth (Elmqvist2009).
 
 A heuristic: it is exact only where no polygon reaches past another's centre, so for small
 polygons of about one size that don't intersect. Long polygons next to short ones, cyclic overlap
@@ -96,7 +96,8 @@ class PreparedDistance:
 
 
 def prepare(polygons: Polygons, metric: str = "distance") -> PreparedDistance:
-    """Keep polygons for sorting: by `distance` of the centre (003), or by view `depth` (004)."""
+    """Keep polygons for sorting: by `distance` of the centre (WebSorting), or by view `depth`
+    (Elmqvist2009)."""
     return PreparedDistance(polygons, metric)
 
 

@@ -1,4 +1,4 @@
-"""Feudal priority (paper 002): who can hide whom, decided before the first frame.
+"""Feudal priority (Chen1996): who can hide whom, decided before the first frame.
 
 Each polygon's plane is tested against the others. A polygon with all others behind its plane (or
 all in front of it) has absolute priority: it is drawn first or last, by the way it faces, whatever

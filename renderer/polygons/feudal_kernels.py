@@ -1,4 +1,4 @@
-"""Relations looked up when they are asked for, and the searches that ask (paper 002).
+"""Relations looked up when they are asked for, and the searches that ask (Chen1996).
 
 The paper fills in whole rows of its one-way table. Most of a row is never needed: a plane that
 cuts one polygon of a group is neither of absolute priority there nor separating, and stays so

@@ -1,4 +1,4 @@
-"""The postprocessing phase of paper 002: from a feudal priority tree to a priority list."""
+"""The postprocessing phase of Chen1996: from a feudal priority tree to a priority list."""
 
 from __future__ import annotations
 

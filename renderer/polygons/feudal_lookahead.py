@@ -1,6 +1,6 @@
 """Splitting planes tried out: each candidate's whole subtree is built before one is taken.
 
-Ours, beside paper 002: the plane that cuts fewest now often shaves one polygon off a group, and the
+Ours, beside Chen1996: the plane that cuts fewest now often shaves one polygon off a group, and the
 group pays the same again at the next node. Here each rule of `WEIGHTS` proposes its first few
 planes; for each the group is divided and settled to the end by the simple rules of `ROLLOUTS`, and
 the plane is taken whose best subtree adds the fewest polygons. The cuts of a trial are undone, its

@@ -1,4 +1,4 @@
-"""The one-way priority table of paper 002: where each polygon lies against each other's plane."""
+"""The one-way priority table of Chen1996: where each polygon lies against each other's plane."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ REVERSED = np.array([COPLANAR, BEHIND, IN_FRONT, CUT], np.int8)
 
 
 class Relations:
-    """codes[q, p] is the relation of polygon p to the plane q (002, definition 1), or UNKNOWN.
+    """codes[q, p] is the relation of polygon p to the plane q (Chen1996, definition 1), or UNKNOWN.
 
     Polygons are fragments' numbers. Coplanar polygons share a row, numbered by one of them:
     `row_of` (fragments,); `flipped` says whether a polygon faces against its row, and then has

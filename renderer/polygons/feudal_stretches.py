@@ -1,6 +1,6 @@
 """Orders written out before the first frame, between one knot of switches and the next.
 
-Paper 002 searches the feudal priority tree level by level for every view. But what its connecting
+Chen1996 searches the feudal priority tree level by level for every view. But what its connecting
 nodes list is fixed; only the switches decide, and only which of two parts comes first. So the tree
 is taken apart into *knots* of a few switches that hang together. For every answer of a knot's
 switches the order of all it holds is written out, as stretches of entries between the knots below.

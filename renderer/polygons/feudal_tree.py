@@ -1,4 +1,4 @@
-"""Building a feudal priority tree from one-way relations, statically and dynamically (002)."""
+"""Building a feudal priority tree from one-way relations, statically and dynamically (Chen1996)."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Rule(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Cheapest:
-    """Fewest cuts, less what `balance` is worth: see `feudal_kernels.cheapest`. 0: paper 002."""
+    """Fewest cuts, less what `balance` is worth: see `feudal_kernels.cheapest`. 0: Chen1996."""
 
     balance: float = 0.0
 
@@ -51,7 +51,7 @@ PAPER = Cheapest()
 
 
 def build_static(relations: Relations, group: Whole, rule: Rule = PAPER) -> list[Node]:
-    """The whole table first, then the tree (002, "The Static Preprocessing Phase")."""
+    """The whole table first, then the tree (Chen1996, "The Static Preprocessing Phase")."""
     relations.compute_all(group)
     nodes = [Node()]
     settle(relations, nodes, [(0, group)], rule)
@@ -59,7 +59,8 @@ def build_static(relations: Relations, group: Whole, rule: Rule = PAPER) -> list
 
 
 def build_dynamic(relations: Relations, order: Whole, rule: Rule = PAPER) -> list[Node]:
-    """A row at a time, using each as soon as it is there (002, "The Dynamic Preprocessing Phase").
+    """A row at a time, using each as soon as it is there (Chen1996, "The Dynamic Preprocessing
+    Phase").
 
     `order` is the input in the random order the paper asks for.
     """
@@ -77,7 +78,7 @@ def build_dynamic(relations: Relations, order: Whole, rule: Rule = PAPER) -> lis
 
 
 def settle(relations: Relations, nodes: list[Node], work: Work, rule: Rule) -> None:
-    """Build what is below connecting nodes, level by level (002, procedures 2 to 4)."""
+    """Build what is below connecting nodes, level by level (Chen1996, procedures 2 to 4)."""
     while work:
         at, group = work.pop()
         node = nodes[at]

@@ -166,7 +166,7 @@ def thickness(polygons: Polygons, corners: Floats) -> Floats:
 def paper_sides(
     corners: Floats, points: Floats, tolerance: float = 1e-3, dtype: type[np.floating] = np.float32
 ) -> NDArray[np.int8]:
-    """The side test as paper 001 writes it: (x - p) · n against a fixed threshold.
+    """The side test as LabBSP2010 writes it: (x - p) · n against a fixed threshold.
 
     Kept as the negative control: in float32 at coordinates of 10⁶ a polygon's own corners fail
     it. `corners` (n, 3, 3), `points` (n, 3).

@@ -22,7 +22,7 @@ class Stats:
     """What a method cost.
 
     `splits` counts cuts, so a concave polygon's may give more than two pieces each; `relations`
-    counts tests of one polygon against another's plane (paper 002's one-way relations), or of
+    counts tests of one polygon against another's plane (Chen1996's one-way relations), or of
     one box against another; `depth` is the longest way from the root; `nodes` are by kind.
     """
 

@@ -21,7 +21,7 @@ class Tree:
     """Nodes with a plane each; a parent always comes before its children.
 
     `planes` (n, 4) in columns: normal and minus offset, so that planes @ (eye, 1) > 0 on the
-    normal's side. `children` (n, 2): the node on the normal's side (left, paper 001's invariant),
+    normal's side. `children` (n, 2): the node on the normal's side (left, LabBSP2010's invariant),
     the one on the other; n for none. A node holds the items items[node] to items[node + 1];
     `sizes` (n + 1,) counts the items of a node and all below it. `facing` (items,) says which
     way items face, and those that look away from the eye are left out; EVERYTHING: none is.

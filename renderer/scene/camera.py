@@ -59,7 +59,8 @@ class Camera:
         )
 
     def depth(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(n,) signed distance of (n, 3) points from the eye along the view vector (004 §V-B)."""
+        """(n,) signed distance of (n, 3) points from the eye along the view vector (Elmqvist2009
+        §V-B)."""
         return (points - self.eye) @ self.forward
 
 

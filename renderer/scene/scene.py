@@ -27,7 +27,7 @@ class Object:
 
     `transform` is a 4 × 4 affine matrix (world ← mesh). `color` multiplies the mesh's own colours.
     A `target` carries information for the task; every other object is a distractor, and an
-    occluder wherever it lies in front of a target (paper 004 §III-A). An `impenetrable` object
+    occluder wherever it lies in front of a target (Elmqvist2009 §III-A). An `impenetrable` object
     never turns transparent (§III-C.3). Objects with the same `group` are drawn, where no plane
     separates them, in their order in the scene, targets before others (§V-B, nested dolls); `None`
     makes the object its own group.

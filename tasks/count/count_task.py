@@ -1,4 +1,4 @@
-"""T1, discovery: how many red objects are there in the abstract world? (paper 004 §VI)"""
+"""T1, discovery: how many red objects are there in the abstract world? (Elmqvist2009 §VI)"""
 
 from __future__ import annotations
 

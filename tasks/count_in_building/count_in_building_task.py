@@ -1,4 +1,5 @@
-"""T4, discovery and relation: how many of the thing shown are in the building? (004 §VI)"""
+"""T4, discovery and relation: how many of the thing shown are in the building? (Elmqvist2009
+§VI)"""
 
 from __future__ import annotations
 

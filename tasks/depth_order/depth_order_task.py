@@ -1,4 +1,5 @@
-"""Which of two marked things is nearer: the paper's static depth test as a task (004 §VI-G)."""
+"""Which of two marked things is nearer: the paper's static depth test as a task (Elmqvist2009
+§VI-G)."""
 
 from __future__ import annotations
 

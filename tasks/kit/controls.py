@@ -1,4 +1,5 @@
-"""How a participant moves the camera (paper 004 §VI). Motion is integrated exactly between events.
+"""How a participant moves the camera (Elmqvist2009 §VI). Motion is integrated exactly between
+events.
 
 Between two events the held keys do not change, so the motion has a closed form: what a trial's
 events lead to does not depend on the frame rate.

@@ -1,4 +1,4 @@
-"""Which object of a scene fully encloses which other (paper 004 §VI: none may)."""
+"""Which object of a scene fully encloses which other (Elmqvist2009 §VI: none may)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The five letters of the pattern task on the 5 × 7 grid (paper 004 §VI, figure 5).
+"""The five letters of the pattern task on the 5 × 7 grid (Elmqvist2009 §VI, figure 5).
 
 The scan lost the paper's drawing; these are ours. Rows run from the letter's top to its foot.
 """

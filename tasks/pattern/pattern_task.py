@@ -1,4 +1,4 @@
-"""T2, relation: which letter do the red cones form? (paper 004 §VI)"""
+"""T2, relation: which letter do the red cones form? (Elmqvist2009 §VI)"""
 
 from __future__ import annotations
 

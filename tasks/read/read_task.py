@@ -1,4 +1,5 @@
-"""Access: read a digit that other things stand before (004's third kind of task, §III-A)."""
+"""Access: read a digit that other things stand before (Elmqvist2009's third kind of task,
+§III-A)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""T3, discovery: find the one thing that occurs once, and mark its place on the plan (004 §VI)."""
+"""T3, discovery: find the one thing that occurs once, and mark its place on the plan (Elmqvist2009
+§VI)."""
 
 from __future__ import annotations
 

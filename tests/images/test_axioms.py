@@ -1,4 +1,5 @@
-"""The axioms of dynamic transparency (004 §III-C), measured in pictures, and the guarantee."""
+"""The axioms of dynamic transparency (Elmqvist2009 §III-C), measured in pictures, and the
+guarantee."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from seethrough.tasks.kit.hud import Button
 ASPECT = 4 / 3
 
 
-PUBLISHED = ("count", "pattern", "unique", "count_in_building")  # the tasks of paper 004
+PUBLISHED = ("count", "pattern", "unique", "count_in_building")  # the tasks of Elmqvist2009
 
 
 def begin(name, place=None, made=None, seed=1, aspect=ASPECT):

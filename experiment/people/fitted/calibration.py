@@ -20,7 +20,7 @@ LEVELS = ("standard", "dynamic")
 FITTED = ("count", "count_in_building")
 HELD_OUT = ("pattern", "unique")
 
-# Paper 004, table 3: mean and s.d. without and with dynamic transparency, and F(1, 15).
+# Elmqvist2009, table 3: mean and s.d. without and with dynamic transparency, and F(1, 15).
 PUBLISHED = {
     "count": (56.26, 38.72, 40.44, 20.99, 7.54),
     "pattern": (22.30, 16.20, 15.80, 10.21, 5.28),

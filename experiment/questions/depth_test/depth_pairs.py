@@ -1,5 +1,5 @@
-"""The static depth test (004 §VI-G): a still of a world, and three pairs of things in it: which is
-nearer?"""
+"""The static depth test (Elmqvist2009 §VI-G): a still of a world, and three pairs of things in it:
+which is nearer?"""
 
 from __future__ import annotations
 

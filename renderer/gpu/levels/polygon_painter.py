@@ -80,7 +80,7 @@ class PolygonPainter:
         """Draw triangles in `order` (t,), or unsorted, into the frame.
 
         Depth writes are off: a wrong order shows as a wrong blend. Without `blend` the triangles
-        are opaque and hide one another, depth writes on (paper 000, figure 4).
+        are opaque and hide one another, depth writes on (Kang2008, figure 4).
         """
         self.begin(camera)
         state = moderngl.BLEND | moderngl.DEPTH_TEST if blend else moderngl.DEPTH_TEST

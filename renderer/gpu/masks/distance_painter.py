@@ -183,7 +183,7 @@ class DistancePainter:
         return framebuffer
 
     def _draw_rings(self, runs: list[list[Run]], technique: DynamicTransparency) -> int:
-        """The paper's masks, on a coarse grid (004 §V-D, algorithm 2)."""
+        """The paper's masks, on a coarse grid (Elmqvist2009 §V-D, algorithm 2)."""
         n = technique.ring_size
         columns = max(1, tiles.WIDTH // n)
         grids = (columns * n, n * -(-len(runs) // columns))

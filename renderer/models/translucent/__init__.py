@@ -1,1 +1,2 @@
-"""Scenes of translucent polygons for the depth orderings: own models after papers 000, 001, 002."""
+"""Scenes of translucent polygons for the depth orderings: own models after papers Kang2008,
+LabBSP2010, Chen1996."""

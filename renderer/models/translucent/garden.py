@@ -1,4 +1,4 @@
-"""After paper 001's assignment: a cottage with plain and textured windows, a tree of leaves that
+"""After LabBSP2010's assignment: a cottage with plain and textured windows, a tree of leaves that
 intersect, a fish bowl with fish, a fence, and a cow for the brave. Panes let half the light pass.
 """
 

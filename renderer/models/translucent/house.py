@@ -1,6 +1,6 @@
 """A house of 736 polygons, closed volumes: large walls and roofs, small frames and shutters.
 
-Our own model of the size and character of paper 002's figure 16, whose data are lost. It was
+Our own model of the size and character of Chen1996's figure 16, whose data are lost. It was
 fixed while only the BSP baseline had run on it.
 """
 

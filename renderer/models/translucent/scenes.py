@@ -27,7 +27,7 @@ LIGHT = np.array([3.0, 6.0, 2.0]) / 7.0  # where it comes from
 class TranslucentScene:
     """Translucent polygons to order, opaque ones drawn before them, and perhaps a texture.
 
-    Attributes are r, g, b, opacity, u, v, textured (0 or 1). `closed`: closed volumes (002).
+    Attributes are r, g, b, opacity, u, v, textured (0 or 1). `closed`: closed volumes (Chen1996).
     """
 
     name: str
@@ -82,7 +82,7 @@ def _solids(name: str, parts: list[Faces]) -> TranslucentScene:
 
 
 def random_boxes(count: int = 100) -> TranslucentScene:
-    """Boxes that don't intersect, turned every way (000, figure 4)."""
+    """Boxes that don't intersect, turned every way (Kang2008, figure 4)."""
     rng = np.random.default_rng(np.random.SeedSequence(3, spawn_key=(4,)))
     parts = []
     for cell in rng.permutation(5**3)[:count]:
@@ -95,7 +95,7 @@ def random_boxes(count: int = 100) -> TranslucentScene:
 
 
 def panels(count: int = 100) -> TranslucentScene:
-    """Parallel panels, one behind the other, each a little aside (000, figure 5)."""
+    """Parallel panels, one behind the other, each a little aside (Kang2008, figure 5)."""
     parts = []
     for i in range(count):
         x, y = 1.5 * np.cos(0.7 * i), np.sin(0.9 * i)

@@ -1,6 +1,6 @@
 """The base of a machinist's vise: 304 polygons, closed volumes, concave, large and small faces.
 
-Our own model of the size and character of paper 002's figure 15, whose data are lost. It was
+Our own model of the size and character of Chen1996's figure 15, whose data are lost. It was
 fixed while only the BSP baseline had run on it.
 """
 

@@ -1,6 +1,6 @@
 """The jeep: engine, gearbox, axles, seats and more inside a body, as separate pieces.
 
-The scene of paper 004's performance table ("an engine inside a jeep", about 115k polygons).
+The scene of Elmqvist2009's performance table ("an engine inside a jeep", about 115k polygons).
 """
 
 from __future__ import annotations

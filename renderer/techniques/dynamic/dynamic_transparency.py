@@ -1,4 +1,5 @@
-"""Dynamic transparency: occluders turn transparent where a target lies behind them (004 §III–V)."""
+"""Dynamic transparency: occluders turn transparent where a target lies behind them (Elmqvist2009
+§III–V)."""
 
 from __future__ import annotations
 
@@ -25,10 +26,10 @@ class DynamicTransparency(Parameters):
 
     In front of a target an occluder keeps the opacity `alpha_target`. At the border of the mask
     its opacity jumps to the lower `alpha_edge`, and rises from there to 1 over `width` pixels of
-    the window, so that the border is clearest (004 §V-D). `mask` is the shape of the part that
-    has `alpha_target`: the target's own outline; the same by the paper's ring growth on
-    `ring_size` × `ring_size` cells; a circle, an upright or an object-aligned ellipse about it;
-    or its convex hull.
+    the window, so that the border is clearest (Elmqvist2009 §V-D). `mask` is the shape of the part
+    that has `alpha_target`: the target's own outline; the same by the paper's ring growth on
+    `ring_size` × `ring_size` cells; a circle, an upright or an object-aligned ellipse about it; or
+    its convex hull.
 
     `granularity` is what turns transparent as a whole (§III-D): the pixel, the surface (triangle),
     the object, or the region (group); for the last three, whatever lies in front of the part of a

@@ -1,6 +1,7 @@
 """What a study may say of the abstract world; the defaults are the published study's.
 
-Source of the defaults: paper 004 §VI where it prints a number, else the comment says what we chose.
+Source of the defaults: Elmqvist2009 §VI where it prints a number, else the comment says what we
+chose.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The abstract world: a cube of spheres, cones, boxes and tori, some red (paper 004 §VI)."""
+"""The abstract world: a cube of spheres, cones, boxes and tori, some red (Elmqvist2009 §VI)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ DARKEST = 0.2
 def unit_mesh(shape: str) -> Mesh:
     """The one mesh all objects of a shape share: bounding radius 1, about 65 triangles on average.
 
-    200 objects make 13k triangles, as the paper's abstract scene does (004, table 2).
+    200 objects make 13k triangles, as the paper's abstract scene does (Elmqvist2009, table 2).
     """
     if shape == "sphere":
         return geometry.sphere(1.0, 1)
@@ -45,7 +45,8 @@ def target_color(p: AbstractParameters) -> Color:
 
 
 def distractor_color(p: AbstractParameters, green: float, blue: float) -> Color:
-    """Random green and blue and no red (004 §VI-D); in the safe palette only blues of some kind."""
+    """Random green and blue and no red (Elmqvist2009 §VI-D); in the safe palette only blues of some
+    kind."""
     if p.palette == "published":
         return (0.0, green, blue)
     return (0.0, 0.2 + 0.45 * green, 0.45 + 0.55 * blue)

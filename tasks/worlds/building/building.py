@@ -1,4 +1,5 @@
-"""The building of the walkthrough: a random floor with 50 things to find in it (paper 004 §VI)."""
+"""The building of the walkthrough: a random floor with 50 things to find in it (Elmqvist2009
+§VI)."""
 
 from __future__ import annotations
 

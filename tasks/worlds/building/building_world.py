@@ -55,7 +55,7 @@ class BuildingWorld:
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:
         """From the start past every thing asked for, always to the nearest one next.
 
-        Straight: there is no collision in the building (004 §VI-D).
+        Straight: there is no collision in the building (Elmqvist2009 §VI-D).
         """
         left = list(asked[:, [0, 2]])
         way = [first.eye[[0, 2]]]

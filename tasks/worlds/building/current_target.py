@@ -1,4 +1,4 @@
-"""The current target, turning in the upper left corner of the view (paper 004 §VI)."""
+"""The current target, turning in the upper left corner of the view (Elmqvist2009 §VI)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""A random floor plan: rooms on a grid, and the walls that adjacent rooms share (004 §VI)."""
+"""A random floor plan: rooms on a grid, and the walls that adjacent rooms share (Elmqvist2009
+§VI)."""
 
 from __future__ import annotations
 

@@ -189,7 +189,7 @@ def test_every_fragment_stays_in_the_plane_of_its_source(case, method):
 
 
 def test_the_tree_scrambled_on_purpose_is_caught(oracle):
-    """The negative control: paper 001's tree that deals polygons to the sides at random."""
+    """The negative control: LabBSP2010's tree that deals polygons to the sides at random."""
     polygons = polygons_from(soup(22, 5))
     prepared = sampled(polygons)
     rng = np.random.default_rng(0)
@@ -287,7 +287,7 @@ def test_a_convex_ball_is_deep_but_needs_no_recursion():
 
 
 def test_equal_distances_lose_no_polygon():
-    """A map keyed by distance, as paper 003 writes it, keeps one polygon of each distance."""
+    """A map keyed by distance, as WebSorting writes it, keeps one polygon of each distance."""
     from seethrough.renderer.polygons import distance
 
     ring = [

@@ -107,7 +107,7 @@ def test_the_static_list_is_never_longer_where_both_list_one_group(seed):
 
 
 def test_the_static_list_can_be_longer_where_the_versions_split_differently():
-    """Paper 002 says "always shorter than or at most equal": here is a view that it is not."""
+    """Chen1996 says "always shorter than or at most equal": here is a view that it is not."""
     polygons = scene("vise").polygons
     static = feudal.prepare(polygons, "static", True, balance=1.0)
     longer, lengths = 0, []

@@ -19,7 +19,7 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicT
 
 
 def test_the_gradient_jumps_at_the_border_and_rises_to_one():
-    """α_T on the target, α_0 just outside, 1 from n pixels on (004 §V-D, Fig. 3)."""
+    """α_T on the target, α_0 just outside, 1 from n pixels on (Elmqvist2009 §V-D, Fig. 3)."""
     technique = DynamicTransparency(0.3, 0.1, 10)
     found = masks.opacity(np.array([-1, 0, 1e-9, 5, 10, 11, np.inf]), technique)
     np.testing.assert_allclose(found, [0.3, 0.3, 0.1, 0.55, 1, 1, 1], atol=1e-8)

@@ -97,7 +97,7 @@ def test_building_again_gives_the_same_and_asking_again_the_identical(name):
 
 
 def test_triangles_keep_to_the_budget_of_the_walkthrough():
-    """50 objects, about 464k polygons in all (paper 004): about 9k each, at most twice that."""
+    """50 objects, about 464k polygons in all (Elmqvist2009): about 9k each, at most twice that."""
     counts = np.array([len(MODELS[name]().triangles) for name in MODELS])
     assert counts.min() >= 1_000
     assert counts.max() <= 20_000

@@ -11,7 +11,7 @@ PIECES = dict(jeep())
 
 
 def test_it_has_the_polygons_of_the_paper():
-    """Paper 004's table: about 115k."""
+    """Elmqvist2009's table: about 115k."""
     assert sum(len(mesh.triangles) for mesh in PIECES.values()) == pytest.approx(115_000, rel=0.02)
 
 

@@ -1,4 +1,4 @@
-"""The 12-polygon object of paper 002, from its relation tables to its trees and priority lists.
+"""The 12-polygon object of Chen1996, from its relation tables to its trees and priority lists.
 
 What the scan lost: the drawing of figure 4, so there are no coordinates, only tables 1 to 5. Rows
 5, 8, 9 and 10 are not printed; the text calls these polygons absolute front priority, which fixes

@@ -1,4 +1,4 @@
-"""The two closed volumes after paper 002: their size, and what the methods make of them."""
+"""The two closed volumes after Chen1996: their size, and what the methods make of them."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def test_shapes_are_shared_meshes_of_about_13k_triangles():
         scene = scene_of(seed)
         assert len({id(o.mesh) for o in scene.objects}) == 4
         counts.append(sum(len(o.mesh.triangles) for o in scene.objects))
-    assert 12_000 < np.mean(counts) < 15_000  # 004, table 2: 13k
+    assert 12_000 < np.mean(counts) < 15_000  # Elmqvist2009, table 2: 13k
     for shape in SHAPES:
         assert_allclose(np.linalg.norm(unit_mesh(shape).vertices, axis=1).max(), 1, rtol=1e-12)
 
