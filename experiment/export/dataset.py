@@ -18,7 +18,7 @@ from seethrough.analysis.load.whole import verified
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, plain
 from seethrough.experiment.files.private import make_folder, write_new
-from seethrough.experiment.record.columns import TABLES, Column, columns_in, versions
+from seethrough.experiment.record.columns import TABLES, Column, columns_in, factors_in, versions
 from seethrough.experiment.record.record_files import csv_line
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "'")
@@ -45,8 +45,8 @@ class Dataset:
     @property
     def factors(self) -> tuple[str, ...]:
         """The factors' columns."""
-        known = {column.name for column in TABLES["trials"]}
-        return tuple(c.name for c in self.columns("trials") if c.name not in known)
+        rows = self.tables["trials"]
+        return factors_in(list(rows[0])) if rows else ()
 
     @property
     def participants(self) -> tuple[str, ...]:

@@ -61,7 +61,7 @@ def placed(name: str, shot: Shot, reach: float) -> tuple[Any, Any]:
     values |= {"radius": 1.1 * scale} if name == "dig" else {}
     values |= {"radius": 2.6 * scale} if name == "balloon" else {}
     if "kinds" in known and "wall" not in {thing.kind for thing in shot.scene.objects}:
-        values["kinds"] = tuple({o.kind for o in shot.scene.objects if not o.target})
+        values["kinds"] = tuple(sorted({o.kind for o in shot.scene.objects if not o.target}))
     p = replace(p, **values)
     state = p.technique.begin(p)
     for event in (events.PointerMove(0.0, *POINTER, 0.0, 0.0), events.KeyPress(0.1, "q")):

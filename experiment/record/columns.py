@@ -174,6 +174,11 @@ def columns_in(table: str, header: Sequence[str]) -> tuple[Column, ...]:
     )
 
 
+def factors_in(header: Sequence[str]) -> tuple[str, ...]:
+    """The factors among the names of a trial table's columns."""
+    return tuple(_own("trials", header, FACTORS_AFTER["trials"]))
+
+
 def _own(table: str, header: Sequence[str], after: str) -> list[str]:
     """Names in a header that follow a column of a table and are none of its columns."""
     known = {column.name for column in TABLES[table]}

@@ -118,7 +118,8 @@ def _of_model(table: str, model: Any) -> Iterator[StudyKey]:
     for name, field in model.model_fields.items():
         more = field.json_schema_extra or {"unit": "", "said": ""}
         inner = f"{table}.{name}"
-        may = f"a table, [{inner}]" if inner in tables() else more["said"] or _allowed(field)
+        table_of = f"a table, [{inner}]" if inner in tables() else ""
+        may = more["said"] or table_of or _allowed(field)
         default = REQUIRED if field.is_required() else field.default
         yield StudyKey(table, name, may, default, more["unit"], field.description or "")
 

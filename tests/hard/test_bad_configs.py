@@ -45,7 +45,8 @@ JARGON = (
     "(?:",
     "match pattern",
     "Input should",
-    "dict",
+    " dict",  # not that of "predictions"
+    "dict[",
     "tuple",
     "NoneType",
     "class ",

@@ -57,11 +57,11 @@ def folder(tmp_path):
 )
 def test_a_consent_text_lies_beside_its_study(folder, name, said):
     study = copy.deepcopy(BASE)
-    study["session"]["consent"] = name
+    study["questions"]["consent"]["file"] = name
     (folder / "s.toml").write_text(toml(study), "utf-8")
     status, err, seconds = check(folder / "s.toml")
     assert status == 2 and err.count("\n") == 1 and seconds < QUICK
-    assert "session.consent = " in err and said in err and "secret\n" not in err
+    assert "questions.consent.file = " in err and said in err and "secret\n" not in err
 
 
 @pytest.mark.parametrize("name", ["texts/consent.txt", "in.txt"])
@@ -69,7 +69,7 @@ def test_a_consent_text_in_a_folder_beside_the_study_is_read(folder, name):
     from seethrough.experiment.study.config import load
 
     study = copy.deepcopy(BASE)
-    study["session"]["consent"] = name
+    study["questions"]["consent"]["file"] = name
     (folder / "s.toml").write_text(toml(study), "utf-8")
     assert load(str(folder / "s.toml")).texts["consent.text"] == "Yes?"
 
@@ -94,11 +94,11 @@ def test_a_model_and_all_that_it_names_lie_beside_the_study(folder, name, conten
     if content not in (None, "pipe"):
         (folder / name).write_text(content)
     study = copy.deepcopy(BASE)
-    study["walkthrough"]["models"] = [{"name": "mine", "file": name}]
+    study["world"]["building"]["models"] = [{"name": "mine", "file": name}]
     (folder / "s.toml").write_text(toml(study), "utf-8")
     status, err, seconds = check(folder / "s.toml")
     assert status == 2 and err.count("\n") == 1 and seconds < QUICK
-    assert "walkthrough.models[0].file = " in err and said in err
+    assert "world.building.models[0].file = " in err and said in err
 
 
 @pytest.mark.parametrize("name", ["pipe", "/dev/zero", "zero", "gone.txt"])

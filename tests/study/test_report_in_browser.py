@@ -91,7 +91,8 @@ def rounds(value: str, text: str) -> bool:
         # a reason is given once in a row, then the word alone
         words = {"true": "yes", "false": "no"}
         plain = words.get(value, value)
-        return shown == plain or (shown == "undefined" and value.startswith("undefined: "))
+        same = plain.replace("−", "-").replace("\u00a0", " ").split(" [")[0]
+        return shown == same or (shown == "undefined" and value.startswith("undefined: "))
     if shown.startswith("<"):
         return number < float(shown[1:])
     if shown.startswith(">"):

@@ -12,4 +12,4 @@ def published():
 
 def columns():
     """Every table's columns in the published study."""
-    return with_factors(published()["factors"])
+    return with_factors(published()["factors"], published()["tasks"])

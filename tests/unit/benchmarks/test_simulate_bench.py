@@ -61,9 +61,9 @@ def test_more_is_better_for_a_ratio_and_less_for_a_time():
     assert not simulate.figure("a", 3.1, "s", 3, 1)["met"]
 
 
-def record(seconds, error, scenario="walkthrough", frames=0):
+def record(seconds, error, world="building", frames=0):
     """As much of a trial as the eyes' rows look at."""
-    return SimpleNamespace(time=seconds, frames=frames, trial=SimpleNamespace(scenario=scenario),
+    return SimpleNamespace(time=seconds, frames=frames, trial=SimpleNamespace(world=world),
                            outcome=SimpleNamespace(count_error=error))  # fmt: skip
 
 

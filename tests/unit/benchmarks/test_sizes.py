@@ -53,4 +53,16 @@ def test_what_is_known_to_be_off_has_no_bound():
         "carry-over",
         "interval of the difference, raw times",
         "interval of the ratio, raw times (Fieller)",
+        # of the further designs: pooled or raw where spreads differ, or beside what is bounded
+        "F of raw times, Greenhouse–Geisser",
+        "Friedman, χ²",
+        "contrast of levels between groups",
+        "contrast of levels, own error",
+        "contrast of raw times",
+        "groups × levels, Greenhouse–Geisser",
+        "groups, Welch",
+        "groups, pooled F",
+        "interval between groups, Welch",
+        "interval of a contrast of levels",
+        "levels, Greenhouse–Geisser",
     }

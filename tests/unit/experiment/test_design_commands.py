@@ -94,7 +94,7 @@ def test_a_preregistration_says_what_is_decided(tmp_path, capsys):
     text = out.read_text("utf-8")
     assert load("published").digest() in text
     for said in ("**P1**: `time` is less than at the baseline (transparency: standard).",
-                 "| T3 unique | distance of the mark (`distance`) | world units | less | mean",
+                 "| T3 unique | distance (`distance`) | units | less | mean",
                  "- trials answered sooner than 0.2 s", "16 people"):  # fmt: skip
         assert said in text
     assert cli.main(["prereg", "published", "--out", str(out)]) == 2

@@ -23,7 +23,8 @@ from seethrough.experiment.study.described import design_entry
 
 def columns_of_demo():
     """Every table's columns in the study that is recorded here."""
-    return with_factors(design_entry(load("demo"))["factors"])
+    entry = design_entry(load("demo"))
+    return with_factors(entry["factors"], entry["tasks"])
 
 
 @pytest.fixture(scope="module")
