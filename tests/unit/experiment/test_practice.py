@@ -63,7 +63,7 @@ def played(trial, **how):
     return looker.shown, TrialRun(STUDY, world).play(trial, 2.0)
 
 
-@pytest.mark.parametrize("task", STUDY.design.tasks)
+@pytest.mark.parametrize("task", STUDY.tasks())
 def test_every_frame_of_a_practice_trial_is_marked_and_none_of_any_other(task):
     (task_set, *_) = [t for t in SETS if t.trials[0].task == task]
     for trial in (task_set.training[0], task_set.trials[0]):
