@@ -54,7 +54,7 @@ def figures() -> Iterator[Row]:
     for where, make in SCENES.items():
         scene, cameras = make(SIZE[0] / SIZE[1], VIEWS)
         ways = {
-            way: found for name in registry.names("technique")
+            way: found for name in registry.known("technique")
             for way, found in _ways(name, Shot(scene, cameras[0], SIZE)).items()
         }  # fmt: skip
         for way, drawn in ways.items():

@@ -67,7 +67,7 @@ def _places(kind: str) -> dict[str, EntryPoint | str]:
     return found
 
 
-def names(kind: str) -> tuple[str, ...]:
+def known(kind: str) -> tuple[str, ...]:
     """The names of all plug-ins of a kind: ours sorted, then others' sorted."""
     return tuple(_places(kind))
 
@@ -96,5 +96,5 @@ def get(kind: str, name: str) -> Any:
 
 
 def every(kind: str) -> dict[str, Any]:
-    """Name → plug-in, of all of a kind, in the order of `names`."""
-    return {name: get(kind, name) for name in names(kind)}
+    """Name → plug-in, of all of a kind, in the order of `known`."""
+    return {name: get(kind, name) for name in known(kind)}

@@ -23,10 +23,10 @@ class Registered(Mapping[str, Plugin]):
         return found
 
     def __iter__(self) -> Iterator[str]:
-        return iter(registry.names(self._kind))
+        return iter(registry.known(self._kind))
 
     def __len__(self) -> int:
-        return len(registry.names(self._kind))
+        return len(registry.known(self._kind))
 
 
 TASKS: Mapping[str, Task] = Registered("task")

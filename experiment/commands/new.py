@@ -36,7 +36,7 @@ def run(args: argparse.Namespace) -> int:
         from seethrough.experiment.study.new_study import new_study
 
         return new_study(args.name, args.folder, args.yes)
-    if args.name in registry.names(args.kind):
+    if args.name in registry.known(args.kind):
         raise InputError(f"new {args.kind}: NAME = {args.name}: there is one of this name already")
     templates = files("seethrough.experiment.suites").joinpath("templates")
     where = registry.KINDS[args.kind]

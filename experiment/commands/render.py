@@ -71,7 +71,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "scene", metavar="SCENE|STUDY",
         help=f"what to draw: {', '.join(sorted(SCENES))}, or each cell of a study",
     )  # fmt: skip
-    parser.add_argument("--technique", choices=registry.names("technique"), default="dynamic")
+    parser.add_argument("--technique", choices=registry.known("technique"), default="dynamic")
     parser.add_argument("--out", required=True, type=Path, help="the picture, a .png file")
     parser.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
     parser.add_argument("--seed", type=int, default=1, help="of the scene, ≥ 0")

@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print a line a technique, or a line a finding; 1 if something does not hold."""
-    names = registry.names("technique")
+    names = registry.known("technique")
     if args.what == "list":
         for name in names:
             found = registry.get("technique", name)

@@ -30,7 +30,7 @@ def sections(stage: tuple[Scene, Camera], aspect: float, seed: int) -> Iterator[
     eye = orbit(parameters, aspect).camera().eye * 0.55
     near = look_at(eye, np.zeros(3), fov_y=0.6, near=5, far=250)
     places = (("stage", *stage, 11.5), ("abstract", world, near, float(np.linalg.norm(eye))))
-    for name in registry.names("technique"):
+    for name in registry.known("technique"):
         technique = registry.get("technique", name)
         yield Section(
             technique.title,

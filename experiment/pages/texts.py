@@ -73,7 +73,7 @@ def _of_plugins(language: str) -> dict[str, str]:
     """What tasks, worlds and question kinds bring along; in English what they have no other of."""
     found: dict[str, str] = {}
     for kind in ("task", "world", "question"):
-        for name in registry.names(kind):
+        for name in registry.known(kind):
             try:
                 texts = registry.get(kind, name).texts
             except registry.PluginError:

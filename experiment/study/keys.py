@@ -65,7 +65,7 @@ def tables() -> dict[str, Any]:
 
 def _own(kind: str, table: str = "") -> dict[str, Any]:
     """Tables of the tasks or question kinds that have parameters of their own."""
-    classes = {name: registry.get(kind, name).Parameters for name in registry.names(kind)}
+    classes = {name: registry.get(kind, name).Parameters for name in registry.known(kind)}
     return {f"{table or kind}.{name}": cls for name, cls in classes.items() if declared(cls)}
 
 

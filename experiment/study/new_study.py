@@ -77,9 +77,9 @@ Ask = Callable[[str, str], str]
 def new_study(name: str, folder: Path, yes: bool, ask: Ask | None = None) -> int:
     """Ask, write the study and its workflow, check what was written. Raises InputError."""
     said = _proposed if yes or not sys.stdin.isatty() else (ask or _asked)
-    task = _one_of(said, "What do people do?", registry.names("task"), "count")
+    task = _one_of(said, "What do people do?", registry.known("task"), "count")
     world = registry.get("task", task).worlds[0]
-    known = registry.names("technique")
+    known = registry.known("technique")
     views = said(
         f"Which techniques, with spaces between? Of {', '.join(known)}", "standard dynamic"
     )

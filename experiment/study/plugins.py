@@ -16,8 +16,8 @@ def names(kind: str) -> tuple[str, ...]:
     if kind == "question":
         from seethrough.experiment.questions.ready import READY  # asks for pages: not for --help
 
-        return (*READY, *registry.names(kind))
-    return registry.names(kind)
+        return (*READY, *registry.known(kind))
+    return registry.known(kind)
 
 
 def parameters(kind: str, name: str) -> Any:

@@ -22,7 +22,7 @@ from seethrough.experiment.study.scopes import BLOCK, FIXED, SESSION
 AnalysisTest = Literal["time", "accuracy", "ratings", "tradeoff", "validity", "mixed"]
 EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
-TASKS_SAID = f"an array of some of {', '.join(map(shown, registry.names('task')))}, each once"
+TASKS_SAID = f"an array of some of {', '.join(map(shown, registry.known('task')))}, each once"
 NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
@@ -63,8 +63,8 @@ def _exclusion(value: str) -> str:
 
 
 def _task(value: str) -> str:
-    if value not in registry.names("task"):
-        raise ValueError(f"one of {', '.join(map(shown, registry.names('task')))}")
+    if value not in registry.known("task"):
+        raise ValueError(f"one of {', '.join(map(shown, registry.known('task')))}")
     return value
 
 

@@ -24,8 +24,8 @@ def run(kind: str, arguments: argparse.Namespace) -> int:
             for name, plugin in registry.every(kind).items():
                 print(f"{name:20s} {plugin.version:6s} {plugin.source}")
             return 0
-        if arguments.name not in registry.names(kind):
-            raise InputError(unknown(arguments.name, registry.names(kind), kind))
+        if arguments.name not in registry.known(kind):
+            raise InputError(unknown(arguments.name, registry.known(kind), kind))
         return _check(kind, arguments.name)
     except registry.PluginError as error:
         raise InputError(str(error)) from None

@@ -26,7 +26,7 @@ from seethrough.tasks.kit.measure import DISTANCE
 from seethrough.tasks.worlds.abstract.abstract_world import Abstract
 
 LONGEST = 60  # lines of a toy, all its files together
-OURS = [(kind, name) for kind in RULES for name in registry.names(kind)]
+OURS = [(kind, name) for kind in RULES for name in registry.known(kind)]
 
 
 @pytest.mark.parametrize(("kind", "name"), OURS)

@@ -17,7 +17,7 @@ from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques.base import Shot
 
 SHAPES = (geometry.sphere(1.0, 1), geometry.cone(0.9, 1.6, 20), geometry.box(1.3, 1.3, 1.3))
-NAMES = [name for name in registry.names("technique") if name != "dynamic"]
+NAMES = [name for name in registry.known("technique") if name != "dynamic"]
 AHEAD = Camera(np.zeros(3), np.eye(3), 0.9, 0.1, 200.0)
 
 

@@ -18,7 +18,7 @@ TOY = Path(__file__).parents[1] / "plugins" / "toy_technique"
 MOST = {"dynamic": 4}
 
 
-@pytest.mark.parametrize("name", registry.names("technique"))
+@pytest.mark.parametrize("name", registry.known("technique"))
 def test_a_technique_keeps_to_what_all_must(context, name):
     """As `seethrough technique check` says it."""
     found = list(check(registry.get("technique", name), context, MOST.get(name, 100)))

@@ -31,7 +31,7 @@ from seethrough import registry
 
 scene = Scene((Object(geometry.box(), translation(0, 0, -4)),
                Object(geometry.sphere(), translation(0, 0, -8), target=True)))
-for name in registry.names("technique"):
+for name in registry.known("technique"):
     exact(scene, Camera(np.zeros(3), np.eye(3)), named(name), (32, 24))
 print("LOADED", *(m for m in sys.modules if m.startswith("seethrough.renderer")))
 """
