@@ -103,7 +103,7 @@ def _provenance(
         "start": start,
         "fitted": list(FITTED),
         "held_out": list(HELD_OUT),
-        "source": "paper 004, table 3: completion times, s.d., and the r that each F implies",
+        "source": "Elmqvist2009, table 3: completion times, s.d., and the r that each F implies",
         "misfit": round(misfit, 4),
         "checked": f"{arguments.check} other participants, seed {arguments.check_seed}",
         "table": list(table),

@@ -65,7 +65,8 @@ def _brought(study: Study, said: Sequence[str], ask: bool) -> dict[str, str]:
         name, _, level = text.partition("=")
         if name not in measured or level not in measured[name].names:
             known = ", ".join(f"{f.name}={level}" for f in measured.values() for level in f.names)
-            raise InputError(f"--set = {text}: expected one of {known or 'no measured factors'}")
+            expected = f"one of {known}" if known else "none: the study has no measured factor"
+            raise InputError(f"--set = {text}: expected {expected}")
         brings[name] = level
     for factor in (f for name, f in measured.items() if ask and name not in brings):
         levels = ", ".join(factor.names)

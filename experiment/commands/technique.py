@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from seethrough import registry
-from seethrough.experiment.errors import InputError, unknown
+from seethrough.experiment.errors import InputError, short, unknown
 
 HELP = "list techniques, or try one on all that it must keep to"
 
@@ -27,7 +27,9 @@ def run(args: argparse.Namespace) -> int:
             print(f"{name} ({found.version}): {found.instruction}")
         return 0
     if args.name not in names:
-        raise InputError(f"technique check: {unknown(args.name, names, 'technique')}")
+        raise InputError(
+            f"technique check {short(args.name)}: {unknown(args.name, names, 'technique')}"
+        )
     from seethrough.experiment.suites.technique_suite import check
     from seethrough.renderer.gpu.device.context import standalone
 

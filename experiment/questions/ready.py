@@ -178,7 +178,7 @@ READY: Mapping[str, Ready] = {
     for block in (
         Ready("consent", "consent", _consent),
         Ready("demographics", "demographics", _demographics),
-        Ready("ratings", "rating", _ratings, "Elmqvist, Assarsson and Tsigas 2007, section VI-G"),
+        Ready("ratings", "rating", _ratings, "Elmqvist2009 §VI-G"),
         Ready("comparison", "comparison", _comparison),
         Ready("tlx", "tlx", _tlx, "Hart and Staveland 1988"),
         Ready("sus", "sus", _sus, "Brooke 1996"),

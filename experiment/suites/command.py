@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from seethrough.experiment.errors import InputError, unknown
+from seethrough.experiment.errors import InputError, short, unknown
 
 
 def add_arguments(kind: str, parser: argparse.ArgumentParser) -> None:
@@ -25,7 +25,8 @@ def run(kind: str, arguments: argparse.Namespace) -> int:
                 print(f"{name:20s} {plugin.version:6s} {plugin.source}")
             return 0
         if arguments.name not in registry.known(kind):
-            raise InputError(unknown(arguments.name, registry.known(kind), kind))
+            said = unknown(arguments.name, registry.known(kind), kind)
+            raise InputError(f"{kind} check {short(arguments.name)}: {said}")
         return _check(kind, arguments.name)
     except registry.PluginError as error:
         raise InputError(str(error)) from None

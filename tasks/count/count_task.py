@@ -33,7 +33,7 @@ class Count:
     """Count the red objects: drag or arrow keys orbit, digits and enter answer."""
 
     name, code, version = "count", "T1", "1"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    source = "Elmqvist2009 §VI"
     worlds = ("abstract",)
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (COUNT_ERROR, ABSOLUTE_ERROR, CORRECT)

@@ -39,7 +39,7 @@ class CountInBuilding:
     """Count one type: the pointer turns, arrow keys walk, digits and enter answer."""
 
     name, code, version = "count_in_building", "T4", "1"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    source = "Elmqvist2009 §VI"
     worlds = ("building",)
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (COUNT_ERROR, ABSOLUTE_ERROR, CORRECT)

@@ -47,7 +47,7 @@ class DepthOrder(Basics):
     """Press A or B, or their buttons; the view stands still."""
 
     name, code = "depth_order", "D"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI-G"
+    source = "Elmqvist2009 §VI-G"
     worlds = ANYWHERE
     Parameters = DepthOrderParameters
     measures: tuple[Measure, ...] = (CORRECT,)

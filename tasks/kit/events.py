@@ -26,43 +26,29 @@ class PointerMove:
 
 
 @dataclass(frozen=True)
-class PointerPress:
+class _AtPointer:
+    """A button of the pointer went up or down at (x, y)."""
+
+    time: float
+    x: float
+    y: float
+    within: float = 0.0
+
+
+class PointerPress(_AtPointer):
     """The left button went down."""
 
-    time: float
-    x: float
-    y: float
-    within: float = 0.0
 
-
-@dataclass(frozen=True)
-class PointerRelease:
+class PointerRelease(_AtPointer):
     """The left button went up."""
 
-    time: float
-    x: float
-    y: float
-    within: float = 0.0
 
-
-@dataclass(frozen=True)
-class SecondPress:
+class SecondPress(_AtPointer):
     """The right button went down. Only techniques that say so take it."""
 
-    time: float
-    x: float
-    y: float
-    within: float = 0.0
 
-
-@dataclass(frozen=True)
-class SecondRelease:
+class SecondRelease(_AtPointer):
     """The right button went up."""
-
-    time: float
-    x: float
-    y: float
-    within: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,7 @@ class Pattern:
     """Name the letter: drag or arrow keys orbit; letter keys or buttons choose, enter answers."""
 
     name, code, version = "pattern", "T2", "1"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    source = "Elmqvist2009 §VI"
     worlds = ("abstract",)
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (CORRECT,)

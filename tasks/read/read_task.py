@@ -47,7 +47,7 @@ class Read(Basics):
     """Drag or arrow keys orbit, a digit and enter answer."""
 
     name, code = "read", "R"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section III-A"
+    source = "Elmqvist2009 §III-A"
     worlds = ("abstract",)
     Parameters = ReadParameters
     measures: tuple[Measure, ...] = (CORRECT,)

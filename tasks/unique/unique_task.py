@@ -42,7 +42,7 @@ class Unique:
     """Find it: the pointer turns, arrow keys walk, space or enter ends the search; then mark it."""
 
     name, code, version = "unique", "T3", "1"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    source = "Elmqvist2009 §VI"
     worlds = ("building",)
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (DISTANCE, CORRECT)

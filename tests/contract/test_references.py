@@ -6,6 +6,8 @@ import ast
 import re
 from pathlib import Path
 
+from seethrough import registry
+
 KEY = re.compile(r"\b(?:[A-Z][a-z]+)+[A-Za-z]*(?:19|20)\d\d\b|\bWebSorting\b")
 
 
@@ -34,3 +36,14 @@ def test_no_paper_is_cited_by_a_number(sources: list[Path], root: Path) -> None:
         if re.search(r"\b[Pp]apers? 00\d\b|\(00[0-4]\b|\b00[0-4] §", text)
     ]
     assert not numbered
+
+
+def test_the_sources_of_what_is_registered_are_listed(root: Path) -> None:
+    """A technique, task, world or kind of question whose source is a key has its row, and none
+    cites the published study by another year."""
+    listed = set(re.findall(r"(?m)^\| ([A-Z]\w+) \|", (root / "REFERENCES.md").read_text("utf-8")))
+    found = [thing.source for kind in registry.KINDS for thing in registry.every(kind).values()]
+    cited = {key for source in found for key in KEY.findall(source)}
+    assert "Elmqvist2009" in cited
+    assert not cited - listed
+    assert not [source for source in found if "Elmqvist," in source]

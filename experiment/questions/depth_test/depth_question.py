@@ -25,7 +25,7 @@ class DepthQuestion:
     """Which of the two is nearer? Drawn with the technique of the levels that it is asked for."""
 
     name, version = "depth_test", "1"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI-G"
+    source = "Elmqvist2009 §VI-G"
     Parameters = DepthParameters
     example = DepthParameters()
     texts: Texts = NO_TEXTS

@@ -21,7 +21,7 @@ class Abstract:
     """A cube of shapes, some of them red, that one turns about its middle."""
 
     name, version = "abstract", "1"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    source = "Elmqvist2009 §VI"
     scenario = "abstract"
     moving = "orbit"
     controls = "abstract.controls"

@@ -22,7 +22,7 @@ class BuildingWorld:
     """A floor of rooms with things in them, that one walks through."""
 
     name, version = "building", "1"
-    source = "Elmqvist, Assarsson and Tsigas 2007, section VI"
+    source = "Elmqvist2009 §VI"
     scenario = "walkthrough"
     moving = "walk"
     controls = "walkthrough.controls"
