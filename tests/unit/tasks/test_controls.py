@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from seethrough.tasks.kit import events
 from seethrough.tasks.kit.controls import orbit, turned, walk
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, Tick
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
@@ -156,3 +157,12 @@ def test_turned_is_a_rotation_with_the_named_axes():
         assert_allclose(matrix[1, 0], 0)  # the camera's right axis stays level
     assert_allclose(-turned(pi / 2)[:, 2], [-1, 0, 0], atol=1e-15)  # left of −z is −x
     assert_allclose(-turned(0.0, 0.5)[:, 2], [0, np.sin(0.5), -np.cos(0.5)])
+
+
+def test_no_event_passes_for_another():
+    """A drag that ended with the right button would be one that nobody ended."""
+    kinds = (
+        events.PointerPress, events.PointerRelease, events.SecondPress, events.SecondRelease,
+        events.Wheel, events.PointerMove, events.KeyPress, events.KeyRelease, events.Tick,
+    )  # fmt: skip
+    assert not [(a, b) for a in kinds for b in kinds if a is not b and issubclass(a, b)]
