@@ -36,7 +36,7 @@ def test_a_level_is_said_or_asked_for_or_missing(monkeypatch, capsys):
 def test_what_is_no_measured_level_is_refused(said):
     with pytest.raises(InputError, match=r"--set = .*: expected one of expertise=novice, expert"):
         _brought(STUDY, [said], ask=True)
-    with pytest.raises(InputError, match="expected one of no measured factors"):
+    with pytest.raises(InputError, match="expected none: the study has no measured factor"):
         _brought(load("published"), [said], ask=True)
 
 
