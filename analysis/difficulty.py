@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.cells import Array, means
+from seethrough.analysis.arrays import Array
+from seethrough.analysis.cells import means
 from seethrough.analysis.comparison import Pair, pair_of
 from seethrough.analysis.design import Contrast, Design
 from seethrough.analysis.load.schema import CERTIFICATE

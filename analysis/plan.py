@@ -6,7 +6,6 @@ import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from seethrough.analysis.before import planned_trials
 from seethrough.analysis.errors import DataError
@@ -28,14 +27,14 @@ class Plan:
     exclude: tuple[str, ...]
     tests: tuple[str, ...]
     margins: Mapping[str, float]
-    frozen: Mapping[str, Any] | None
+    frozen: Mapping[str, object] | None
     deviations: tuple[str, ...]
     participants: int | None
     trials: int | None
     too_fast: float = TOO_FAST
 
 
-def digest(value: Any) -> str:
+def digest(value: object) -> str:
     """A short hash that does not depend on the order of keys."""
     text = json.dumps(value, sort_keys=True, ensure_ascii=False)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
@@ -46,23 +45,19 @@ def make_plan(
 ) -> Plan:
     """The frozen plan, with what was asked on the command line instead, listed as deviations."""
     configs = [config_of(sidecar) for sidecar in study.sidecars.values()]
-    frozen = next((c["analysis"] for c in configs if isinstance(c.get("analysis"), Mapping)), None)
+    frozen = _first(configs, "analysis")
     table = frozen or {}
-    planned_alpha, planned_out = table.get("alpha", 0.05), tuple(table.get("exclude", ()))
+    planned_alpha = _number("alpha", table.get("alpha", 0.05), 0)
+    planned_out = _texts("exclude", table)
     used_alpha = planned_alpha if alpha is None else alpha
     used_out = planned_out if exclude is None else tuple(exclude)
     if not 0 < used_alpha < 1:
         raise DataError(f"alpha = {used_alpha}: expected a number between 0 and 1")
-    tests = tuple(table.get("tests", ()))
+    tests = _texts("tests", table)
     unknown = [t for t in tests if t not in TESTS]
     if unknown:
         raise DataError(f"analysis.tests = {unknown[0]!r}: expected among {', '.join(TESTS)}")
-    design: Mapping[str, Any] = next(
-        (c["design"] for c in configs if isinstance(c.get("design"), Mapping)), {}
-    )
-    about: Mapping[str, Any] = next(
-        (c["study"] for c in configs if isinstance(c.get("study"), Mapping)), {}
-    )
+    design, about = _first(configs, "design") or {}, _first(configs, "study") or {}
     deviations = [
         *_choices(frozen, (planned_alpha, used_alpha), (planned_out, used_out)),
         *_collection(study, configs, design, about),
@@ -74,20 +69,38 @@ def make_plan(
         {m.name: m.margin for m in study.design.measures() if m.margin is not None},
         frozen,
         tuple(deviations),
-        about.get("participants"),
-        design.get("trials"),
+        _whole(about.get("participants")),
+        _whole(design.get("trials")),
         _number("too_fast", table.get("too_fast", TOO_FAST), 0),
     )
 
 
-def _number(name: str, value: Any, above: float) -> float:
+def _first(configs: Sequence[Mapping[str, object]], name: str) -> Mapping[str, object] | None:
+    """The table of the first config that has it."""
+    found = (c[name] for c in configs if name in c)
+    return next((table for table in found if isinstance(table, Mapping)), None)
+
+
+def _texts(name: str, table: Mapping[str, object]) -> tuple[str, ...]:
+    found = table.get(name, ())
+    if not isinstance(found, list | tuple) or not all(isinstance(x, str) for x in found):
+        raise DataError(f"analysis.{name} = {found!r}: expected an array of texts")
+    return tuple(found)
+
+
+def _whole(value: object) -> int | None:
+    """A number of people or trials, None where the config says none."""
+    return value if isinstance(value, int) else None
+
+
+def _number(name: str, value: object, above: float) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not above < value < 1e300:
         raise DataError(f"analysis.{name} = {value!r}: expected a number above {above:g}")
     return float(value)
 
 
 def _choices(
-    frozen: Mapping[str, Any] | None,
+    frozen: Mapping[str, object] | None,
     alpha: tuple[float, float],
     exclude: tuple[tuple[str, ...], tuple[str, ...]],
 ) -> list[str]:
@@ -105,9 +118,9 @@ def _choices(
 
 def _collection(
     study: Study,
-    configs: Sequence[Mapping[str, Any]],
-    design: Mapping[str, Any],
-    about: Mapping[str, Any],
+    configs: Sequence[Mapping[str, object]],
+    design: Mapping[str, object],
+    about: Mapping[str, object],
 ) -> list[str]:
     """Departures that happened while data were collected."""
     lines = []

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from seethrough.analysis.page.blocks import (
 from seethrough.analysis.page.html import as_html
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.page.pdf import find_browser, print_pdf
-from seethrough.analysis.page.r_script import as_r
+from seethrough.analysis.page.r_script import Facts, as_r
 from seethrough.analysis.page.tables_csv import as_csv
 from seethrough.analysis.plan import TESTS, make_plan
 from seethrough.analysis.sections.context import Context
@@ -103,7 +102,7 @@ def with_dictionary(sections: Sequence[Section]) -> Section:
     return replace(last, blocks=(*last.blocks, Fold("The columns of the tables", (words,))))
 
 
-def _facts(context: Context, sections: Sequence[Section]) -> dict[str, Any]:
+def _facts(context: Context, sections: Sequence[Section]) -> Facts:
     """What the script in R has to know of this report's choices."""
     tables = {b.key: b for s in sections for b in walk(s.blocks) if isinstance(b, Table)}
     mixed = tables.get("mixed_model")
@@ -111,7 +110,7 @@ def _facts(context: Context, sections: Sequence[Section]) -> dict[str, Any]:
     levels = levels_of(context.trials, design.crossed)
     shape = (1, *(len(known) for known in levels.values()))
     whole, _ = complete(design, Cells(np.zeros(shape), np.ones(shape, np.intp), ("",), levels))
-    return {"omnibus": whole.factors, "model": mixed.rows[0]["model"] if mixed else ""}
+    return Facts(whole.factors, str(mixed.rows[0]["model"]) if mixed else "")
 
 
 def _title(study: Study) -> str:

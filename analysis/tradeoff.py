@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.cells import Array, Cells, level_codes, sums
+from seethrough.analysis.arrays import Array
+from seethrough.analysis.cells import Cells, level_codes, sums
 from seethrough.analysis.comparison import SIDES
 from seethrough.analysis.design import Contrast, Design, Factor, Measured, Task
 from seethrough.analysis.measures import TASK, cells_of, levels_present, wrong

@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.contrasts import estimate, trend
@@ -17,7 +16,6 @@ from seethrough.analysis.stats.ranks import friedman, signed_rank
 from seethrough.analysis.stats.split_plot import split_plot
 from seethrough.benchmarks.sizes import Found, Studies, below, inside
 
-Array = NDArray[np.float64]
 RUNS = 10_000
 
 

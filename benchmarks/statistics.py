@@ -18,8 +18,8 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from seethrough.analysis.arrays import Array
 from seethrough.analysis.before import design_before
 from seethrough.analysis.load.schema import answer_columns, trial_columns
 from seethrough.analysis.stats.anova import repeated_measures
@@ -28,7 +28,6 @@ from seethrough.benchmarks.memory import used_by
 from seethrough.benchmarks.rows import Row, row
 from seethrough.benchmarks.sizes import sizes
 
-Array = NDArray[np.float64]
 DESIGN = design_before({})
 OFFSETS = (0.0, 1e6, 1e9, 1e12, 1e15)
 REPORTS = ((16, 10.0, None), (10_000, 40.0, 1.5))

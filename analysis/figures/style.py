@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-Spec = dict[str, Any]
+Spec = dict[str, object]
 
 INK = "#1f2328"
 RULE = "#d0d7de"
@@ -26,6 +25,7 @@ PALETTE = (
 """Told apart by every kind of colour vision (after Okabe and Ito), and by darkness in print; more
 levels than colours are told apart by their places, too."""
 LEVEL = PALETTE[1]
+NO_DATA: Spec = {"values": []}
 MOST_DOTS = 200
 
 
@@ -54,12 +54,17 @@ def picked(n: int) -> NDArray[np.intp]:
     return np.unique(np.linspace(0, n - 1, min(n, MOST_DOTS)).round().astype(np.intp))
 
 
-def number(field: str, title: str | None = None, **more: Any) -> Spec:
+def number(field: str, title: str | None = None, **more: object) -> Spec:
     """A quantitative channel."""
     return {"field": field, "type": "quantitative", "title": title, **more}
 
 
-def layer(mark: str, rows: Sequence[Spec], encoding: Spec, **options: Any) -> Spec:
+def layer(
+    mark: str,
+    rows: Sequence[Mapping[str, object]],
+    encoding: Mapping[str, object],
+    **options: object,
+) -> Spec:
     """A layer with data of its own; where rows have a `tip`, marks say it."""
     tipped = any("tip" in row for row in rows)
     said = {"field": "tip", "type": "nominal"}
@@ -73,7 +78,7 @@ def layer(mark: str, rows: Sequence[Spec], encoding: Spec, **options: Any) -> Sp
 
 def layers(*parts: Spec) -> list[Spec]:
     """Those that have something to draw: Vega warns of a scale without data."""
-    return [part for part in parts if part["data"]["values"]]
+    return [part for part in parts if part["data"] != NO_DATA]
 
 
 def zero_line(channel: str, title: str | None = None) -> Spec:

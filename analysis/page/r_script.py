@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import dataclass
 
 from jinja2 import Environment, StrictUndefined
 
@@ -14,7 +14,16 @@ from seethrough.analysis.page.html import template
 FILE = "analysis.R"
 
 
-def as_r(title: str, source: str, alpha: float, design: Design, facts: Mapping[str, Any]) -> str:
+@dataclass(frozen=True)
+class Facts:
+    """Choices of a report's that its script has to know: the levels of each factor in the largest
+    table without a cell left out, and the mixed model's name ("" if there is none)."""
+
+    omnibus: Mapping[str, Sequence[str]]
+    model: str
+
+
+def as_r(title: str, source: str, alpha: float, design: Design, facts: Facts) -> str:
     """The script of a study. `facts`: `omnibus`, the levels of the largest complete table, and
     `model`, the mixed model's random terms."""
     page = Environment(undefined=StrictUndefined, keep_trailing_newline=True).from_string(
@@ -24,7 +33,7 @@ def as_r(title: str, source: str, alpha: float, design: Design, facts: Mapping[s
     return page.render(title=title.replace("\n", " "), constants=constants)
 
 
-def _constants(source: str, alpha: float, design: Design, facts: Mapping[str, Any]) -> list[str]:
+def _constants(source: str, alpha: float, design: Design, facts: Facts) -> list[str]:
     numbers = {f.name: f.numbers for f in design.factors if f.within and f.numbers is not None}
     main = design.main
     return [
@@ -40,10 +49,10 @@ def _constants(source: str, alpha: float, design: Design, facts: Mapping[str, An
         f"NUMBERS <- {_lists(numbers)}",
         f"EXCLUDED <- {_nested([_lists({k: [v] for k, v in c.items()}) for c in design.excluded])}",
         "# the largest table without a cell that the study leaves out",
-        f"OMNIBUS <- {_lists(facts['omnibus'])}",
+        f"OMNIBUS <- {_lists(facts.omnibus)}",
         f"MEASURES <- {_nested(_measures(design))}",
         f"MAIN <- {_text(main.name if main else '')}",
-        f"MODEL <- {_text(facts['model'])}",
+        f"MODEL <- {_text(facts.model)}",
     ]
 
 
@@ -65,12 +74,12 @@ def _bool(value: bool) -> str:
     return "TRUE" if value else "FALSE"
 
 
-def _texts(values: Sequence[Any]) -> str:
+def _texts(values: Sequence[str | float]) -> str:
     inner = ", ".join(_text(v) if isinstance(v, str) else repr(float(v)) for v in values)
     return f"c({inner})" if values else "character(0)"
 
 
-def _lists(table: Mapping[str, Sequence[Any]]) -> str:
+def _lists(table: Mapping[str, Sequence[str | float]]) -> str:
     return f"list({', '.join(f'`{k}` = {_texts(list(v))}' for k, v in table.items())})"
 
 

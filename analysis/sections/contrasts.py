@@ -7,11 +7,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from seethrough.analysis.cells import Array, Cells
+from seethrough.analysis.arrays import Array
+from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast, Design, Factor, Measured
 from seethrough.analysis.equivalence import NO_MARGIN
 from seethrough.analysis.measures import TASK, groups_of, over_tasks
@@ -20,7 +20,7 @@ from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.tables import design_at
 from seethrough.analysis.stats.contrasts import FEW, Estimate, estimate, trend, within_margin
 from seethrough.analysis.stats.distributions import holm
-from seethrough.analysis.stats.undefined import Number, Undefined, is_defined
+from seethrough.analysis.stats.undefined import Number, Undefined, is_defined, number_in
 
 COLUMNS = (
     Column("contrast", "contrast"),
@@ -81,7 +81,7 @@ def contrast_blocks(
 
     `cells` are logarithms where `log` says so; `anova`: which interactions were found.
     """
-    rows: list[dict[str, Any]] = []
+    rows: list[dict[str, object]] = []
     tasks = cells.factors[TASK]
     places = [(task, cells.pick(task=task)) for task in tasks]
     if len(tasks) > 1 and measure.pool:
@@ -114,7 +114,7 @@ def _anova_of(anova: Mapping[str, Table], where: str) -> Table | None:
     return anova.get(f"anova_in_{where}") or anova.get("anova") or anova.get(f"anova_{TASK}")
 
 
-def _note(design: Design, rows: Sequence[Mapping[str, Any]]) -> str:
+def _note(design: Design, rows: Sequence[Mapping[str, object]]) -> str:
     notes = [WELCH] if design.groups else []
     if any(r["kind"] in TRENDS.values() for r in rows):
         notes.append(
@@ -123,7 +123,7 @@ def _note(design: Design, rows: Sequence[Mapping[str, Any]]) -> str:
         )
     if any(r["kind"] == SIMPLE for r in rows):
         notes.append("Simple effects: only where the interaction was found.")
-    small = sorted({r["least"] for r in rows if r["least"] < FEW})
+    small = sorted({number_in(r, "least") for r in rows if number_in(r, "least") < FEW})
     if design.groups and small:
         notes.append(f"Groups of fewer than {FEW} people: their p are rough (.05 to .10 for .05).")
     notes += [OBSERVED.format(f.name[:1].upper() + f.name[1:]) for f in design.groups
@@ -271,7 +271,7 @@ def _simple_rows(
 
 def _row(
     context: Context, cells: Cells, asked: Asked, measure: Measured, log: bool
-) -> dict[str, Any] | None:
+) -> dict[str, object] | None:
     """An asked contrast's row, of who has what it needs."""
     factors = design_at(context, cells).groups
     has = np.isfinite(asked.scores)
@@ -316,7 +316,7 @@ def _ratios(found: Estimate, log: bool, span: float | None) -> dict[str, Number 
     return {"ratio": ratio(found.estimate), "ratio_low": ratio(low), "ratio_high": ratio(high)}
 
 
-def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, Any]:
+def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, object]:
     """The tests against the declared margin; trends and differences of differences have none."""
     if kind not in (CONTRAST, BETWEEN, SIMPLE):
         return dict.fromkeys(("tost_margin", "tost_p", "noninferior_p"))
@@ -332,14 +332,14 @@ def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, Any]:
     return {"tost_margin": measure.margin, "tost_p": both, "noninferior_p": worse}
 
 
-def _correct(rows: Sequence[dict[str, Any]], families: Sequence[str]) -> None:
+def _correct(rows: Sequence[dict[str, object]], families: Sequence[str]) -> None:
     """Holm's p within each family."""
     for row in rows:
         row["p_holm"] = row["p"]
     for family in dict.fromkeys(families):
         inside = [r for r, f in zip(rows, families, strict=True) if f == family]
         known = [r for r in inside if is_defined(r["p"])]
-        for row, p in zip(known, holm([r["p"] for r in known]), strict=True):
+        for row, p in zip(known, holm([number_in(r, "p") for r in known]), strict=True):
             row["p_holm"] = p
 
 
@@ -362,7 +362,7 @@ MOST = 8
 """Contrasts that sentences tell of; the table has all."""
 
 
-def _sentence(table: Table, row: Mapping[str, Any], measure: Measured, log: bool) -> Prose:
+def _sentence(table: Table, row: Mapping[str, object], measure: Measured, log: bool) -> Prose:
     key = str(row["contrast"])
     p = table.cite(key, "p_holm")
     ratio = log and row["ratio"] is not None

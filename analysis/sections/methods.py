@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 import numpy as np
 
@@ -106,7 +105,7 @@ def _apparatus(context: Context) -> Prose | None:
     return say(f"Apparatus, as the sessions recorded it: {said}.") if said else None
 
 
-def _once(values: Iterable[Any]) -> str:
+def _once(values: Iterable[object]) -> str:
     """The distinct values, the first three."""
     return " or ".join(sorted({str(v) for v in values if v})[:3])
 

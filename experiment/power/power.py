@@ -16,12 +16,12 @@ from numpy.random import Generator, SeedSequence
 from numpy.typing import NDArray
 from scipy import special
 
+from seethrough.analysis.arrays import Array
 from seethrough.analysis.stats.anova import contrast_scores
 from seethrough.analysis.stats.distributions import t_quantile
 from seethrough.analysis.stats.ranks import share_interval
 from seethrough.analysis.stats.undefined import is_defined
 
-Array = NDArray[np.float64]
 ANALYSIS = 3  # first word of the streams (CONVENTIONS.md)
 ENOUGH = 0.8
 

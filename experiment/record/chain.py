@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from seethrough.analysis.load.files import read_json
+from seethrough.analysis.load.files import read_json, table_in
 from seethrough.analysis.load.person import Folder
 
 TRIALS_TABLE, SIDECAR, END = "_trials_data.csv", "_trials_data.json", "_end.json"
@@ -54,7 +54,8 @@ def end_of(table: Path) -> str:
     lines = table.read_text(encoding="utf-8", errors="replace").split("\n")[1:-1]
     if lines:
         return lines[-1].rpartition(",")[2]
-    return str(read_json(table.with_suffix(".json"), table.parent)["chain"]["start"])
+    sidecar = read_json(table.with_suffix(".json"), table.parent)
+    return str(table_in(sidecar, "chain")["start"])
 
 
 def loose_files(table: Path, killed: bool = False) -> dict[str, str]:

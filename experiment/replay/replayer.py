@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from seethrough.analysis.load.chain import read_rows
-from seethrough.analysis.load.files import Source
+from seethrough.analysis.load.files import Source, table_in
 from seethrough.analysis.load.person import CHUNK, Session
 from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
@@ -114,11 +114,11 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
     if session.sidecar is None:
         raise InputError(f"{sidecar}: missing: a replay needs to know how it was shown")
     try:
-        provenance = session.sidecar["provenance"]
-        display = provenance["display"]
-        width, height = (int(v) for v in display["size"].split("x"))
-        samples = int(display.get("samples", 0))
-        study = parse(provenance["study"], str(sidecar), before=True)
+        provenance = table_in(session.sidecar, "provenance")
+        display = table_in(provenance, "display")
+        width, height = (int(v) for v in str(display["size"]).split("x"))
+        samples = int(str(display.get("samples", 0)))
+        study = parse(table_in(provenance, "study"), str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
     study = study.with_places(lambda place: kept(place, data))
@@ -137,7 +137,7 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
             raise InputError(f"{table.parent / name}: not in this folder: expected the trial's log")
     events, camera = (table.parent / name for name in traces)
     return Recorded(
-        study, trial, row, events, camera, (width, height), display.get("renderer", "unknown"),
+        study, trial, row, events, camera, (width, height), str(display.get("renderer", "unknown")),
         samples,
     )  # fmt: skip
 
