@@ -80,8 +80,8 @@ def _factor(study: Study, factor: Factor) -> dict[str, Any]:
 
 def _task(name: str, margins: dict[str, float]) -> dict[str, Any]:
     task = TASKS[name]
-    measures = [measure.as_dict() for measure in (TIME, *task.measures)]
-    for measure in measures:
-        own = margins.get(measure["column"], measure["margin"])
-        measure["margin"] = margins.get(measure["name"], own)
+    measures = []
+    for measure in (TIME, *task.measures):
+        own = margins.get(measure.column, measure.margin)
+        measures.append(measure.as_dict() | {"margin": margins.get(measure.name, own)})
     return {"name": name, "code": task.code, "measures": measures}

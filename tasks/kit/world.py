@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
+from typing_extensions import TypeVar
 
-from seethrough.renderer.declared import key
+from seethrough.renderer.declared import Declares, key
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
@@ -32,14 +33,27 @@ class Place(Protocol):
 class Viewer(Protocol):
     """Where a participant looks from. Frozen; events give another one."""
 
-    def on_event(self, event: Event) -> Any:
+    def on_event(self, event: Event) -> Viewer:
         """The viewer after `event`."""
 
     def camera(self) -> Camera:
         """What the viewer sees."""
 
 
-class World(Protocol):
+class WorldParameters(Declares, Protocol):
+    """The parameters of a world: each has a key `scenes`, of which `scenes` below makes one."""
+
+    @property
+    def scenes(self) -> str:
+        """OWN or SHARED."""
+
+
+# What a world's own parameters and places are; who only hands them on need not know.
+Where = TypeVar("Where", bound=WorldParameters, contravariant=True, default=WorldParameters)
+Made = TypeVar("Made", bound=Place, default=Place)
+
+
+class World(Protocol[Where, Made]):
     """A world, without state: parameters go in, places come out.
 
     `scenario` is what tables call it. `moving`: "orbit" turns the world about its middle, "walk"
@@ -52,23 +66,26 @@ class World(Protocol):
     scenario: str
     moving: str
     controls: str
-    Parameters: Any
     texts: Texts
 
-    def make(self, rng: Generator, parameters: Any) -> Place:
+    @property
+    def Parameters(self) -> type[WorldParameters]:
+        """The class of its parameters."""
+
+    def make(self, rng: Generator, parameters: Where) -> Made:
         """A place for any task. Raises ValueError where the parameters leave no room for one."""
 
-    def viewer(self, place: Place, parameters: Any, aspect: float) -> Viewer:
+    def viewer(self, place: Made, parameters: Where, aspect: float) -> Viewer:
         """Where one begins, in a view so wide for its height."""
 
-    def views(self, parameters: Any, first: Camera) -> list[Camera]:
+    def views(self, parameters: Where, first: Camera) -> list[Camera]:
         """From where the certificate judges a scene that begins with `first`: the same for all."""
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:
         """World units to go from the start past what a task asks for, (n, 3) centres."""
 
 
-def scenes(default: str) -> Any:
+def scenes(default: str) -> str:
     """The key by which a study says how its scenes are had."""
     return key(
         default,
