@@ -89,17 +89,28 @@ class Layer:
         self._matrix = clip_from_offset(camera, size)
         runs, rest = self._before(table, frame, camera, technique, scale, size)
         self._set_state()
-        target.clear(table.scene.background)
         for shader in (self._object, self._depth):
             self._use(shader)
+        counts, exact = None, None
+        if len(frame.exact) and after_level is None:
+            # Before the frame's own picture: on a software rasteriser to leave that half done and
+            # come back to it costs more than all the little cells.
+            exact = self._job(table, frame, camera, technique, scale, size)
+            if frame.levels:
+                counts = self._looked_up(table, frame, camera, technique, rest, size)
+            self._painter().begin(exact, self._masks if frame.levels else None)
+            self._bind(*self._bound)
+            self._set_state()
+        target.clear(table.scene.background)
         if len(frame.wide):
             self._draw_outside(frame, runs[1], size)
         self._pass(self._object, runs[0], OPAQUE)
         if after_level is not None:
             after_level(None)
         if frame.levels:
-            counts = self._looked_up(table, frame, camera, technique, rest, size)
-            target.framebuffer.use()
+            if exact is None:
+                counts = self._looked_up(table, frame, camera, technique, rest, size)
+                target.framebuffer.use()
             self._set_state()
             self._masks.begin(counts)
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
@@ -108,9 +119,10 @@ class Layer:
             self._draw_ruled(table, frame, technique, state, shot, target)
             if after_level is not None and not self.peeled:
                 after_level(frame.ruled)
-        if len(frame.exact) and after_level is None:
-            job = self._job(table, frame, camera, technique, scale, size)
-            self._draw_exact(job, target, self._masks if frame.levels else None)
+        if exact is not None:
+            passes, draws = self._painter().finish(exact, target.framebuffer)
+            self._passes += passes
+            self._draws += draws
         return FrameStats(
             self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
         )
@@ -179,11 +191,6 @@ class Layer:
     ) -> ExactJob:
         width = technique.width * scale
         return ExactJob(table, frame, camera, technique, width, size, self._matrix)
-
-    def _draw_exact(self, job: ExactJob, target: FrameTarget, made: MaskPainter | None) -> None:
-        passes, draws = self._painter().draw(job, target.framebuffer, made)
-        self._passes += passes
-        self._draws += draws
 
     def _set_state(self) -> None:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
