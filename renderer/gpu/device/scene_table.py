@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device.meshes import GpuMesh, MeshStore
+from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.reused import kept
+from seethrough.renderer.look import floor
 from seethrough.renderer.plan.coverage import Triangles, triangles
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
@@ -43,11 +45,19 @@ class SceneTable:
         rows = np.zeros((max(n, 1), 4, 4), dtype="f4")
         rows[:n, :3, :3] = linear
         rows[:n, 3, :3] = np.array([o.color for o in scene.objects]).reshape(n, 3)
+        self.floors = floor.floors(tuple(o.kind for o in scene.objects))
+        rows[:n, 3, 3] = self.floors
         self.table = _texture(context, (4, max(n, 1)))
         self.table.write(rows.tobytes())
         self._points: dict[tuple[int, ...], tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
         self._context = context
         self._sequences = [kept(_texture(context, (2, max(n, 1)))) for _ in range(_SEQUENCES)]
+
+    def set_look(self, shader: Shader, camera: Camera, height: int) -> None:
+        """Tell a shader what it has to know for the scene's look, in a picture so high."""
+        if "eye" in shader.members:
+            x, y, z = camera.eye.tolist()
+            shader.set(eye=(x, y, z), pixel=camera.pixel(height))
 
     @cached_property
     def triangles(self) -> Triangles:

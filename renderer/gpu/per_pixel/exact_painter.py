@@ -7,7 +7,7 @@ list of fragments of every pixel, and the same goes for the masks. One shader so
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 
 import moderngl
@@ -41,11 +41,11 @@ _PER_ROW, _SURFACES_PER_ROW = 1024, 4096
 class ExactPainter:
     """Draws parts of a frame pixel by pixel."""
 
-    def __init__(self, context: moderngl.Context) -> None:
+    def __init__(self, context: moderngl.Context, look: Sequence[str] = ()) -> None:
         self._context = context
         self._tallest = context.info["GL_MAX_TEXTURE_SIZE"]
         self._slice = {
-            flag: program(context, "object.vert", "slice.frag", ["WITH_SURFACES"] * flag)
+            flag: program(context, "object.vert", "slice.frag", ["WITH_SURFACES"] * flag + [*look])
             for flag in (False, True)
         }
         self._masks = ExactMasks(context)
