@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Generic, Protocol
 
 from numpy.random import Generator
 from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import Declares
+from seethrough.renderer.look.dressed import dressed
+from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
@@ -32,6 +34,11 @@ class View:
     hud: tuple[Element, ...] = ()
     captured: bool = False
     drawn: object = None
+
+    def dressed(self, look: Look) -> View:
+        """The view of the scene as it looks."""
+        scene = dressed(self.scene, look)
+        return self if scene is self.scene else replace(self, scene=scene)
 
 
 @dataclass(frozen=True)
