@@ -25,7 +25,7 @@ from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
-from seethrough.renderer.techniques.base import Shot
+from seethrough.renderer.techniques.base import Parameters, Shot
 
 SIZE, LOOKED, VIEWS = (800, 600), (400, 300), 3
 STANDARD = named("standard")
@@ -65,6 +65,11 @@ def figures() -> Iterator[Row]:
         yield _cost(renderer, where, free, cameras, "idle", (named("constant"), None))
 
 
+def _with(p: Parameters, **changes: object) -> Parameters:
+    """The parameters with some of them changed."""
+    return type(p)(**{f.name: getattr(p, f.name) for f in fields(p)} | changes)
+
+
 def _ways(name: str, shot: Shot) -> Ways:
     """A technique as it is, and as the table asks for it besides."""
     eye = float(np.linalg.norm(shot.camera.eye - shot.scene.centers.mean(axis=0)))
@@ -72,11 +77,11 @@ def _ways(name: str, shot: Shot) -> Ways:
     found = {name: (p, state)}
     known = {field.name for field in fields(p)}
     if "cap" in known and name != "adaptive_cutaway":
-        found[f"{name}, cap none"] = replace(p, cap="none"), state
+        found[f"{name}, cap none"] = _with(p, cap="none"), state
     if name == "constant":
-        found["constant, all surfaces, 4 peels"] = replace(p, surfaces="all", layers=4), state
+        found["constant, all surfaces, 4 peels"] = _with(p, surfaces="all", layers=4), state
     if name == "blueprint":
-        found["blueprint, all surfaces"] = replace(p, surfaces="all"), state
+        found["blueprint, all surfaces"] = _with(p, surfaces="all"), state
     return found
 
 

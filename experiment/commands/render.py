@@ -6,9 +6,9 @@ import argparse
 import re
 import tomllib
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import fields
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -161,7 +161,7 @@ def _study(args: argparse.Namespace, size: tuple[int, int], out: Path) -> int:
 
 def _given(option: str, base: Given, settings: list[str]) -> Given:
     """Parameters with `settings` ("key=value", values as in TOML or bare words)."""
-    values: dict[str, Any] = {}
+    values: dict[str, object] = {}
     known = {field.name for field in fields(base)}
     for text in settings:
         key, equals, value = text.partition("=")
@@ -169,13 +169,12 @@ def _given(option: str, base: Given, settings: list[str]) -> Given:
             wanted = ", ".join(sorted(known)) or "none, it has no parameters"
             raise InputError(f"--{option} = {text}: expected KEY=VALUE with one of {wanted}")
         try:
-            values[key] = tomllib.loads(f"value = {value}")["value"]
+            found = tomllib.loads(f"value = {value}")["value"]
+            values[key] = tuple(found) if isinstance(found, list) else found
         except tomllib.TOMLDecodeError:
             values[key] = value
-        if isinstance(values[key], list):
-            values[key] = tuple(values[key])
     try:
-        return replace(base, **values)
+        return type(base)(**{name: getattr(base, name) for name in known} | values)
     except (TypeError, ValueError) as error:
         raise InputError(f"--{option}: {error}") from error
 

@@ -13,6 +13,8 @@ from ctypes import byref, c_ubyte
 
 import pyglet
 
+from seethrough.experiment.display.event_time import XEvent
+
 # Without this, importing pyglet.window opens a window, and fails where there is no display.
 pyglet.options.shadow_window = False
 import pyglet.window
@@ -30,15 +32,15 @@ class SystemWindow(pyglet.window.Window):  # type: ignore[misc]  # pyglet picks 
 
     event_time: EventTime | None = None
 
-    def dispatch_platform_event(self, event: object) -> None:
+    def dispatch_platform_event(self, event: XEvent) -> None:
         """X11 only: keys come this way."""
         self._stamped(super().dispatch_platform_event, event, "window")
 
-    def dispatch_platform_event_view(self, event: object) -> None:
+    def dispatch_platform_event_view(self, event: XEvent) -> None:
         """X11 only: the pointer's events come this way."""
         self._stamped(super().dispatch_platform_event_view, event, "view")
 
-    def _stamped(self, dispatch: Callable[[object], None], event: object, queue: str) -> None:
+    def _stamped(self, dispatch: Callable[[object], None], event: XEvent, queue: str) -> None:
         if self.event_time is None:
             return dispatch(event)
         self.event_time.stamp, self.event_time.queue = x11_stamp(event), queue

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import named
+from seethrough.renderer.techniques.base import Parameters
 
 RED, GREY, BLUE, GREEN = (0.9, 0.2, 0.1), (0.7, 0.7, 0.65), (0.2, 0.5, 0.9), (0.3, 0.75, 0.35)
 CAMERA = look_at(np.array([0.0, 0.6, 9.0]), np.zeros(3), fov_y=0.5, near=1, far=60)
@@ -32,7 +32,7 @@ class Failure:
     `worse` than the bound that a good picture keeps to."""
 
     words: str
-    parameters: Any
+    parameters: Parameters
     scene: Scene
     measure: Measure
     bound: float
@@ -81,8 +81,9 @@ def void(k: int) -> Measure:
     return measure
 
 
-def _wall(z: float = 2.0, **more: Any) -> Object:
-    return Object(geometry.box(7, 5, 0.2), transforms.translation(0, 0, z), GREY, **more)
+def _wall(z: float = 2.0, target: bool = False, impenetrable: bool = False) -> Object:
+    place = transforms.translation(0, 0, z)
+    return Object(geometry.box(7, 5, 0.2), place, GREY, target=target, impenetrable=impenetrable)
 
 
 def _ball(x: float, z: float, radius: float = 0.8) -> Object:

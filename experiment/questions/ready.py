@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 from seethrough import registry
 from seethrough.experiment.pages.pages import Answers, Page
@@ -16,6 +15,7 @@ from seethrough.experiment.questions.likert.likert_question import LikertParamet
 from seethrough.experiment.questions.number.number_question import NumberParameters
 from seethrough.experiment.questions.statement.statement_question import StatementParameters
 from seethrough.experiment.questions.text.text_question import TextParameters
+from seethrough.renderer.declared import Declares
 from seethrough.tasks.kit.world import NO_TEXTS, Texts
 
 OLDEST = 120  # years; what is above is a slip of the finger
@@ -32,7 +32,7 @@ class Part:
 
     item: str
     kind: str
-    parameters: object
+    parameters: Declares
 
 
 @dataclass(frozen=True)
@@ -50,19 +50,19 @@ class Ready:
     parts: Callable[[Asking], tuple[Part, ...]]
     source: str = "ours"
     version: str = "1"
-    Parameters: Any = NoParameters
-    example: Any = NoParameters()
+    Parameters: type[Declares] = NoParameters
+    example: Declares = NoParameters()
 
     @property
     def texts(self) -> Texts:
         """They are the pages' own."""
         return NO_TEXTS
 
-    def count(self, p: Any) -> int:
+    def count(self, p: Declares) -> int:
         """One."""
         return 1
 
-    def pages(self, p: Any, asking: Asking) -> tuple[Page, ...]:
+    def pages(self, p: Declares, asking: Asking) -> tuple[Page, ...]:
         """All that the parts ask, on one page."""
         made = [part for one in self._each(asking) for part in one[0].pages(one[1], one[2])]
         levels = tuple(asking.about.values())
@@ -70,27 +70,27 @@ class Ready:
         blocks = tuple(block for part in made for block in part.blocks)
         return (page(asking, title, blocks, buttons=made[0].buttons),)
 
-    def rows(self, p: Any, asking: Asking, number: int, answers: Answers) -> list[Row]:
+    def rows(self, p: Declares, asking: Asking, number: int, answers: Answers) -> list[Row]:
         """Those of the parts."""
         return [r for kind, q, a in self._each(asking) for r in kind.rows(q, a, 0, answers)]
 
-    def last(self, p: Any, asking: Asking, number: int) -> tuple[str, ...]:
+    def last(self, p: Declares, asking: Asking, number: int) -> tuple[str, ...]:
         """The last part's; any, where none has to be answered."""
         found = [kind.last(q, a, 0) for kind, q, a in self._each(asking)]
         if not self.pages(p, asking)[0].required:
             return tuple(item for last in found for item in last)
         return found[-1]
 
-    def items(self, p: Any, name: str) -> Mapping[str, str]:
+    def items(self, p: Declares, name: str) -> Mapping[str, str]:
         """Those of the parts."""
         each = self._each(Asking(name))
         return {i: said for kind, q, a in each for i, said in kind.items(q, a.name).items()}
 
-    def simulate(self, p: Any, page: Page, person: Respondent) -> Answers:
+    def simulate(self, p: Declares, page: Page, person: Respondent) -> Answers:
         """By what the page is made of."""
         return person.by_blocks(page)
 
-    def _each(self, asking: Asking) -> list[tuple[Question, Any, Asking]]:
+    def _each(self, asking: Asking) -> list[tuple[Question, Declares, Asking]]:
         """Kind, parameters, what it is asked about: the page says once which levels these are."""
         return [
             (
@@ -102,8 +102,12 @@ class Ready:
         ]
 
 
-def _likert(item: str, text: str, ends: tuple[str, ...], **more: Any) -> Part:
-    scale = LikertParameters(text=text, names=(item,), ends=ends, first=0, **more)
+def _likert(
+    item: str, text: str, ends: tuple[str, ...], points: int = 5, reverse: tuple[str, ...] = ()
+) -> Part:
+    scale = LikertParameters(
+        text=text, names=(item,), ends=ends, first=0, points=points, reverse=reverse
+    )
     return Part(item, "likert", scale)
 
 

@@ -17,7 +17,6 @@ import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.load.files import read_json, table_in
 from seethrough.analysis.load.person import Folder
@@ -31,9 +30,13 @@ def link(before: str, text: str) -> str:
     return hashlib.sha256((before + text).encode("utf-8", "replace")).hexdigest()
 
 
-def start_of(sidecar: Mapping[str, Any], header: str) -> str:
+def start_of(sidecar: Mapping[str, object], header: str) -> str:
     """Where a session's chain starts: its sidecar (but for `chain.start` itself) and header."""
-    chain = {key: value for key, value in sidecar.get("chain", {}).items() if key != "start"}
+    chain = {
+        key: value
+        for key, value in table_in({"chain": {}, **sidecar}, "chain").items()
+        if key != "start"
+    }
     plain = json.dumps({**sidecar, "chain": chain}, sort_keys=True, ensure_ascii=False)
     return link(plain, header)
 

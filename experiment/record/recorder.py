@@ -102,17 +102,18 @@ class FileRecorder:
             if place.is_symlink():  # whoever planted it would get what is recorded
                 raise InputError(f"{place}: a link: expected a folder of this study's own")
         make_folder(self.folder / "traces")
-        content: dict[str, Any] = {"started": self._now(), **asdict(self.who), "chain": {}}
+        chain: dict[str, object] = {}
+        content = {"started": self._now(), **asdict(self.who), "chain": chain}
         before = latest_table(self.folder)
         if before is not None:
             _check_before(self.folder, data)
             content["mended"] = mend(self.folder)
-            content["chain"]["follows"] = end_of(before)
+            chain["follows"] = end_of(before)
             if not before.with_name(before.name.replace(TRIALS_TABLE, END)).exists():
                 # It was killed: nothing else holds them.
-                content["chain"]["holds"] = loose_files(before, killed=True)
+                chain["holds"] = loose_files(before, killed=True)
         start = start_of(content, header_of(self._columns["trials"]))
-        content["chain"]["start"] = start
+        chain["start"] = start
         write_new(sidecar, _json(content))
         try:
             return Table(table, self._columns["trials"], start, self._guard)
@@ -253,7 +254,7 @@ def _json(content: Mapping[str, object]) -> str:
     return json.dumps(content, indent=2) + "\n"
 
 
-def trial_row(record: TrialRecord) -> dict[str, Any]:
+def trial_row(record: TrialRecord) -> dict[str, object]:
     """What a trial's record says about its row of the trial table."""
     trial, outcome = record.trial, record.outcome
     row = {

@@ -11,7 +11,6 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.load.chain import read_rows
 from seethrough.analysis.load.files import Source, table_in
@@ -26,6 +25,7 @@ from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.look.look import Look
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
@@ -51,7 +51,7 @@ class Recorded:
     samples: int
 
     @property
-    def technique(self) -> Any:
+    def technique(self) -> Parameters:
         """What the trial was drawn with."""
         return self.study.part(self.trial.levels).technique
 

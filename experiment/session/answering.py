@@ -12,10 +12,11 @@ from seethrough.experiment.pages.pages import Answers, Page, Ranking
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
+from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study import Study
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.base import Outcome, Task, View
 from seethrough.tasks.kit.events import Event, Tick
 
 NOTHING = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
@@ -26,7 +27,7 @@ def played(study: Study, slot: int) -> list[TrialRecord]:
     """The records of a slot's session; every answer is right, every page filled in somehow."""
     clock = SimulatedClock()
     hand, records = _Hand(clock), _Records()
-    scenes: Any = _NoScenes()
+    scenes: Any = _NoScenes()  # neither scenes nor tasks are asked for more than this
     run_session(study, slot, Surroundings(hand, hand, clock, records, _Tasks(), scenes=scenes))
     return records.ended
 
@@ -49,7 +50,7 @@ class _Task:
         return None
 
 
-class _Tasks(Mapping[str, Any]):
+class _Tasks(Mapping[str, Task]):
     """A task of every name."""
 
     def __getitem__(self, name: str) -> Any:
@@ -65,7 +66,7 @@ class _Tasks(Mapping[str, Any]):
 class _NoScenes:
     """Begins a trial without a scene."""
 
-    def begin(self, task: Any, trial: Any, aspect: float) -> bool:
+    def begin(self, task: Task, trial: Trial, aspect: float) -> bool:
         return False
 
 
@@ -77,7 +78,7 @@ class _Hand:
     def __init__(self, clock: SimulatedClock) -> None:
         self._clock = clock
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: object) -> float:
         return self._clock.now()
 
     def digest(self) -> str:
@@ -114,19 +115,19 @@ class _Records:
     def trial_ends(self, record: TrialRecord) -> None:
         self.ended.append(record)
 
-    def trial_begins(self, trial: Any) -> None:
+    def trial_begins(self, trial: object) -> None:
         return None
 
-    def event(self, event: Any) -> None:
+    def event(self, event: object) -> None:
         return None
 
-    def frame(self, time: float, view: Any, digest: str = "") -> None:
+    def frame(self, time: float, view: object, digest: str = "") -> None:
         return None
 
-    def answers(self, rows: Any) -> None:
+    def answers(self, rows: object) -> None:
         return None
 
-    def note(self, trial: Any, text: str) -> None:
+    def note(self, trial: object, text: str) -> None:
         return None
 
     def close(self, status: str) -> None:

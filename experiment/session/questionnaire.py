@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
 from zlib import crc32
 
 from seethrough.experiment.display.display import Input
@@ -25,8 +24,11 @@ from seethrough.experiment.study.design import PARTICIPANT, generator
 from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.reading import Question
 from seethrough.experiment.study.study import Study
+from seethrough.renderer.declared import Declares
 from seethrough.renderer.look.look import Look
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
+from seethrough.tasks.kit.world import WorldParameters
 
 Item = tuple[str, Pairs]  # item, and factor and level of what it is about
 Given = Mapping[Item, str]  # values of the items that were answered
@@ -52,7 +54,7 @@ class Planned:
     use: str
     about: Mapping[str, str] = field(default_factory=dict)
     of: tuple[str, ...] = ()
-    parameters: Any = None
+    parameters: Declares | None = None
     factor: str = ""
     cells: tuple[Levels, ...] = ()
 
@@ -184,13 +186,14 @@ class StudyPlaces:
         """The study's seed."""
         return self.study.study.seed
 
-    def place(self, world: str) -> Any:
+    def place(self, world: str) -> WorldParameters:
         """The study's parameters of a world, or its defaults."""
         kind = WORLDS[world].Parameters
-        own = (place for place in self.study.places() if isinstance(place, kind))
-        return next(own, None) or self.study.parameters("world", world) or kind()
+        said = self.study.parameters("world", world)
+        own = (p for p in (*self.study.places(), said) if isinstance(p, kind))
+        return next(own, None) or kind()
 
-    def technique(self, about: Mapping[str, str]) -> Any:
+    def technique(self, about: Mapping[str, str]) -> Parameters:
         """What frames are drawn with at these levels."""
         return self.study.part(self.cells[-1]).technique
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from math import acos, dist, inf
-from typing import Any, TypeGuard
+from typing import TypeGuard
 
 from seethrough.experiment.display.display import LEAVE, MEANT, Leave
 from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, TextField
@@ -18,6 +18,7 @@ from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.base import Outcome, View
 from seethrough.tasks.kit.events import (
     Event,
@@ -102,7 +103,7 @@ class TrialRun:
         self.world = world
         self.scenes = world.scenes or StudyScenes(study)
 
-    def technique(self, trial: Trial) -> Any:
+    def technique(self, trial: Trial) -> Parameters:
         """What the trial is drawn with."""
         return self.study.part(trial.levels).technique
 
@@ -110,7 +111,7 @@ class TrialRun:
         """How the trial's scene looks."""
         return self.study.part(trial.levels).look
 
-    def begin(self, trial: Trial) -> Any:
+    def begin(self, trial: Trial) -> object:
         """The task's first state, from the trial's own stream."""
         task = self.world.tasks[trial.task]
         return self.scenes.begin(task, trial, self.world.display.aspect)
@@ -159,7 +160,7 @@ def _held(event: Event) -> str:
 class Running:
     """A trial while it runs."""
 
-    def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
+    def __init__(self, run: TrialRun, trial: Trial, state: object, limit: float) -> None:
         self._world, self._task = run.world, run.world.tasks[trial.task]
         self._technique = run.technique(trial)
         self._hand = Hand(self._technique, run.world.display.aspect, run.look(trial))

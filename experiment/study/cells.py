@@ -21,7 +21,8 @@ from seethrough.experiment.study.study_tables import (
     StudyTable,
 )
 from seethrough.renderer.look.look import Look
-from seethrough.tasks.kit.world import OWN
+from seethrough.renderer.techniques.base import Parameters
+from seethrough.tasks.kit.world import OWN, WorldParameters
 
 VARIED = (
     "study",
@@ -42,10 +43,10 @@ class Part:
     `look`; `limits` of trials; `design` with its tasks, `practice` and `questions`; `display` and
     `study` of the session."""
 
-    technique: Any
+    technique: Parameters
     technique_name: str
     world: str
-    place: Any
+    place: WorldParameters
     look: Look
     limits: Limits
     design: DesignTable
@@ -63,7 +64,7 @@ class Part:
 
 
 def parts_of(
-    base: Mapping[str, Any], factors: Sequence[Factor], cells: Sequence[Cell]
+    base: Mapping[str, object], factors: Sequence[Factor], cells: Sequence[Cell]
 ) -> tuple[dict[Cell, Part], list[Fault]]:
     """Every cell's part, and all that is wrong in any of them; {} where something is."""
     faults: list[Fault] = []
@@ -88,8 +89,8 @@ def parts_of(
     return {cell: _part(cell, values) for cell in cells}, []
 
 
-def _read(section: str, base: Mapping[str, Any], levels: Sequence[tuple[Factor, str]]) -> Read:
-    table: dict[str, Any] = {section: base.get(section, {})}
+def _read(section: str, base: Mapping[str, object], levels: Sequence[tuple[Factor, str]]) -> Read:
+    table: dict[str, object] = {section: base.get(section, {})}
     for factor, name in levels:
         part = factor.level(name).part
         if section in part:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import Any
 
@@ -16,7 +17,7 @@ from seethrough.tasks.kit.measure import TIME
 def design_entry(study: Study) -> dict[str, Any]:
     """Factors with their levels in order, cells left out, tasks with what they measure, what is
     expected; plain JSON types."""
-    analysis = study.resolved()["analysis"]
+    analysis = json.loads(study.analysis.model_dump_json())
     margins = {k: v for k, v in analysis["margins"].items() if v is not None}
     return {
         "factors": [_factor(study, factor) for factor in study.factors],
@@ -42,7 +43,7 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
     return ()
 
 
-def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
+def _items(study: Study, name: str, asked: Question) -> list[dict[str, object]]:
     """A question's items, but of what is asked at the start: for which levels, together with which,
     of how many points. Where one has the question's own name, it is made of the others."""
     if asked.use in STARTS:
@@ -65,7 +66,7 @@ def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
     return items
 
 
-def _factor(study: Study, factor: Factor) -> dict[str, Any]:
+def _factor(study: Study, factor: Factor) -> dict[str, object]:
     """The factor; `tasks` of each level where levels bring their own."""
     at = study.factors.index(factor)
     tasks: dict[str, list[str]] = {name: [] for name in factor.names}
@@ -78,7 +79,7 @@ def _factor(study: Study, factor: Factor) -> dict[str, Any]:
     return said
 
 
-def _task(name: str, margins: dict[str, float]) -> dict[str, Any]:
+def _task(name: str, margins: dict[str, float]) -> dict[str, object]:
     task = TASKS[name]
     measures = []
     for measure in (TIME, *task.measures):

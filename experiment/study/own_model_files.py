@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.model_files import check_files
 from seethrough.tasks.kit.own_models import READER, OwnModel, kept_as, mesh_of, packed, read
+from seethrough.tasks.kit.world import WorldParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 if TYPE_CHECKING:
     from seethrough.experiment.study.study import Study
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
 FOLDER = "models"
 
 
-def own_models(place: Any) -> tuple[OwnModel, ...]:
+def own_models(place: WorldParameters) -> tuple[OwnModel, ...]:
     """The models that a world's parameters bring along."""
     return tuple(getattr(place, "models", ()))
 
@@ -27,10 +29,10 @@ def models_of(study: Study) -> tuple[OwnModel, ...]:
     return tuple(dict.fromkeys(m for place in study.places() for m in own_models(place)))
 
 
-def beside(parameters: Any, path: Path) -> Any:
+def beside(parameters: WorldParameters, path: Path) -> WorldParameters:
     """A world's parameters of the study file at `path`, its models read, with their files' hashes.
     Raises InputError."""
-    if not own_models(parameters):
+    if not isinstance(parameters, BuildingParameters) or not parameters.models:
         return parameters
     found = []
     for number, model in enumerate(parameters.models):
@@ -61,10 +63,10 @@ def keep(study: Study, data: Path) -> None:
             raise InputError(f"{path}: cannot be written: {error.strerror}") from None
 
 
-def kept(parameters: Any, data: Path) -> Any:
+def kept(parameters: WorldParameters, data: Path) -> WorldParameters:
     """A world's parameters of a sidecar, its models as the data folder kept them.
     Raises InputError."""
-    if not own_models(parameters):
+    if not isinstance(parameters, BuildingParameters) or not parameters.models:
         return parameters
     found = [replace(model, folder=str(data / FOLDER)) for model in parameters.models]
     for model in found:

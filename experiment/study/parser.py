@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeGuard
 
 from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.study.cells import Part, every_combination, parts_of
@@ -28,10 +28,10 @@ MOST_CELLS = 10_000
 class Parser:
     """A study's table while it is read."""
 
-    def __init__(self, table: Mapping[str, Any]) -> None:
+    def __init__(self, table: Mapping[str, object]) -> None:
         self.base = {k: v for k, v in table.items() if k != "factors"}
-        if _are_named(self.base.get("questions")):  # of a sidecar: in order
-            listed = self.base["questions"]
+        listed = self.base.get("questions")
+        if _are_named(listed):  # of a sidecar: in order
             self.base["questions"] = {
                 t["name"]: {k: v for k, v in t.items() if k != "name"} for t in listed
             }
@@ -173,14 +173,14 @@ def _left_without(factors: tuple[Factor, ...], excluded: list[Levels]) -> list[F
     return faults
 
 
-def _are_named(tables: Any) -> bool:
+def _are_named(tables: object) -> TypeGuard[list[Mapping[str, Any]]]:
     """Whether it is an array of tables that have names, as a sidecar has them."""
     return isinstance(tables, list) and all(
         isinstance(t, Mapping) and isinstance(t.get("name"), str) for t in tables
     )
 
 
-def _are_factors(tables: Any) -> bool:
+def _are_factors(tables: object) -> TypeGuard[list[Mapping[str, Any]]]:
     """Whether it is an array of factors, each with an array of levels."""
     return _are_named(tables) and all(
         _are_named(t.get("levels"))

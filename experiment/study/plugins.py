@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import is_dataclass
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import get_args, get_origin, get_type_hints
 
 from seethrough import registry
 from seethrough.experiment.study.parameter_tables import Fault
+from seethrough.renderer.declared import Declares
 from seethrough.tasks import catalog
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
@@ -20,13 +21,14 @@ def names(kind: str) -> tuple[str, ...]:
     return registry.known(kind)
 
 
-def parameters(kind: str, name: str) -> Any:
+def parameters(kind: str, name: str) -> type[Declares]:
     """The class of the parameters of one of them."""
     if kind == "question":
         from seethrough.experiment.questions.ready import question
 
         return question(name).Parameters
-    return registry.get(kind, name).Parameters
+    found: type[Declares] = registry.get(kind, name).Parameters
+    return found
 
 
 def worlds_of(task: str) -> tuple[str, ...]:
@@ -34,7 +36,7 @@ def worlds_of(task: str) -> tuple[str, ...]:
     return catalog.worlds_of(registry.get("task", task))
 
 
-def further_faults(place: Any) -> list[Fault]:
+def further_faults(place: object) -> list[Fault]:
     """The building's models are there, each once, and enough of them to tell one from others."""
     if not isinstance(place, BuildingParameters):
         return []
@@ -56,7 +58,7 @@ def further_faults(place: Any) -> list[Fault]:
     return found
 
 
-def inner_tables(cls: Any) -> dict[str, Any]:
+def inner_tables(cls: type[Declares]) -> dict[str, type[Declares]]:
     """Key → class, of the parameters that are arrays of tables."""
     return {
         name: get_args(hint)[0]

@@ -20,6 +20,7 @@ from seethrough.experiment.study.study_tables import (
     Table,
     TaskTable,
 )
+from seethrough.renderer.declared import Declares
 from seethrough.renderer.look.look import Look
 
 
@@ -67,11 +68,11 @@ class Question:
         )
 
 
-Read = tuple[Any, list[Fault]]
+Read = tuple[Any, list[Fault]]  # what a table makes depends on its section
 STARTS = ("consent", "demographics", "color_check")  # asked at the start unless a study says not
 
 
-def read(section: str, table: Any, whole: bool) -> Read:
+def read(section: str, table: object, whole: bool) -> Read:
     """The values of a table and its faults; `whole` unless something may still be missing."""
     if not isinstance(table, Mapping):
         return None, [Fault(section, table, f"a table, [{section}]")]
@@ -86,7 +87,7 @@ def read(section: str, table: Any, whole: bool) -> Read:
     return model(section, TABLES[section], table)
 
 
-def model(section: str, kind: type[Table], table: Mapping[str, Any]) -> Read:
+def model(section: str, kind: type[Table], table: Mapping[str, object]) -> Read:
     """A table of ours."""
     try:
         return kind.model_validate(dict(table)), []
@@ -101,7 +102,7 @@ def _look(table: Mapping[str, object]) -> Read:
         return None, [fault._replace(key=f"look.{fault.key}") for fault in error.found]
 
 
-def _chosen(section: str, table: Mapping[str, Any], whole: bool) -> Read:
+def _chosen(section: str, table: Mapping[str, object], whole: bool) -> Read:
     known, faults = plugins.names(section), []
     tables: dict[str, Any] = {}
     for name, own in table.items():
@@ -123,23 +124,24 @@ def _chosen(section: str, table: Mapping[str, Any], whole: bool) -> Read:
         faults.append(Fault(f"{section}.use", MISSING, expected))
     if faults:
         return None, faults
+    use = str(use)
     if use and use not in tables:
         tables[use], faults = parameters(section, use, {})
     return Chosen(use, tables.get(use), tables), faults
 
 
-def parameters(section: str, name: str, table: Mapping[str, Any]) -> Read:
+def parameters(section: str, name: str, table: Mapping[str, object]) -> Read:
     """The parameters of a technique, world or task."""
     where = f"{section}.{name}"
     try:
-        made = built(plugins.parameters(section, name), table)
+        made: Declares = built(plugins.parameters(section, name), table)
     except Faults as error:
         return None, [fault._replace(key=f"{where}.{fault.key}") for fault in error.found]
     more = plugins.further_faults(made)
     return made, [fault._replace(key=f"{where}.{fault.key}") for fault in more]
 
 
-def _limits(table: Mapping[str, Any]) -> Read:
+def _limits(table: Mapping[str, object]) -> Read:
     known = plugins.names("task")
     plain = {k: v for k, v in table.items() if k not in known}
     value, faults = model("task", TaskTable, plain)
@@ -160,7 +162,7 @@ def _limits(table: Mapping[str, Any]) -> Read:
     return (None if faults else Limits(value.limit, limits, tables)), faults
 
 
-def _questions(table: Mapping[str, Any]) -> Read:
+def _questions(table: Mapping[str, object]) -> Read:
     found: dict[str, Question] = {}
     faults: list[Fault] = []
     for name, own in table.items():

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
 from seethrough.tasks.kit.base import Setting, Task
-from seethrough.tasks.kit.world import OWN
+from seethrough.tasks.kit.world import OWN, Place
 
 
 class StudyScenes:
@@ -16,14 +15,14 @@ class StudyScenes:
 
     def __init__(self, study: Study) -> None:
         self.study = study
-        self._shared: dict[tuple[Any, str, tuple[int, ...]], Any] = {}
+        self._shared: dict[tuple[object, str, tuple[int, ...]], Place] = {}
 
-    def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
+    def begin(self, task: Task, trial: Trial, aspect: float) -> object:
         """The first state of a trial."""
         setting = self.study.setting(trial)
         return task.begin(self._made(task, trial, setting), setting, aspect)
 
-    def _made(self, task: Task, trial: Trial, setting: Setting) -> Any:
+    def _made(self, task: Task, trial: Trial, setting: Setting) -> Place:
         rng = generator(self.study.study.seed, trial.stream)
         if setting.place.scenes == OWN:
             return task.make_scene(rng, setting)

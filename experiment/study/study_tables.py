@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, field_validator
+from pydantic.fields import FieldInfo
 
 from seethrough import registry
 from seethrough.experiment.errors import shown
@@ -27,11 +28,14 @@ NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
 
-def key(meaning: str, unit: str = "", said: str = "", scope: str = FIXED, **limits: Any) -> Any:
+def key(
+    meaning: str, unit: str = "", said: str = "", scope: str = FIXED, **limits: Any
+) -> FieldInfo:
     """What is declared of a key: `said` says what is allowed where the limits do not, `scope` when
     it can change."""
     more: dict[str, JsonValue] = {"unit": unit, "said": said, "scope": scope}
-    return Field(description=meaning, json_schema_extra=more, **limits)
+    made: FieldInfo = Field(description=meaning, json_schema_extra=more, **limits)
+    return made
 
 
 def _plain(value: str) -> str:
@@ -68,7 +72,7 @@ def _task(value: str) -> str:
     return value
 
 
-def _as_tuple(value: Any) -> Any:
+def _as_tuple(value: object) -> object:
     """TOML has arrays, frozen tables have tuples."""
     return tuple(value) if isinstance(value, list) else value
 
@@ -335,7 +339,7 @@ class QuestionTable(Table):
 
     @field_validator("only", mode="before")
     @classmethod
-    def _levels(cls, value: Any) -> Any:
+    def _levels(cls, value: object) -> object:
         if not isinstance(value, Mapping):
             return value
         return {k: tuple(v) if isinstance(v, list) else v for k, v in value.items()}

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.random import Generator
@@ -36,7 +35,7 @@ KEYS = (*"0123456789ackrxyz", "left", "right", "up", "down", "enter", "space", "
 class Played:
     """The states of a trial: `states[i + 1]` is `states[i]` after `events[i]`."""
 
-    states: list[Any]
+    states: list[object]
     events: list[Event]
     outcome: Outcome | None
 
@@ -49,7 +48,7 @@ class ReadsTheClock(Exception):
 def no_clock() -> Iterator[None]:
     """Whoever asks what time it is, is found out."""
 
-    def refuse(*_: Any) -> float:
+    def refuse(*_: object) -> float:
         raise ReadsTheClock("expected the times of events, not the clock's")
 
     kept = {name: getattr(time, name) for name in CLOCKS}
@@ -62,7 +61,7 @@ def no_clock() -> Iterator[None]:
             setattr(time, name, clock)
 
 
-def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> Any:
+def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> object:
     """A trial's first state."""
     return task.begin(task.make_scene(np.random.default_rng(seed), setting), setting, aspect)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +30,7 @@ def _settings(task: Task) -> Iterator[Setting]:
         yield setting(task, WORLDS[world].Parameters())
 
 
-def says_what_it_is(task: Any) -> Iterator[str]:
+def says_what_it_is(task: Task) -> Iterator[str]:
     """It says what it is: name, code, source, worlds, measures, texts."""
     yield from describes_itself(task, ("code", "title", "instruction"))
     if not task.worlds:
@@ -44,12 +43,12 @@ def says_what_it_is(task: Any) -> Iterator[str]:
         yield f"simulate = {task.simulate!r}: expected a Strategy"
 
 
-def refuses_wrong_parameters(task: Any) -> Iterator[str]:
+def refuses_wrong_parameters(task: Task) -> Iterator[str]:
     """Its parameters are declared, and wrong ones refused by name."""
     yield from parameters_declared(task.Parameters)
 
 
-def has_its_texts(task: Any) -> Iterator[str]:
+def has_its_texts(task: Task) -> Iterator[str]:
     """All that it says is in every language."""
     yield from texts_in_every_language(task, (task.name,))
     keys = {task.title, task.instruction}
@@ -61,7 +60,7 @@ def has_its_texts(task: Any) -> Iterator[str]:
     yield from unknown_texts(keys)
 
 
-def makes_the_same_scene_again(task: Any) -> Iterator[str]:
+def makes_the_same_scene_again(task: Task) -> Iterator[str]:
     """One stream, one scene; another stream, another one."""
     for given in _settings(task):
         one, two, other = (task.view(begun(task, given, s)).scene for s in (1, 1, 2))
@@ -73,7 +72,7 @@ def makes_the_same_scene_again(task: Any) -> Iterator[str]:
             yield f"{given.world.name}: two streams made one scene"
 
 
-def is_pure(task: Any) -> Iterator[str]:
+def is_pure(task: Task) -> Iterator[str]:
     """The same events give the same states and the same outcome, whatever was asked between."""
     for given in _settings(task):
         first, again = (played(task, given, SEEDS[0]) for _ in range(2))
@@ -93,7 +92,7 @@ def _global_stream() -> NDArray[np.uint32]:
     return state[1].copy()
 
 
-def reads_no_clock(task: Any) -> Iterator[str]:
+def reads_no_clock(task: Task) -> Iterator[str]:
     """It reads no clock, and draws from no stream but its own."""
     for given in _settings(task):
         state = begun(task, given, SEEDS[0])
@@ -107,7 +106,7 @@ def reads_no_clock(task: Any) -> Iterator[str]:
             yield f"{given.world.name}: drew from numpy's global stream"
 
 
-def takes_any_event(task: Any) -> Iterator[str]:
+def takes_any_event(task: Task) -> Iterator[str]:
     """Whatever a participant does, it shows a view and raises nothing."""
     for given in _settings(task):
         for seed in SEEDS:
@@ -123,7 +122,7 @@ def takes_any_event(task: Any) -> Iterator[str]:
                     break
 
 
-def fits_the_view(task: Any) -> Iterator[str]:
+def fits_the_view(task: Task) -> Iterator[str]:
     """What it draws over the view lies in the view, wide or narrow."""
     for given in _settings(task):
         for aspect in (4 / 3, 16 / 9):
@@ -134,7 +133,7 @@ def fits_the_view(task: Any) -> Iterator[str]:
                         yield f"{given.world.name}: {r} lies outside of a view {aspect:.2f} wide"
 
 
-def is_done_by_simulated_people(task: Any) -> Iterator[str]:
+def is_done_by_simulated_people(task: Task) -> Iterator[str]:
     """A simulated person answers, in order of time, and every measure is filled in."""
     for given in _settings(task):
         for seed in SEEDS:
@@ -150,7 +149,7 @@ def is_done_by_simulated_people(task: Any) -> Iterator[str]:
                     yield f"{where}: measure {measure.name}: expected a value"
 
 
-def shows_what_it_is_about(task: Any) -> Iterator[str]:
+def shows_what_it_is_about(task: Task) -> Iterator[str]:
     """For its instruction's picture it names objects and cameras."""
     for given in _settings(task):
         state = begun(task, given, SEEDS[0])
@@ -161,7 +160,7 @@ def shows_what_it_is_about(task: Any) -> Iterator[str]:
             yield f"{given.world.name}: asked = {example.asked}: expected indices of objects"
 
 
-RULES: tuple[Rule, ...] = (
+RULES: tuple[Rule[Task], ...] = (
     says_what_it_is,
     refuses_wrong_parameters,
     has_its_texts,

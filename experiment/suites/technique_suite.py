@@ -9,7 +9,7 @@ import dataclasses
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.reference.surfaces import surfaces
+from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.techniques import base, named
 from seethrough.tasks.kit import events
 
@@ -100,13 +101,13 @@ class _Tried:
         said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
         return Finding("refuses", not taken, said)
 
-    def picture(self, case: Case, p: Any, state: object = None) -> NDArray[np.uint8]:
+    def picture(self, case: Case, p: base.Parameters, state: object = None) -> NDArray[np.uint8]:
         """(h, w, 3) drawn by a fresh renderer."""
         renderer = Renderer(self.context, SIZE)
         renderer.draw(case.scene, case.camera, p, state=state)
         return renderer.read()
 
-    def played(self, case: Case, p: object) -> tuple[Any, list[bool]]:
+    def played(self, case: Case, p: base.Parameters) -> tuple[object, list[bool]]:
         """The state after some events of every kind, and which ones were used up."""
         shot = base.Shot(case.scene, case.camera, SIZE)
         state, used = self.technique.begin(p), []
@@ -138,7 +139,8 @@ class _Tried:
         )
         touched = self.technique.touches(self.p, state, shot)
         again = self.technique.touches(self.p, state, shot)
-        frozen = dataclasses.is_dataclass(state) is False or state.__dataclass_params__.frozen
+        made = getattr(state, "__dataclass_params__", None)
+        frozen = made is None or made.frozen
         holds = same and np.array_equal(touched, again) and frozen
         said = "the same twice, state frozen" if holds else "differs when asked again"
         return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
@@ -258,9 +260,11 @@ class _Tried:
         return Finding("cost", True, f"{own / standard:.2f} × the standard frame at 400 × 300")
 
 
-def some_events() -> list[object]:
+def some_events() -> list[events.Event]:
     """A pointer that moves, presses and drags, and keys."""
-    moves = [events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)]
+    moves: list[events.Event] = [
+        events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)
+    ]
     return [
         *moves,
         events.PointerPress(0.5, 0.65, 0.45),
@@ -275,9 +279,9 @@ def some_events() -> list[object]:
     ]
 
 
-def _kind(event: Any) -> str:
+def _kind(event: events.Event) -> str:
     name = type(event).__name__
-    if name.startswith("Key"):
+    if isinstance(event, events.KeyPress | events.KeyRelease):
         return f"key:{event.key}"
     if name.startswith("Second"):
         return "second button"
@@ -289,6 +293,6 @@ def _apart(picture: NDArray[np.uint8], truth: ExactPicture) -> float:
     return float(apart.max(initial=0.0))
 
 
-def _mentioned(lines: list[str], thing: Any, k: int) -> bool:
+def _mentioned(lines: list[str], thing: Object, k: int) -> bool:
     name = f"{thing.kind or 'object'} {k}"
     return any(line.startswith(f"{name}:") for line in lines)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 from itertools import combinations, product
-from typing import get_args, get_origin, get_type_hints
+from typing import TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 from seethrough.renderer.declared import Declares, Key, Of, declared
+
+Made = TypeVar("Made", bound=Declares)
 
 
 def values(parameters: Declares, name: str, said: Key) -> list[object]:
@@ -34,7 +36,7 @@ def values(parameters: Declares, name: str, said: Key) -> list[object]:
     return [default, *(v for v in dict.fromkeys(found) if v != default)]
 
 
-def pairwise(parameters: Declares, rng: np.random.Generator) -> list[Declares]:
+def pairwise(parameters: Made, rng: np.random.Generator) -> list[Made]:
     """Parameters in which every two values of two parameters meet at least once: greedily, each
     time the best of some drawn at random."""
     named = {n: values(parameters, n, s) for n, s in declared(type(parameters)).items()}
@@ -43,7 +45,7 @@ def pairwise(parameters: Declares, rng: np.random.Generator) -> list[Declares]:
         for a, b in combinations(named, 2)
         for i, j in product(range(len(named[a])), range(len(named[b])))
     }
-    found = [parameters]
+    found: list[Made] = [parameters]
     chosen = [dict.fromkeys(named, 0)]
     wanted -= _pairs(chosen[0])
     while wanted:

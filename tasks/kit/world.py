@@ -47,6 +47,8 @@ class WorldParameters(Declares, Protocol):
     def scenes(self) -> str:
         """OWN or SHARED."""
 
+    def __hash__(self) -> int: ...
+
 
 # What a world's own parameters and places are; who only hands them on need not know.
 Where = TypeVar("Where", bound=WorldParameters, contravariant=True, default=WorldParameters)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import log
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.analysis.stats.undefined import number_in
 from seethrough.experiment.power.power import implied_r
 
 LEVELS = ("standard", "dynamic")
@@ -49,12 +49,12 @@ def published() -> dict[str, TimeMeasure]:
     return measures
 
 
-def measured(rows: Iterable[Mapping[str, Any]]) -> dict[str, TimeMeasure]:
+def measured(rows: Iterable[Mapping[str, object]]) -> dict[str, TimeMeasure]:
     """The same from rows of a trial table: one mean per participant, task and level first."""
     times: dict[tuple[str, str], dict[str, list[float]]] = {}
     for row in rows:
-        cell = times.setdefault((row["task"], row["transparency"]), {})
-        cell.setdefault(row["participant"], []).append(float(row["time"]))
+        cell = times.setdefault((str(row["task"]), str(row["transparency"])), {})
+        cell.setdefault(str(row["participant"]), []).append(number_in(row, "time"))
     measures = {}
     for task in dict.fromkeys(task for task, _ in times):
         people = sorted(times[task, LEVELS[0]])

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from math import exp, log
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +31,7 @@ from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.tasks.kit.skills.profile import Profile
 
-Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
+Play = Callable[[Profile], Iterable[Mapping[str, object]]]
 
 # What may be fitted, each within a factor of the starting profile's value.
 FREE = {

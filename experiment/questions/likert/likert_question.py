@@ -56,7 +56,7 @@ class LikertParameters:
         return dict(zip(self.names or numbered, texts, strict=True))
 
 
-class LikertQuestion(OnOnePage):
+class LikertQuestion(OnOnePage[LikertParameters]):
     """How much does one agree?"""
 
     name, version = "likert", "1"

@@ -29,7 +29,7 @@ class RankingParameters:
             raise ValueError(f"options = {list(self.options)!r}, expected {expected}")
 
 
-class RankingQuestion(OnOnePage):
+class RankingQuestion(OnOnePage[RankingParameters]):
     """In which order?"""
 
     name, version = "ranking", "1"
