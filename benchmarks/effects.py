@@ -24,6 +24,7 @@ from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.base import Outcome
 from seethrough.tasks.kit.skills.effects import EFFECTS, plan_effects
 from seethrough.tasks.kit.skills.profile import Profile
 
@@ -54,12 +55,13 @@ def trials(
             for trial in (*task_set.training, *task_set.trials):
                 record, _ = play_trial(person, pool, trial)
                 if trial in task_set.trials:
+                    assert record.outcome is not None, "nobody is stopped here"
                     off = _off(record.outcome)
                     rows.append({"slot": slot, "task": trial.task, "time": record.time, "off": off})
     return rows
 
 
-def _off(outcome: Any) -> float:
+def _off(outcome: Outcome) -> float:
     if outcome.distance is not None:
         return float(outcome.distance)
     if outcome.count_error is not None:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields, replace
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,7 @@ from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques import named
+from seethrough.renderer.techniques import changed, named
 from seethrough.renderer.techniques.base import Parameters, Shot
 
 SIZE, LOOKED, VIEWS = (800, 600), (400, 300), 3
@@ -45,7 +44,7 @@ COSTS = {
     "idle": (1.1, 1.02),
 }  # fmt: skip
 
-Ways = dict[str, tuple[Any, Any]]
+Ways = dict[str, tuple[Parameters, object]]
 
 
 def figures() -> Iterator[Row]:
@@ -65,11 +64,6 @@ def figures() -> Iterator[Row]:
         yield _cost(renderer, where, free, cameras, "idle", (named("constant"), None))
 
 
-def _with(p: Parameters, **changes: object) -> Parameters:
-    """The parameters with some of them changed."""
-    return type(p)(**{f.name: getattr(p, f.name) for f in fields(p)} | changes)
-
-
 def _ways(name: str, shot: Shot) -> Ways:
     """A technique as it is, and as the table asks for it besides."""
     eye = float(np.linalg.norm(shot.camera.eye - shot.scene.centers.mean(axis=0)))
@@ -77,16 +71,21 @@ def _ways(name: str, shot: Shot) -> Ways:
     found = {name: (p, state)}
     known = {field.name for field in fields(p)}
     if "cap" in known and name != "adaptive_cutaway":
-        found[f"{name}, cap none"] = _with(p, cap="none"), state
+        found[f"{name}, cap none"] = changed(p, cap="none"), state
     if name == "constant":
-        found["constant, all surfaces, 4 peels"] = _with(p, surfaces="all", layers=4), state
+        found["constant, all surfaces, 4 peels"] = changed(p, surfaces="all", layers=4), state
     if name == "blueprint":
-        found["blueprint, all surfaces"] = _with(p, surfaces="all"), state
+        found["blueprint, all surfaces"] = changed(p, surfaces="all"), state
     return found
 
 
 def _cost(
-    renderer: Renderer, where: str, scene: Scene, cameras: list[Camera], way: str, drawn: Any
+    renderer: Renderer,
+    where: str,
+    scene: Scene,
+    cameras: list[Camera],
+    way: str,
+    drawn: tuple[Parameters, object],
 ) -> Row:
     p, state = drawn
     spent = times(
@@ -125,7 +124,12 @@ def _border(renderer: Renderer, where: str, scene: Scene, cameras: list[Camera])
 
 
 def _shown(
-    renderer: Renderer, where: str, scene: Scene, cameras: list[Camera], way: str, drawn: Any
+    renderer: Renderer,
+    where: str,
+    scene: Scene,
+    cameras: list[Camera],
+    way: str,
+    drawn: tuple[Parameters, object],
 ) -> Iterator[Row]:
     p, state = drawn
     targets = scene.targets

@@ -15,7 +15,7 @@ from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.renderer.techniques import named
+from seethrough.renderer.techniques import changed, named
 from seethrough.renderer.techniques.base import Parameters
 
 RED, GREY, BLUE, GREEN = (0.9, 0.2, 0.1), (0.7, 0.7, 0.65), (0.2, 0.5, 0.9), (0.3, 0.75, 0.35)
@@ -155,7 +155,7 @@ def failures() -> dict[str, Failure]:
         ),
         "adaptive_cutaway": Failure(
             "A wide angle takes the context away with the occluder",
-            replace(named("adaptive_cutaway"), angle=70.0),
+            changed(named("adaptive_cutaway"), angle=70.0),
             Scene(one),
             gone_of_wall,
             0.8,
@@ -169,7 +169,7 @@ def failures() -> dict[str, Failure]:
         ),
         "lens": Failure(
             "The lens ends before the wall, at the wrong depth",
-            replace(lens, depth=4.0),
+            changed(lens, depth=4.0),
             Scene(one),
             hidden(0),
             0.99,
@@ -211,7 +211,7 @@ def failures() -> dict[str, Failure]:
         ),
         "balloon": Failure(
             "What stood side by side is torn apart",
-            replace(named("balloon"), radius=2.5, depth=9.0),
+            changed(named("balloon"), radius=2.5, depth=9.0),
             Scene((*row,)),
             moved,
             0.2,

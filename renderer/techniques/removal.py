@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -61,7 +60,7 @@ class Removal(base.Plain):
         super().__init__()
         self.glsl = self.removes + _GLSL
 
-    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, object]:
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
 

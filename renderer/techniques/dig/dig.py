@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -107,7 +106,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
         found = removal.look(p, seen, signed, pierced)
         return replace(found, kept=found.kept & (seen.front | touched))
 
-    def uniforms(self, p: DigParameters, state: Digging, shot: Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: DigParameters, state: Digging, shot: Shot) -> Mapping[str, object]:
         """The holes' axes."""
         axes = list(_axes(state, shot.camera.eye))
         none = [(np.zeros(3), np.zeros(3))] * (MOST - len(axes))
