@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.experiment.display.display import MEANT
 from seethrough.experiment.suites import technique_scenes as scenes
 from seethrough.experiment.suites.finding import Finding
 from seethrough.experiment.suites.technique_scenes import Case
@@ -27,6 +29,7 @@ from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.techniques import base, named
 from seethrough.tasks.kit import events
+from seethrough.tasks.kit.gestures import after as gestures_done
 
 if TYPE_CHECKING:
     from moderngl import Context
@@ -50,6 +53,7 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
         "exact": partial(tried.exact, most),
         "idle": tried.idle,
         "no state between frames": tried.kept,
+        "reaches": tried.reaches,
         "replay": tried.replayed,
         "look": tried.looked,
         "explains": tried.explained,
@@ -80,12 +84,27 @@ class _Tried:
             missing.append(f"painter, one of {sorted((*PAINTERS, base.MASKS))}")
         strange = [t for t in technique.takes if t not in TAKES and not t.startswith("key:")]
         missing += [f"takes {t!r}, expected one of {', '.join(TAKES)} or key:q" for t in strange]
+        missing += list(self.unsaid())
         if p.technique is not technique:
             missing.append("parameters that know their technique (derive them from Parameters)")
         undeclared = {f.name for f in dataclasses.fields(p)} - set(declared(type(p)))
         missing += [f"a declaration of {name}" for name in sorted(undeclared)]
         said = f"{technique.title}, {technique.version}"
         return Finding("described", not missing, "; ".join(f"lacks {m}" for m in missing) or said)
+
+    def unsaid(self) -> Iterator[str]:
+        """What hands do that participants do not read of, in English and for walkers as well."""
+        technique = self.technique
+        yield from (f"takes the session's key {k}" for k in MEANT if f"key:{k}" in technique.takes)
+        for name in (technique.controls, f"{technique.controls}.walking"):
+            text = technique.texts.get("en", {}).get(name, "")
+            words = set(re.findall(r"\w+", text))
+            heard = {t.removeprefix("key:") for t in technique.takes} - {"pointer"}
+            named_ = {t for t in heard if {t, t.upper(), t.capitalize()} & words}
+            if technique.takes and not text:
+                yield f"the text {name}"
+            elif heard - named_:
+                yield f"a word of {', '.join(sorted(heard - named_))} in the text {name}"
 
     def refuses(self) -> Finding:
         """Values beyond what is declared are refused."""
@@ -203,6 +222,23 @@ class _Tried:
                 wrong += [] if same else [case.name]
         said = f"differs on {', '.join(wrong)}" if wrong else f"{4 * len(self.cases)} frames"
         return Finding("no state between frames", not wrong, said)
+
+    def reaches(self) -> Finding:
+        """Hands that reach for a point of the world by what it takes change what it shows there."""
+        wrong, changed = [], 0
+        for case in self.cases[:4] if self.technique.active(self.p) else ():
+            shot = base.Shot(case.scene, case.camera, SIZE)
+            point = case.scene.centers[np.nonzero(case.scene.targets)[0][-1]]
+            before = self.technique.begin(self.p)
+            gestures = self.technique.reach(self.p, before, shot, point)
+            strange = {g.event for g in gestures} - self.technique.takes
+            state = gestures_done(self.p, before, shot, gestures)
+            same = np.array_equal(self.picture(case, self.p), self.picture(case, self.p, state))
+            wrong += [f"{case.name}: uses {', '.join(sorted(strange))}"] if strange else []
+            changed += not same
+        if not changed and self.technique.active(self.p):
+            wrong.append("nothing changes in any scene")
+        return Finding("reaches", not wrong, "; ".join(wrong) or f"{changed} scenes changed")
 
     def replayed(self) -> Finding:
         """The same events lead to the same state; only what it takes is used up."""
