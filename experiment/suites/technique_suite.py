@@ -21,7 +21,6 @@ from seethrough.experiment.suites.finding import Finding
 from seethrough.experiment.suites.technique_scenes import Case
 from seethrough.experiment.suites.variants import pairwise, refused
 from seethrough.renderer.declared import declared
-from seethrough.renderer.gpu.levels.layer import PAINTERS
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import plan
@@ -40,6 +39,7 @@ SIZE = (96, 72)
 STEP = 1.0  # of 255: what a picture may differ, half of it rounding to 8 bits
 LEFT_OUT = 0.02  # share of pixels too near an edge to be compared
 TAKES = ("pointer", "wheel", "second button")
+PAINTERS = (base.MASKS, base.PEELS, base.REMOVAL)
 
 
 def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[Finding]:
@@ -80,8 +80,8 @@ class _Tried:
         missing = [n for n in ("name", "version", "title", "source") if not getattr(technique, n)]
         if technique.instruction.count(".") != 1 or not technique.instruction.endswith("."):
             missing.append("instruction, one sentence")
-        if technique.painter not in (*PAINTERS, base.MASKS):
-            missing.append(f"painter, one of {sorted((*PAINTERS, base.MASKS))}")
+        if technique.painter not in PAINTERS:
+            missing.append(f"painter, one of {sorted(PAINTERS)}")
         strange = [t for t in technique.takes if t not in TAKES and not t.startswith("key:")]
         missing += [f"takes {t!r}, expected one of {', '.join(TAKES)} or key:q" for t in strange]
         missing += list(self.unsaid())

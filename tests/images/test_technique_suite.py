@@ -23,7 +23,7 @@ def test_a_technique_keeps_to_what_all_must(context, name):
     """As `seethrough technique check` says it."""
     found = list(check(registry.get("technique", name), context, MOST.get(name, 100)))
     assert [str(f) for f in found if not f.holds] == []
-    assert len(found) == 10
+    assert len(found) == 11
 
 
 def test_a_stranger_s_technique_is_found_drawn_and_checked(tmp_path):

@@ -140,8 +140,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
             signed = np.maximum(signed, p.radius - _apart(seen.offset, start, end))
         touched = self.touches(p, state, seen.shot)[seen.object]
         pierced = np.full(seen.shot.size[0] * seen.shot.size[1], bool(state.holes))
-        found = removal.look(p, seen, signed, pierced)
-        return replace(found, kept=found.kept & (seen.front | touched))
+        return removal.look(p, seen, signed, pierced, opened=touched)
 
     def uniforms(self, p: DigParameters, state: Digging, shot: Shot) -> Mapping[str, Any]:
         """The holes' axes."""
