@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.experiment.display.display import MEANT
+from seethrough.experiment.suites import technique_hard as hard
 from seethrough.experiment.suites import technique_scenes as scenes
 from seethrough.experiment.suites.finding import Finding
 from seethrough.experiment.suites.technique_scenes import Case
@@ -64,6 +65,28 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
             yield step()
         except Exception as error:  # a stranger's code may raise anything
             yield Finding(name, False, f"{type(error).__name__}: {error}")
+
+
+def check_all(technique: Technique, context: Context) -> Iterator[Finding]:
+    """Hold a technique's exact path to the reference on every scene there is: SCENES by chance,
+    each with the next combination of options, and the hard ones as it is."""
+    tried, variants = _Tried(technique, context), pairwise(technique.Parameters(), _options())
+    cases = [*hard.twenty()]
+    for k, case in enumerate(cases):
+        yield tried.compared(f"exact, {case.name}", case, technique.Parameters(), SIZE, bool(k % 2))
+    for k, p in enumerate(variants):
+        case = cases[k % len(cases)]
+        yield tried.compared(f"options {k + 1} of {len(variants)}", case, p, SIZE, bool(k % 2))
+    for make in hard.HARD:
+        case = make()
+        yield tried.compared(f"hard, {case.name}", case, technique.Parameters(), SIZE, True, True)
+    for make, size in hard.SIZES:
+        name = f"hard, {size[0]} × {size[1]}"
+        yield tried.compared(name, make(), technique.Parameters(), size, True, True)
+
+
+def _options() -> np.random.Generator:
+    return np.random.default_rng(11)
 
 
 class _Tried:
@@ -119,9 +142,11 @@ class _Tried:
         said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
         return Finding("refuses", not taken, said)
 
-    def picture(self, case: Case, p: Any, state: object = None) -> NDArray[np.uint8]:
+    def picture(
+        self, case: Case, p: Any, state: object = None, size: tuple[int, int] = SIZE
+    ) -> NDArray[np.uint8]:
         """(h, w, 3) drawn by a fresh renderer."""
-        renderer = Renderer(self.context, SIZE)
+        renderer = Renderer(self.context, size)
         renderer.draw(case.scene, case.camera, p, state=state)
         return renderer.read()
 
@@ -162,9 +187,23 @@ class _Tried:
         said = "the same twice, state frozen" if holds else "differs when asked again"
         return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
 
+    def compared(
+        self, name: str, case: Case, p: Any, size: tuple[int, int], played: bool, any_: bool = False
+    ) -> Finding:
+        """One exact picture against the reference; of a hard scene `any_` share may be left out,
+        since what lies in one plane is nobody's."""
+        drawn = self.technique.exactly(p)
+        state = self.played(case, p)[0] if played else self.technique.begin(p)
+        truth = exact(case.scene, case.camera, drawn, size, state)
+        apart = _apart(self.picture(case, drawn, state, size), truth)
+        left = float(truth.near_edge.mean())
+        said = f"within {apart:.2f} of 255, {100 * left:.2f} % left out"
+        holds = apart <= STEP and (any_ or left <= LEFT_OUT)
+        return Finding(name, holds, said if holds else f"{said}; {p}")
+
     def exact(self, most: int) -> Finding:
         """The exact picture, with every two values of two options, on every scene in turn."""
-        variants = pairwise(self.p, np.random.default_rng(11))[:most]
+        variants = pairwise(self.p, _options())[:most]
         worst, left, where = 0.0, 0.0, ""
         for k in range(max(len(variants), len(self.cases))):
             p, case = variants[k % len(variants)], self.cases[k % len(self.cases)]
