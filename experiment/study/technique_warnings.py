@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,6 +25,9 @@ from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Bools, Floats, Own, Shot
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.gestures import after
+
+if TYPE_CHECKING:
+    from moderngl import Context
 
 MOST_SCENES = 48  # of a technique: more of them say the same
 MOST_REACHED = 6  # targets that hands reach for in a view
@@ -67,7 +71,7 @@ class Met:
 class Warner:
     """Looks at a study's scenes, drawn with their techniques."""
 
-    def __init__(self, study: Study, context: object) -> None:
+    def __init__(self, study: Study, context: Context) -> None:
         self.study = study
         self._scenes = StudyScenes(study)
         size = (study.display.width, study.display.height)

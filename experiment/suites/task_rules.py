@@ -125,7 +125,7 @@ def takes_any_event(task: Any) -> Iterator[str]:
                     break
 
 
-def says_which_keys_it_takes(task: Any) -> Iterator[str]:
+def says_which_keys_it_takes(task: Task) -> Iterator[str]:
     """Every key that changes anything, at any moment of a trial, is its own or its world's."""
     for given in _settings(task):
         own = taken(task) | taken(given.world)
@@ -145,7 +145,7 @@ def says_which_keys_it_takes(task: Any) -> Iterator[str]:
                 break
 
 
-def said(task: Any, state: Any) -> tuple[Any, ...]:
+def said(task: Task, state: object) -> tuple[object, ...]:
     """What keys make of a trial: what is drawn over its view, hints left out, and its answer."""
     view = task.view(state)
     hud = [e for e in view.hud if not hasattr(e, "look") and getattr(e, "tone", "") != "hint"]

@@ -143,7 +143,7 @@ class _Tried:
         return Finding("refuses", not taken, said)
 
     def picture(
-        self, case: Case, p: Any, state: object = None, size: tuple[int, int] = SIZE
+        self, case: Case, p: base.Own, state: object = None, size: tuple[int, int] = SIZE
     ) -> NDArray[np.uint8]:
         """(h, w, 3) drawn by a fresh renderer."""
         renderer = Renderer(self.context, size)
@@ -188,7 +188,13 @@ class _Tried:
         return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
 
     def compared(
-        self, name: str, case: Case, p: Any, size: tuple[int, int], played: bool, any_: bool = False
+        self,
+        name: str,
+        case: Case,
+        p: base.Own,
+        size: tuple[int, int],
+        played: bool,
+        any_: bool = False,
     ) -> Finding:
         """One exact picture against the reference; of a hard scene `any_` share may be left out,
         since what lies in one plane is nobody's."""

@@ -19,7 +19,7 @@ from seethrough.experiment.suites.suite import (
 from seethrough.renderer.scene.camera import Camera
 from seethrough.tasks.catalog import taken
 from seethrough.tasks.kit.events import KeyPress, Tick
-from seethrough.tasks.kit.world import OWN, SHARED
+from seethrough.tasks.kit.world import OWN, SHARED, World
 
 MOVING = ("orbit", "walk")
 
@@ -86,7 +86,7 @@ def moves_by_events_alone(world: Any) -> Iterator[str]:
             yield f"event {number}: the camera is nowhere"
 
 
-def says_which_keys_it_takes(world: Any) -> Iterator[str]:
+def says_which_keys_it_takes(world: World) -> Iterator[str]:
     """Every key that moves the viewer is one that it takes."""
     p = world.Parameters()
     start = world.viewer(world.make(np.random.default_rng(1), p), p, ASPECT)

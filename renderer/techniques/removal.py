@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -67,7 +66,7 @@ class Removal(base.Plain):
         super().__init__()
         self.glsl = self.removes + _GLSL
 
-    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, Own]:
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
 
@@ -75,7 +74,7 @@ class Removal(base.Plain):
         """Where cuts show a wall."""
         return bool(p.cap != "none")
 
-    def edges(self, p: Own) -> Mapping[str, Any]:
+    def edges(self, p: Own) -> Mapping[str, Own]:
         """The lines of what is removed, as shaders/edges.frag draws them."""
         return {"line": (*LINE, p.edges), "crease": float(np.cos(CREASE))} if p.edges > 0 else {}
 

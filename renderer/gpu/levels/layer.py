@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -37,7 +37,7 @@ NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
 GHOSTS = "ghosts"  # lines of what was removed, over what is left
-PAINTERS = {
+PAINTERS: Mapping[str, Callable[..., PeelPainter | RemovalPainter]] = {
     PEELS: PeelPainter,
     REMOVAL: RemovalPainter,
     GHOSTS: partial(PeelPainter, ghosts=True),

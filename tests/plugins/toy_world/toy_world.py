@@ -31,8 +31,7 @@ class Place:
 
 class Toy:
     name, version, source, scenario = "toy_world", "1", "nobody", "toy_world"
-    moving, controls, Parameters = "orbit", "toy_world.controls", Row
-    takes = keys(ARROWS)
+    moving, controls, Parameters, takes = "orbit", "toy_world.controls", Row, keys(ARROWS)
     texts = {"en": {"toy_world.controls": "Drag to turn."}}
 
     def make(self, rng, p):
