@@ -79,7 +79,8 @@ class PeelPainter:
         self, context: moderngl.Context, defines: Sequence[str], ghosts: bool = False
     ) -> None:
         self._context, self._ids, self._ghosts = context, "WITH_IDS" in defines, ghosts
-        self._programs = RulePrograms(context, ["PEELED", *(["GHOSTS"] if ghosts else [])])
+        shown = [d for d in defines if d != "WITH_IDS"]
+        self._programs = RulePrograms(context, ["PEELED", *(["GHOSTS"] if ghosts else []), *shown])
         self._put = program(context, "present.vert", "layer.frag")
         self._screen = context.vertex_array(self._put.program, [])
         self._edges = program(context, "present.vert", "edges.frag")
