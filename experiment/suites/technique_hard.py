@@ -82,10 +82,12 @@ def flat_and_behind() -> Case:
 
 
 def small() -> Case:
-    """One thing before a target, both small in the picture: for one of 4096 × 4096 pixels."""
+    """One thing before a target, both a few pixels of 4096 × 4096: the reference tries every point
+    of a target at every pixel of the picture."""
+    turn = transforms.rotation_y(0.4)
     objects = (
-        Object(SHAPES[2], transforms.placed((0.1, 0, -40), transforms.rotation_y(0.4)), BLUE),
-        Object(SHAPES[0], transforms.translation(0, 0, -44), RED, True),
+        Object(SHAPES[2], transforms.placed((0.02, 0, -40), turn, 0.05), BLUE),
+        Object(SHAPES[0], transforms.placed((0.0, 0, -44), None, 0.03), RED, True),
     )
     return Case("small", Scene(objects), AHEAD)
 
