@@ -34,6 +34,7 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(
             f"technique check {short(args.name)}: {unknown(args.name, names, 'technique')}"
         )
+    from seethrough.experiment.suites.requirements import asked
     from seethrough.experiment.suites.technique_suite import check, check_all
     from seethrough.renderer.gpu.device.context import standalone
 
@@ -44,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
     holds = True
     technique = registry.get("technique", args.name)
     more = check_all(technique, context) if args.all else ()
-    for finding in chain(check(technique, context), more):
+    for finding in chain(check(technique, context), [asked(technique)], more):
         print(finding, flush=True)
         holds &= finding.holds
     return 0 if holds else 1

@@ -43,7 +43,6 @@ PAINTERS: Mapping[str, Callable[..., PeelPainter | RemovalPainter]] = {
     REMOVAL: RemovalPainter,
     GHOSTS: partial(PeelPainter, ghosts=True),
 }
-# The minimum takes no factors: colour stays because a mask's own is made to be larger.
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
