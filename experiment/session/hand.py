@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from seethrough.renderer.look.look import PLAIN, Look
-from seethrough.renderer.techniques.base import Own, Shot
+from seethrough.renderer.techniques.base import Parameters, Shot
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Wheel
 
@@ -19,7 +19,7 @@ class Hand:
     """Keeps the state of a trial's technique (its parameters), from the first event on, and has the
     trial's look."""
 
-    def __init__(self, technique: Own, aspect: float, look: Look = PLAIN) -> None:
+    def __init__(self, technique: Parameters, aspect: float, look: Look = PLAIN) -> None:
         self._technique, self._rules, self._look = technique, technique.technique, look
         self._size = (round(aspect * HEIGHT), HEIGHT)
         self.state = self._rules.begin(technique)
