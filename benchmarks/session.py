@@ -12,7 +12,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -23,7 +22,7 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.study.config import Study, load
-from seethrough.experiment.study.design import SIMULATED, generator, session_for
+from seethrough.experiment.study.design import SIMULATED, Trial, generator, session_for
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome, View
@@ -66,7 +65,7 @@ def figures() -> Iterator[Row]:
             yield row("of that, the renderer", scene, 1000 * found["drawing"], "ms")
 
 
-def _first_view(study: Study) -> tuple[Any, View]:
+def _first_view(study: Study) -> tuple[Trial, View]:
     from seethrough.experiment.study.study_scenes import StudyScenes
 
     trial = session_for(1, study.plan)[0].trials[0]

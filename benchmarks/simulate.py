@@ -16,8 +16,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
+from multiprocessing.synchronize import Barrier
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from seethrough.benchmarks import eyes
 from seethrough.benchmarks.memory import Watch
@@ -82,7 +83,7 @@ def make_tables(job: batch.Batch) -> Iterator[Row]:
         yield told("tables", seconds / 60, "min")
 
 
-def _prepare(job: batch.Batch, together: Any) -> None:
+def _prepare(job: batch.Batch, together: Barrier) -> None:
     """A worker that has its tables, every world of the pool, and has played for a while.
 
     Nobody begins before all are ready: the start of a process takes longer than 16 participants.

@@ -31,7 +31,7 @@ class Chosen:
 
     use: str
     parameters: Any
-    tables: Mapping[str, Any]
+    tables: Mapping[str, Declares]
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Limits:
 
     limit: float = 0.0
     limits: Mapping[str, float] = field(default_factory=dict)
-    tables: Mapping[str, Any] = field(default_factory=dict)
+    tables: Mapping[str, Declares] = field(default_factory=dict)
 
     def of(self, task: str) -> float:
         """The limit of a task's trials."""
@@ -53,7 +53,7 @@ class Question:
 
     use: str
     table: QuestionTable
-    parameters: Any
+    parameters: Declares
 
     @property
     def when_asked(self) -> str:
@@ -104,7 +104,7 @@ def _look(table: Mapping[str, object]) -> Read:
 
 def _chosen(section: str, table: Mapping[str, object], whole: bool) -> Read:
     known, faults = plugins.names(section), []
-    tables: dict[str, Any] = {}
+    tables: dict[str, Declares] = {}
     for name, own in table.items():
         if name == "use":
             continue

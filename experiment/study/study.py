@@ -96,14 +96,14 @@ class Study:
 
     def with_places(self, change: Callable[[WorldParameters], WorldParameters]) -> Study:
         """The study with other parameters of its worlds."""
-        known = {place: change(place) for place in self.places()}
+        known: dict[object, WorldParameters] = {place: change(place) for place in self.places()}
         parts = {
             cell: dataclasses.replace(part, place=known[part.place])
             for cell, part in self.parts.items()
         }
         world = self.tables["world"]
         assert isinstance(world, Chosen)
-        made = {name: known.get(own, own) for name, own in world.tables.items()}
+        made: dict[str, Declares] = {n: known.get(own) or own for n, own in world.tables.items()}
         tables = {**self.tables, "world": dataclasses.replace(world, tables=made)}
         return dataclasses.replace(self, parts=parts, tables=tables)
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 # What is reached. Lower them with what you mend, never raise one.
 MOST_PRAGMAS = 8  # `type: ignore`, other checkers' comments, `cast`
-MOST_ANY = 523  # uses of `Any` beside its imports
+MOST_ANY = 37  # uses of `Any` beside its imports
 MOST_UNCHECKED = 0  # modules that are not checked yet
 
 PRAGMA = re.compile(r"#\s*(type:\s*ignore|pyright:|mypy:|ty:)")
