@@ -22,6 +22,7 @@ from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Parameters
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
@@ -75,7 +76,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "scene", metavar="SCENE|STUDY",
         help=f"what to draw: {', '.join(sorted(SCENES))}, or each cell of a study",
     )  # fmt: skip
-    parser.add_argument("--technique", choices=registry.known("technique"), default="dynamic")
+    parser.add_argument(
+        "--technique", choices=registry.known("technique"),
+        help="dynamic transparency unless another is named",
+    )  # fmt: skip
     parser.add_argument("--out", required=True, type=Path, help="the picture, a .png file")
     parser.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
     parser.add_argument("--seed", type=int, default=1, help="of the scene, ≥ 0")
@@ -122,7 +126,8 @@ def run(args: argparse.Namespace) -> int:
     from seethrough.renderer.gpu.renderer import Renderer
 
     scene, camera = SCENES[args.scene](args.seed, size[0] / size[1])
-    technique = _given("set", named(args.technique), args.set)
+    own = named(args.technique) if args.technique else DynamicTransparency()
+    technique = _given("set", own, args.set)
     scene = dressed(scene, _given("look", PLAIN, args.look))
     unknown = sorted(set(args.without) - set(SHORTCUTS))
     if unknown:

@@ -142,7 +142,7 @@ def _sus(asking: Asking) -> tuple[Part, ...]:
 def _comparison(asking: Asking) -> tuple[Part, ...]:
     """Which of two levels one would rather work with, 1 for the second; how well one could tell
     what was nearer, 0–4."""
-    first, second = asking.of or ("standard", "dynamic")
+    first, second = asking.of or ("first", "second")  # where nothing is compared: what it may write
     preference = ChoiceParameters(
         text="comparison.preference",
         options=(f"name.{second}", "name.neutral", f"name.{first}"),

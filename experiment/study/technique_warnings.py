@@ -21,8 +21,8 @@ from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import screen_boxes
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Bools, Floats, Parameters, Shot
+from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.gestures import after
 
@@ -78,7 +78,7 @@ class Warner:
         self._aspect = size[0] / size[1]
         self._size = (round(HEIGHT * self._aspect), HEIGHT)
         self._renderer = Renderer(context, size)
-        self._standard = named("standard")
+        self._standard = Standard()
 
     def trials(self, every: list[Trial]) -> dict[str, list[Trial]]:
         """Technique → trials with scenes of their own, spread over the study; the standard one has
@@ -86,7 +86,7 @@ class Warner:
         found: dict[str, dict[object, Trial]] = {}
         for trial in every:
             part = self.study.part(trial.levels)
-            if part.technique_name != "standard":
+            if part.technique != Standard():
                 key = (part.technique, part.place, trial.task, trial.stream)
                 found.setdefault(part.technique_name, {}).setdefault(key, trial)
         return {name: _spread(list(own.values())) for name, own in found.items()}

@@ -28,7 +28,8 @@ from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene.scene import Object
-from seethrough.renderer.techniques import base, named
+from seethrough.renderer.techniques import base
+from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit import events
 from seethrough.tasks.kit.gestures import after as gestures_done
 
@@ -232,7 +233,7 @@ class _Tried:
 
     def idle(self) -> Finding:
         """Where the rule changes no surface, the frame is the standard frame, byte for byte."""
-        standard = named("standard")
+        standard = Standard()
         wrong, idle = [], 0
         for case in (scenes.fixed(), *self.cases):
             shot = base.Shot(case.scene, case.camera, SIZE)
@@ -332,7 +333,7 @@ class _Tried:
         case = self.cases[0]
         spent: tuple[list[float], list[float]] = ([], [])
         for _ in range(12):
-            for times, p in zip(spent, (named("standard"), self.p), strict=True):
+            for times, p in zip(spent, (Standard(), self.p), strict=True):
                 start = time.perf_counter()
                 renderer.draw(case.scene, case.camera, p)
                 self.context.finish()
