@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from seethrough.analysis import equivalence
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast
 from seethrough.analysis.equivalence import Margin
 from seethrough.analysis.page.blocks import Cited, Column, Table
 from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import holm
 from seethrough.analysis.stats.paired import paired, ratio_of_means, within_halfwidths
 from seethrough.analysis.stats.ties import is_constant

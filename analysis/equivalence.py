@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.design import Measured
 from seethrough.analysis.page.blocks import Cited, Column, Table, say
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.paired import Equivalence, ratio_within, tost
 from seethrough.analysis.stats.undefined import Undefined, is_defined
 

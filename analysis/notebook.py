@@ -51,8 +51,8 @@ def load(data: str | PathLike[str], source: str | None = None) -> Loaded:
     import pandas as pd
 
     from seethrough.analysis.exclude import apply_rules
+    from seethrough.analysis.load.plan import make_plan
     from seethrough.analysis.load.study import load_study
-    from seethrough.analysis.plan import make_plan
 
     study = load_study(Path(data), source)
     plan = make_plan(study)

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.random import Generator
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.equivalence import Margin, equivalence, log_equivalence
 from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import holm, negligible_p
 from seethrough.analysis.stats.paired import one_sample, paired, ratio_of_means, within_halfwidths
 from seethrough.analysis.stats.ranks import (

@@ -19,10 +19,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.before import design_before
 from seethrough.analysis.load.schema import answer_columns, trial_columns
 from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.undefined import is_defined
 from seethrough.benchmarks.memory import used_by
 from seethrough.benchmarks.rows import Row, row

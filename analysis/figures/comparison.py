@@ -8,7 +8,9 @@ import numpy as np
 
 from seethrough.analysis.comparison import Pair
 from seethrough.analysis.design import Factor
-from seethrough.analysis.figures.style import (
+from seethrough.analysis.page.blocks import Figure, Table
+from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.page.style import (
     FAINT,
     INK,
     LEVEL,
@@ -22,8 +24,6 @@ from seethrough.analysis.figures.style import (
     picked,
     zero_line,
 )
-from seethrough.analysis.page.blocks import Figure, Table
-from seethrough.analysis.page.numbers import significant
 from seethrough.analysis.stats.undefined import Number, either_in, is_defined, number_in
 
 HEIGHT = 210

@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.figures.style import (
+from seethrough.analysis.measures import TASK
+from seethrough.analysis.page.blocks import Figure
+from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.page.style import (
     Spec,
     categories,
     in_rows,
@@ -17,9 +20,6 @@ from seethrough.analysis.figures.style import (
     level_colour,
     number,
 )
-from seethrough.analysis.measures import TASK
-from seethrough.analysis.page.blocks import Figure
-from seethrough.analysis.page.numbers import significant
 from seethrough.analysis.stats.paired import mean_interval, within_halfwidths
 from seethrough.analysis.stats.undefined import is_defined
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from seethrough.analysis.figures.style import layer, layers, level_colour, number
 from seethrough.analysis.page.blocks import Figure
 from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.page.style import layer, layers, level_colour, number
 
 
 def learning_figure(key: str, curve: pd.DataFrame, levels: Sequence[str]) -> Figure:

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import vl_convert
 
-from seethrough.analysis.figures.style import FAINT, INK, PALETTE, RULE
+from seethrough.analysis.files.written import write_over
 from seethrough.analysis.page.blocks import Figure
-from seethrough.analysis.written import write_over
+from seethrough.analysis.page.style import FAINT, INK, PALETTE, RULE
 
 _VARIABLES = {
     INK: "var(--ink)",

@@ -11,8 +11,8 @@ import itertools
 import numpy as np
 from numpy.random import Generator
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.published.numbers import Moments, PublishedMeasure
+from seethrough.analysis.stats.arrays import Array
 
 
 def implied_r(n: int, m1: float, s1: float, m2: float, s2: float, f: float) -> float:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast, Design, Factor, Measured
 from seethrough.analysis.equivalence import NO_MARGIN
@@ -18,6 +17,7 @@ from seethrough.analysis.measures import TASK, groups_of, over_tasks
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Table, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.tables import design_at
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.contrasts import FEW, Estimate, estimate, trend, within_margin
 from seethrough.analysis.stats.distributions import holm
 from seethrough.analysis.stats.undefined import Number, Undefined, is_defined, number_in

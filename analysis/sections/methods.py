@@ -7,11 +7,11 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from seethrough.analysis.design import Factor
+from seethrough.analysis.load.plan import digest
 from seethrough.analysis.load.study import config_of
 from seethrough.analysis.measures import answers, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Section, Table, say
 from seethrough.analysis.page.numbers import fixed
-from seethrough.analysis.plan import digest
 from seethrough.analysis.sections.context import Context
 
 AGE, GENDER = "age", "gender"

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 
 from seethrough.analysis.load.chain import ChainState
+from seethrough.analysis.load.plan import Plan, digest
 from seethrough.analysis.load.seal import seal
 from seethrough.analysis.load.study import Study, config_of
 from seethrough.analysis.page.blocks import Block, Column, Fold, Section, Table, say
-from seethrough.analysis.plan import Plan, digest
 from seethrough.analysis.sections.context import Context
 
 PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "vl-convert-python", "Jinja2")

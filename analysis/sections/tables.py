@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.cells import Cells, Missing
 from seethrough.analysis.comparison import Pair
 from seethrough.analysis.design import Design, Factor
@@ -17,6 +16,7 @@ from seethrough.analysis.page.blocks import Cited, Column, Prose, Table, say
 from seethrough.analysis.page.numbers import bounded
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.stats.anova import Effect
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import bayes_factor_f, negligible_p
 from seethrough.analysis.stats.paired import mean_interval
 from seethrough.analysis.stats.undefined import (

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.cells import Missing, people
 from seethrough.analysis.comparison import Pair, compare
 from seethrough.analysis.design import Factor
@@ -15,6 +14,7 @@ from seethrough.analysis.figures.tradeoff import arrows
 from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.ranks import sign_test
 from seethrough.analysis.stats.ties import difference_signs
 from seethrough.analysis.stats.undefined import Undefined, is_defined, number_in

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import chi2_tail, f_tail, noncentral_f_interval
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,

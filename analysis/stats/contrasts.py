@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import t_quantile, t_two_sided, t_upper
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.ties import STEPS
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,

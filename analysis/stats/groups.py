@@ -12,7 +12,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import chi2_tail
 from seethrough.analysis.stats.ties import levels, slack
 from seethrough.analysis.stats.undefined import Number, Undefined

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import (
     bayes_factor_t,
     noncentral_t_interval,

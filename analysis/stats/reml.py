@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 
 STARTS = (1.0, 0.3, 0.05)
 """Diagonals of θ to start from: a term's s.d. over that of the residuals."""

@@ -12,8 +12,8 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.stats.anova import Effect, contrast_scores, repeated_measures, tested
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
     EPS,

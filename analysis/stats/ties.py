@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.undefined import EPS
 
 STEPS = 32

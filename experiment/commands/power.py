@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seethrough.analysis.written import write_over
+from seethrough.analysis.files.written import write_over
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import load
 

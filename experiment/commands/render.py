@@ -15,10 +15,10 @@ import numpy as np
 from seethrough import registry
 from seethrough.experiment.errors import InputError
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import SHORTCUTS
 from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Parameters
@@ -50,7 +50,7 @@ def walkthrough(seed: int, aspect: float) -> tuple[Scene, Camera]:
 
 def models(seed: int, aspect: float) -> tuple[Scene, Camera]:
     """Every model of the library once: the contact sheet, the same for every seed."""
-    from seethrough.renderer.models.forms.sheet import contact_sheet_scene
+    from seethrough.renderer.models.sheet import contact_sheet_scene
 
     return contact_sheet_scene(aspect)
 

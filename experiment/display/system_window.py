@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Callable
 from ctypes import byref, c_ubyte
+from typing import TYPE_CHECKING
 
 import pyglet
 
@@ -21,7 +22,10 @@ import pyglet.window
 
 from seethrough.experiment.display.driver import no_window
 from seethrough.experiment.display.event_time import EventTime, x11_stamp
-from seethrough.experiment.study.study_tables import DisplayTable
+
+if TYPE_CHECKING:
+    from seethrough.experiment.study.study_tables import DisplayTable
+
 
 ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
 ASKED, PROMPT = 5, 0.02  # how often the server is asked the time until it says so within so many s

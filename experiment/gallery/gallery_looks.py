@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, Plate, Section
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard

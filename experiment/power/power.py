@@ -16,8 +16,8 @@ from numpy.random import Generator, SeedSequence
 from numpy.typing import NDArray
 from scipy import special
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.stats.anova import contrast_scores
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import t_quantile
 from seethrough.analysis.stats.ranks import share_interval
 from seethrough.analysis.stats.undefined import is_defined

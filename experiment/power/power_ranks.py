@@ -15,7 +15,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy import special
 
-from seethrough.analysis.arrays import Array
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.ranks import sign_test
 from seethrough.analysis.stats.ties import difference_signs
 from seethrough.experiment.power.power import NormalEffect, SampledEffect

@@ -13,7 +13,7 @@ from typing_extensions import TypeVar
 
 from seethrough.experiment.pages.pages import Answers, Asked, Block, Page, Paragraph
 from seethrough.renderer.declared import Declares
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.world import Texts, WorldParameters
 

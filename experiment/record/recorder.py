@@ -14,7 +14,7 @@ from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field, fields
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from seethrough.analysis.load.person import Folder
 from seethrough.experiment.errors import InputError
@@ -33,9 +33,11 @@ from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import Table, Traces, ask_again, header_of, mend
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
+
+if TYPE_CHECKING:
+    from seethrough.experiment.study.design import Trial
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev

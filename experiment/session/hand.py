@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from seethrough.renderer.look.look import PLAIN, Look
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Parameters, Shot
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Wheel

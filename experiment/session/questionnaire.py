@@ -15,7 +15,6 @@ from seethrough.experiment.display.display import Input
 from seethrough.experiment.questions.choice.choice_question import ChoiceParameters
 from seethrough.experiment.questions.kit import Asking, Row
 from seethrough.experiment.questions.ranking.ranking_question import RankingParameters
-from seethrough.experiment.questions.ready import question
 from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
@@ -23,9 +22,10 @@ from seethrough.experiment.study.described import each_of
 from seethrough.experiment.study.design import PARTICIPANT, generator
 from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.reading import Question
+from seethrough.experiment.study.ready import question
 from seethrough.experiment.study.study import Study
 from seethrough.renderer.declared import Declares
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.world import WorldParameters

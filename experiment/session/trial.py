@@ -16,8 +16,8 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.base import Outcome, View
 from seethrough.tasks.kit.events import (

@@ -20,7 +20,7 @@ from seethrough.experiment.study.study_tables import (
     PracticeTable,
     StudyTable,
 )
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.world import OWN, WorldParameters
 

@@ -6,9 +6,9 @@ import json
 import re
 from typing import Any
 
-from seethrough.experiment.questions.ready import question
 from seethrough.experiment.study.factors import ALONE, Factor
 from seethrough.experiment.study.reading import STARTS, Question
+from seethrough.experiment.study.ready import question
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.measure import TIME

@@ -27,7 +27,7 @@ from seethrough.experiment.study.study_tables import (
     TaskTable,
 )
 from seethrough.renderer.declared import Declares, Key, allowed, declared
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 
 REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "keys.md"
 REQUIRED = object()

@@ -16,7 +16,7 @@ from seethrough.tasks.worlds.building.building_parameters import BuildingParamet
 def names(kind: str) -> tuple[str, ...]:
     """The names of all techniques, worlds, tasks or question kinds."""
     if kind == "question":
-        from seethrough.experiment.questions.ready import READY  # asks for pages: not for --help
+        from seethrough.experiment.study.ready import READY  # asks for pages: not for --help
 
         return (*READY, *registry.known(kind))
     return registry.known(kind)
@@ -25,7 +25,7 @@ def names(kind: str) -> tuple[str, ...]:
 def parameters(kind: str, name: str) -> type[Declares]:
     """The class of the parameters of one of them."""
     if kind == "question":
-        from seethrough.experiment.questions.ready import question
+        from seethrough.experiment.study.ready import question
 
         return question(name).Parameters
     found: type[Declares] = registry.get(kind, name).Parameters

@@ -21,7 +21,7 @@ from seethrough.experiment.study.study_tables import (
     TaskTable,
 )
 from seethrough.renderer.declared import Declares
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 
 
 @dataclass(frozen=True)

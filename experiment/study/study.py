@@ -23,7 +23,7 @@ from seethrough.experiment.study.study_tables import (
     StudyTable,
 )
 from seethrough.renderer.declared import Declares
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 from seethrough.tasks.catalog import TASKS, WORLDS
 from seethrough.tasks.kit.base import Setting
 from seethrough.tasks.kit.world import WorldParameters

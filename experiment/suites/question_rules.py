@@ -20,7 +20,7 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
-from seethrough.renderer.look.look import PLAIN, Look
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.skills.profile import AVERAGE

@@ -175,12 +175,9 @@ def plan(
 
 
 def _decided(
-    scene: Scene,
-    camera: Camera,
-    technique: DynamicTransparency,
-    placed: order.Placed,
+    scene: Scene, camera: Camera, technique: DynamicTransparency, placed: order.Placed,
     blend: Bools,
-) -> tuple[Signs, Bools, Bools, Bools]:
+) -> tuple[Signs, Bools, Bools, Bools]:  # fmt: skip
     """order.decide, again if planes were found between pairs that it is uncertain of."""
     by_center = technique.order == "centers"
     planes = scene.separations
@@ -194,13 +191,9 @@ def _decided(
 
 
 def _beside(
-    scene: Scene,
-    camera: Camera,
-    technique: DynamicTransparency,
-    boxes: Boxes,
-    relation: Signs,
-    masked: Bools,
-) -> Bools:
+    scene: Scene, camera: Camera, technique: DynamicTransparency, boxes: Boxes,
+    relation: Signs, masked: Bools,
+) -> Bools:  # fmt: skip
     """(n, n) which targets lie before a mask, and reach to both sides of the depth that it has
     beside its own target. Outlines have too little there for that to matter."""
     if technique.mask in ("outline", "ring"):

@@ -12,8 +12,8 @@ from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import Declares
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan

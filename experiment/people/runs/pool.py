@@ -17,8 +17,8 @@ from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import STUDY_SCENES, Trial, generator
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.look.look import PLAIN
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import PLAIN
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Parameters

@@ -10,8 +10,8 @@ import numpy as np
 
 from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture, on_picture
 from seethrough.experiment.study.design import STUDY_SCENES, generator
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import rotation_y
 from seethrough.renderer.techniques.base import Parameters

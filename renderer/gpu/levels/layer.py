@@ -211,17 +211,11 @@ class Layer:
         return self._exact
 
     def _job(
-        self,
-        table: SceneTable,
-        frame: FramePlan,
-        camera: Camera,
-        technique: Parameters,
-        scale: float,
-        size: tuple[int, int],
-    ) -> ExactJob:
-        masking = by_masks(technique)
-        width = masking.width * scale
-        return ExactJob(table, frame, camera, masking, width, size, self._matrix)
+        self, table: SceneTable, frame: FramePlan, camera: Camera, technique: Parameters,
+        scale: float, size: tuple[int, int],
+    ) -> ExactJob:  # fmt: skip
+        own = by_masks(technique)
+        return ExactJob(table, frame, camera, own, own.width * scale, size, self._matrix)
 
     def _set_state(self) -> None:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
@@ -249,10 +243,9 @@ class Layer:
             parts += [alone[~wide[alone]], alone[wide[alone]]]
         extra = []
         if frame.levels:
-            masking = by_masks(technique)
-            width = masking.width * scale
-            extra = self._masks.prepare(table, frame, camera, masking, width, size)
-            counted = _counted(frame, masking)
+            own = by_masks(technique)
+            extra = self._masks.prepare(table, frame, camera, own, own.width * scale, size)
+            counted = _counted(frame, own)
             if len(counted):
                 occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
                 extra = [*extra, counted, occluders]

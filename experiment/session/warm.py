@@ -1,6 +1,6 @@
 """Compiles what is compiled at first use, so that no participant waits for it.
 
-    python -m seethrough.experiment.warm
+    python -m seethrough.experiment.session.warm
 
 numba keeps the result on disk, and so do Mesa and most drivers of graphics cards. start.py does
 this once, at the end of the installation.

@@ -11,9 +11,10 @@ import numpy as np
 
 from seethrough.analysis.cells import Cells
 from seethrough.analysis.exclude import apply_rules
+from seethrough.analysis.files.written import FILE, half_of, own_folder, write_over
+from seethrough.analysis.load.plan import TESTS, make_plan
 from seethrough.analysis.load.study import Study, config_of, load_study
 from seethrough.analysis.measures import levels_of
-from seethrough.analysis.page import folder
 from seethrough.analysis.page.blocks import (
     Column,
     Figure,
@@ -25,10 +26,10 @@ from seethrough.analysis.page.blocks import (
 )
 from seethrough.analysis.page.html import as_html
 from seethrough.analysis.page.markdown import as_markdown
-from seethrough.analysis.page.pdf import find_browser, print_pdf
-from seethrough.analysis.page.r_script import Facts, as_r
 from seethrough.analysis.page.tables_csv import as_csv
-from seethrough.analysis.plan import TESTS, make_plan
+from seethrough.analysis.report import folder
+from seethrough.analysis.report.pdf import find_browser, print_pdf
+from seethrough.analysis.report.r_script import Facts, as_r
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.methods import methods_section
 from seethrough.analysis.sections.omnibus import complete
@@ -40,7 +41,6 @@ from seethrough.analysis.sections.sensitivity import sensitivity_section
 from seethrough.analysis.sections.summary import Found, summary_section
 from seethrough.analysis.sections.tradeoff import tradeoff_section
 from seethrough.analysis.sections.validity import validity_section
-from seethrough.analysis.written import FILE, half_of, own_folder, write_over
 
 SIMULATED = "Simulated participants: for planning only, never evidence about people."
 UNCHAINED = "Tables without hash chains: whether they were changed cannot be known."

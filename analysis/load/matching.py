@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.arrays import Array
 from seethrough.analysis.cells import means
 from seethrough.analysis.comparison import Pair, pair_of
 from seethrough.analysis.design import Contrast, Design
 from seethrough.analysis.load.schema import CERTIFICATE
 from seethrough.analysis.measures import levels_of
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.ties import is_constant
 from seethrough.analysis.stats.undefined import Number, Undefined
 
