@@ -1,8 +1,8 @@
 """What each effect of a simulated participant does: when it applies, and what its absence costs.
 
 `seethrough bench effects` plays the published study with and without each effect, the same people
-on the same trials; `python -m seethrough.benchmarks.effects --tables FILE --participants N` does it
-from tables that are kept and prints the table of the guide.
+on the same trials; `python -m seethrough.benchmarks.sessions.effects --tables FILE --participants
+N` does it from tables that are kept and prints the table of the guide.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """What a change costs: frames of this code and of an older commit, one after the other.
 
-`python -m seethrough.benchmarks.against COMMIT [--turns N]`, in a clone with that commit. Both draw
-the same views in one process and one OpenGL context, in turns, so that whatever else the machine
-does meets both alike. For each scene and technique it prints the ratio of their times, this code's
-over the commit's, each the sum over all views of the median over the turns, and a 95 % interval
-from turns drawn again (percentile bootstrap).
+`python -m seethrough.benchmarks.drawing.against COMMIT [--turns N]`, in a clone with that commit.
+Both draw the same views in one process and one OpenGL context, in turns, so that whatever else the
+machine does meets both alike. For each scene and technique it prints the ratio of their times, this
+code's over the commit's, each the sum over all views of the median over the turns, and a 95 %
+interval from turns drawn again (percentile bootstrap).
 """
 
 from __future__ import annotations
@@ -148,7 +148,7 @@ def main() -> None:
     parser.add_argument("commit")
     parser.add_argument("--turns", type=int, default=TURNS)
     args = parser.parse_args()
-    here = Path(__file__).resolve().parent.parent
+    here = Path(__file__).resolve().parents[2]
     found = subprocess.run(["git", "archive", args.commit], cwd=here, capture_output=True)
     if found.returncode:
         parser.error(f"{args.commit}: {found.stderr.decode().strip()}; expected a commit")

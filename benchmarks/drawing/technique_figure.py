@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from seethrough.benchmarks.ordering_figures import INK, PAPER, plain, save
+from seethrough.benchmarks.orderings.ordering_figures import INK, PAPER, plain, save
 from seethrough.benchmarks.rows import Row
 
 if TYPE_CHECKING:

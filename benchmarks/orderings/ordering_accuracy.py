@@ -18,8 +18,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seethrough.benchmarks import ordering_exactness
-from seethrough.benchmarks.painted_scene import PaintedScene as Bench
+from seethrough.benchmarks.orderings import ordering_exactness
+from seethrough.benchmarks.orderings.painted_scene import PaintedScene as Bench
 from seethrough.benchmarks.rows import Row, row
 from seethrough.renderer.arrays import Floats
 from seethrough.renderer.gpu.levels.approximations import (
@@ -166,7 +166,7 @@ def results_of(table: list[Row]) -> list[Result]:
 
 def summary(table: list[Row]) -> str:
     """Which way to pick when, from the rows of `figures`."""
-    from seethrough.benchmarks.ordering_advice import advice
+    from seethrough.benchmarks.orderings.ordering_advice import advice
 
     return advice(results_of(table))
 
@@ -178,7 +178,7 @@ def chart(table: list[Row], path: Path) -> None:
 
 def draw_figure(results: list[Result], path: Path) -> None:
     """Error against time of a frame, one panel for each scene."""
-    from seethrough.benchmarks.ordering_figures import error_against_time
+    from seethrough.benchmarks.orderings.ordering_figures import error_against_time
 
     error_against_time(results, path)
 
@@ -190,7 +190,7 @@ def main() -> None:
     parser.add_argument("--pictures", type=Path, metavar="FOLDER", help="paper 000's figures 4–6")
     chosen = parser.parse_args()
     if chosen.pictures:
-        from seethrough.benchmarks.paper_figures import draw_pictures
+        from seethrough.benchmarks.orderings.paper_figures import draw_pictures
 
         for line in draw_pictures(chosen.pictures):
             print(line, flush=True)

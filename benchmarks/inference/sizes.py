@@ -274,8 +274,8 @@ def skewed(n: int) -> Callable[[Generator], Found]:
 
 def kinds() -> list[Studies]:
     """Every kind of study, and what of it is known not to hold."""
-    from seethrough.benchmarks.design_sizes import design_kinds
-    from seethrough.benchmarks.session_sizes import mixed_sessions, sessions
+    from seethrough.benchmarks.inference.design_sizes import design_kinds
+    from seethrough.benchmarks.inference.session_sizes import mixed_sessions, sessions
 
     half = {"interval of the difference": 0.95}
     raw = ("F of raw times", "interval of the difference, raw times",

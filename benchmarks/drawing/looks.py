@@ -11,9 +11,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from seethrough.benchmarks.drawing.scenes import SCENES
+from seethrough.benchmarks.drawing.speed import drawing, times
 from seethrough.benchmarks.rows import Row, row
-from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import drawing, times
 from seethrough.experiment.gallery.gallery_looks import looks
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer

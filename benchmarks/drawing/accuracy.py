@@ -21,13 +21,13 @@ from pathlib import Path
 
 import numpy as np
 
-from seethrough.benchmarks import guarantee, mask_sweep, vtk_peeling
-from seethrough.benchmarks.breaking import BREAKING
-from seethrough.benchmarks.picture_errors import drawn, errors
+from seethrough.benchmarks.drawing import guarantee, mask_sweep, vtk_peeling
+from seethrough.benchmarks.drawing.breaking import BREAKING
+from seethrough.benchmarks.drawing.picture_errors import drawn, errors
+from seethrough.benchmarks.drawing.scenes import SCENES
+from seethrough.benchmarks.drawing.speed import drawing, times
 from seethrough.benchmarks.rows import Row as Figure
 from seethrough.benchmarks.rows import row
-from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import drawing, times
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.planner import plan

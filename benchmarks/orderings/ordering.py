@@ -1,8 +1,8 @@
 """Depth orderings side by side: what each costs, and whether its picture is exact.
 
-`seethrough bench ordering --json FILE`, or `python -m seethrough.benchmarks.ordering --json FILE
---figure FILE.svg` for the figure of error against time as well. Chen1996's objects are lost:
-ratios and the order of methods on stand-ins are compared with its own, no number of it is
+`seethrough bench ordering --json FILE`, or `python -m seethrough.benchmarks.orderings.ordering
+--json FILE --figure FILE.svg` for the figure of error against time as well. Chen1996's objects are
+lost: ratios and the order of methods on stand-ins are compared with its own, no number of it is
 reproduced. Times are processor time, the fastest of several: all orderings run on one thread, and
 other work on the machine does not count.
 """
@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.benchmarks.memory import used_by
-from seethrough.benchmarks.postprocessing import VIEWS, microseconds
+from seethrough.benchmarks.orderings.postprocessing import VIEWS, microseconds
 from seethrough.benchmarks.rows import Row, row
 from seethrough.renderer.models.translucent.scenes import TranslucentScene, scene
 from seethrough.renderer.polygons import boxes, bsp, feudal
@@ -47,7 +47,7 @@ MEMORY = """
 from seethrough.renderer.models.translucent.scenes import scene
 from seethrough.renderer.polygons import bsp
 import numpy as np
-from seethrough.benchmarks.ordering import bare
+from seethrough.benchmarks.orderings.ordering import bare
 polygons = scene("soup100000").polygons
 prepared = bsp.prepare({polygons})
 prepared.order(eye=np.array([3.0, 2.0, 1.0]))
@@ -210,7 +210,7 @@ def dense() -> Iterator[Row]:
 
 def image_errors() -> Iterator[Row]:
     """Pixels more than 1/255 off the exact picture, in the worst of many random eyes."""
-    from seethrough.benchmarks.painted_scene import PaintedScene as Bench
+    from seethrough.benchmarks.orderings.painted_scene import PaintedScene as Bench
 
     for name in IMAGE_SCENES:
         made = scene(name)
@@ -257,7 +257,7 @@ def main() -> None:
     if chosen.json:
         chosen.json.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", "utf-8")
     if chosen.figure:
-        from seethrough.benchmarks.ordering_accuracy import draw_figure, measure_all
+        from seethrough.benchmarks.orderings.ordering_accuracy import draw_figure, measure_all
 
         draw_figure(measure_all(), chosen.figure)
 

@@ -151,7 +151,13 @@ def _screen() -> Iterator[dict[str, str] | None]:
 
 def _dragged(level: str, screen: dict[str, str]) -> dict[str, float]:
     """Ten seconds of a session in a window of a process of its own (window_frames.py)."""
-    words = [sys.executable, "-m", "seethrough.benchmarks.window_frames", level, str(DRAGGED)]
+    words = [
+        sys.executable,
+        "-m",
+        "seethrough.benchmarks.sessions.window_frames",
+        level,
+        str(DRAGGED),
+    ]
     done = subprocess.run(
         words, capture_output=True, text=True, check=True, timeout=300, env=screen
     )

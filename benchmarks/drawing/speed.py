@@ -15,11 +15,11 @@ from typing import Protocol
 import numpy as np
 from moderngl import Context
 
+from seethrough.benchmarks.drawing.paper_way import PaperWay
+from seethrough.benchmarks.drawing.scenes import SCENES
 from seethrough.benchmarks.memory import used_by
-from seethrough.benchmarks.paper_way import PaperWay
 from seethrough.benchmarks.rows import Row as Figure
 from seethrough.benchmarks.rows import row
-from seethrough.benchmarks.scenes import SCENES
 from seethrough.experiment.display.looking import HEIGHT
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
@@ -218,7 +218,7 @@ def _of_looks(context: Context) -> Iterator[Figure]:
 
 
 _MEMORY = """
-from seethrough.benchmarks.scenes import walkthrough
+from seethrough.benchmarks.drawing.scenes import walkthrough
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.techniques.base import Parameters

@@ -1,8 +1,8 @@
 """Objects that reach into one another before a target: sorted by pixel, or by polygon?
 
-`python -m seethrough.benchmarks.clusters` prints, for clusters of several kinds, error and time of
-a frame where what no plane separates is sorted by pixel (`pixels`: order "planes"), where the
-polygons of convex objects are put in order by a BSP tree (`polygons`), and where centres decide
+`python -m seethrough.benchmarks.drawing.clusters` prints, for clusters of several kinds, error and
+time of a frame where what no plane separates is sorted by pixel (`pixels`: order "planes"), where
+the polygons of convex objects are put in order by a BSP tree (`polygons`), and where centres decide
 (`centers`).
 """
 
@@ -14,7 +14,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.benchmarks.speed import drawing, times
+from seethrough.benchmarks.drawing.speed import drawing, times
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.clusters import polygons_of

@@ -3,7 +3,7 @@
 `seethrough bench statistics --json FILE`. The accuracy rows compare ways to compute F on data whose
 F is known as a fraction, at offsets up to 10¹⁵; their times are ratios within one run. The report
 rows start the program itself, on made data of 384 and 240,000 trials. The rows of sizes are
-`benchmarks/sizes.py`'s.
+`benchmarks/inference/sizes.py`'s.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from seethrough.analysis.load.schema import answer_columns, trial_columns
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.undefined import is_defined
+from seethrough.benchmarks.inference.sizes import sizes
 from seethrough.benchmarks.memory import used_by
 from seethrough.benchmarks.rows import Row, row
-from seethrough.benchmarks.sizes import sizes
 
 DESIGN = design_before({})
 OFFSETS = (0.0, 1e6, 1e9, 1e12, 1e15)

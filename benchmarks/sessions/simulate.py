@@ -2,7 +2,7 @@
 
 `seethrough bench simulate` prints the whole table; `--only data,many` parts of it. Visibility
 tables are made first, in a folder of their own, and timed apart; `python -m
-seethrough.benchmarks.simulate --tables FILE` keeps them for the next time.
+seethrough.benchmarks.sessions.simulate --tables FILE` keeps them for the next time.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from multiprocessing.synchronize import Barrier
 from pathlib import Path
 from typing import TypeVar
 
-from seethrough.benchmarks import eyes
 from seethrough.benchmarks.memory import Watch
 from seethrough.benchmarks.rows import Row, row
+from seethrough.benchmarks.sessions import eyes
 from seethrough.experiment.people.fitted.calibration import FITTED, HELD_OUT, measured, published
 from seethrough.experiment.people.fitted.fitting import Crowd
 from seethrough.experiment.people.persons.profile_file import find

@@ -1,9 +1,10 @@
 """What a simulated participant's eyes cost in time, and what coarser eyes cost in accuracy.
 
-`python -m seethrough.benchmarks.eyes --json FILE --figure FILE.svg`: the same people at the same
-trials with id pictures of several heights, with more and fewer looks while on the move, and from
-the tables' lattice, against the finest eyes. Errors are those of the task measures: geometric mean
-of the completion times, and mean absolute count error; each with the standard error of the pairs.
+`python -m seethrough.benchmarks.sessions.eyes --json FILE --figure FILE.svg`: the same people at
+the same trials with id pictures of several heights, with more and fewer looks while on the move,
+and from the tables' lattice, against the finest eyes. Errors are those of the task measures:
+geometric mean of the completion times, and mean absolute count error; each with the standard error
+of the pairs.
 """
 
 from __future__ import annotations

@@ -21,10 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough import registry
+from seethrough.benchmarks.drawing.scenes import SCENES
+from seethrough.benchmarks.drawing.speed import times
+from seethrough.benchmarks.drawing.technique_ways import COSTS, Way, ways_of
 from seethrough.benchmarks.rows import Row, row
-from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import times
-from seethrough.benchmarks.technique_ways import COSTS, Way, ways_of
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
@@ -67,7 +67,7 @@ def figures(parts: list[str] | None = None) -> Iterator[Row]:
 
 def chart(rows: list[Row], path: Path) -> None:
     """Draw the table."""
-    from seethrough.benchmarks.technique_figure import draw
+    from seethrough.benchmarks.drawing.technique_figure import draw
 
     draw(rows, path)
 

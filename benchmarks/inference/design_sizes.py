@@ -14,7 +14,7 @@ from seethrough.analysis.stats.flips import sign_flip
 from seethrough.analysis.stats.groups import kruskal_wallis
 from seethrough.analysis.stats.ranks import friedman, signed_rank
 from seethrough.analysis.stats.split_plot import split_plot
-from seethrough.benchmarks.sizes import Found, Studies, below, inside
+from seethrough.benchmarks.inference.sizes import Found, Studies, below, inside
 
 RUNS = 10_000
 

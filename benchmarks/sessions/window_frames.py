@@ -1,6 +1,6 @@
 """Frames of a session in a real window while somebody drags the abstract scene.
 
-    python -m seethrough.benchmarks.window_frames standard|dynamic [SECONDS]
+    python -m seethrough.benchmarks.sessions.window_frames standard|dynamic [SECONDS]
 
 Prints {frames, missed, worst, cpu, drawing} as JSON: the share of frames that took over 1.5
 periods; the worst frame; and the processor time of a frame, of all threads, for the whole of the

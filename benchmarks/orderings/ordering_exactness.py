@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.benchmarks.painted_scene import PaintedScene
+from seethrough.benchmarks.orderings.painted_scene import PaintedScene
 from seethrough.benchmarks.rows import Row, row
 from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.translucent.scenes import SCENES, scene

@@ -15,10 +15,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from seethrough.benchmarks.drawing.scenes import SCENES
+from seethrough.benchmarks.drawing.speed import drawing, times
 from seethrough.benchmarks.rows import Row as Figure
 from seethrough.benchmarks.rows import row
-from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import drawing, times
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
@@ -140,7 +140,7 @@ def figures(renderer: Renderer) -> Iterator[Figure]:
         print(LEFT_OUT, file=sys.stderr)
         return
     # A process of its own: two libraries cannot share the thread's current OpenGL context.
-    code = f"from seethrough.benchmarks.vtk_peeling import main; main({renderer.size})"
+    code = f"from seethrough.benchmarks.drawing.vtk_peeling import main; main({renderer.size})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     theirs = json.loads(done.stdout.splitlines()[-1])
     for name, make in SCENES.items():

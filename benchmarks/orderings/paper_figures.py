@@ -1,7 +1,8 @@
 """Kang2008's figures 4 to 6: what a missing order looks like, and what its order costs.
 
-`python -m seethrough.benchmarks.ordering_accuracy --pictures FOLDER` draws them. Unblended: nothing
-shows through. Unsorted: blended in the order the polygons happen to be stored. Sorted: by `boxes`.
+`python -m seethrough.benchmarks.orderings.ordering_accuracy --pictures FOLDER` draws them.
+Unblended: nothing shows through. Unsorted: blended in the order the polygons happen to be stored.
+Sorted: by `boxes`.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seethrough.benchmarks.painted_scene import PaintedScene, Picture
+from seethrough.benchmarks.orderings.painted_scene import PaintedScene, Picture
 from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.translucent.scenes import TranslucentScene, panels, scene
 from seethrough.renderer.polygons import boxes
@@ -94,7 +95,7 @@ def draw_rates(rates: dict[int, dict[str, float]], path: Path) -> None:
     """Figure 6: frame rate against the number of panels."""
     from matplotlib.figure import Figure
 
-    from seethrough.benchmarks.ordering_figures import INK, PAPER, plain, save
+    from seethrough.benchmarks.orderings.ordering_figures import INK, PAPER, plain, save
 
     figure = Figure(figsize=(6.4, 3.6), layout="constrained", facecolor=PAPER)
     axes = figure.subplots()

@@ -17,11 +17,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.benchmarks.picture_errors import drawn, errors
+from seethrough.benchmarks.drawing.picture_errors import drawn, errors
+from seethrough.benchmarks.drawing.scenes import SCENES
+from seethrough.benchmarks.drawing.speed import drawing, times
 from seethrough.benchmarks.rows import Row as Figure
 from seethrough.benchmarks.rows import row
-from seethrough.benchmarks.scenes import SCENES
-from seethrough.benchmarks.speed import drawing, times
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
