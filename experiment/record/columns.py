@@ -108,9 +108,16 @@ QUESTIONNAIRE = (
         "age (years), gender, "
         "color_plate_1 … 4 (1: read), tlx_… (0–20), sus_1 … sus_10 (0–4), sus (0–100), remarks",
     ),
+    Column(
+        "after_trial",
+        "integer",
+        "the trial that it was asked after, if it was: of a task set, its last",
+        added=3,
+    ),
+    Column("after_task", "text", "the task of that trial", added=3),
     Column("value", "number", "the answer as a number"),
     _TEXT,
-)
+)  # fmt: skip
 
 NOTES = (
     *_WHO,

@@ -35,6 +35,10 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
     """The factors for each of whose levels a question is asked once."""
     if asked.table.each is not None:
         return asked.table.each
+    if asked.when_asked in ("task_set", "condition"):
+        return tuple(f.name for f in study.factors if f.block)
+    if asked.when_asked == "trial":
+        return tuple(f.name for f in study.factors if f.block or f.mixed)
     if asked.use == "ratings":
         return tuple(f.name for f in study.factors if f.block)
     if asked.use in ("tlx", "sus"):

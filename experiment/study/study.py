@@ -162,8 +162,8 @@ def _chosen_table(chosen: Any) -> dict[str, Any]:
 
 def _limits_table(limits: Any) -> dict[str, Any]:
     own = {
-        name: {**_plain(limits.tables[name])} | ({"limit": limits.limits[name]}
-        if name in limits.limits else {})
-        for name in limits.tables
-    }  # fmt: skip
-    return {"limit": limits.limit, **own}
+        name: {**_plain(limits.tables[name]), **limits.own.get(name, {})} for name in limits.tables
+    }
+    # What is off is not said: so a study of before is the same study.
+    asked = limits.every.model_dump(exclude_defaults=True)
+    return {"limit": limits.every.limit, **asked, **own}

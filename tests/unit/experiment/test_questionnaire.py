@@ -16,6 +16,7 @@ from seethrough.experiment.questions.depth_test.depth_pairs import RATIO, depth_
 from seethrough.experiment.questions.kit import Asking
 from seethrough.experiment.questions.ready import READY, TLX, question
 from seethrough.experiment.session import questionnaire
+from seethrough.experiment.session.questionnaire import Said
 from seethrough.experiment.study.config import find, load, parse
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
@@ -135,7 +136,7 @@ def test_what_was_answered_is_not_asked_again_wherever_it_broke_off(seed):
     rows = rows_of(steps(), whole)
     # Page by page as a rule; after a power failure perhaps in the middle of a page.
     cut = int(np.random.default_rng(seed).integers(1, len(rows)))
-    given = {questionnaire.item_of(row): row["value"] for row in rows[:cut]}
+    given = {questionnaire.item_of(row): questionnaire.said_in(row) for row in rows[:cut]}
     person = Answers(age="28", remarks="fine")
     assert rows[:cut] + rows_of(steps(), person, given) == rows
     assert len(person.pages) < len(whole.pages)
@@ -176,13 +177,14 @@ def test_sus_scores_the_known_extremes_and_the_middle():
 def test_a_score_that_a_power_failure_cut_off_counts_the_answers_that_were_kept():
     """Of ten statements four were on disk; the page is asked again, and those four stand."""
     kept = {
-        (f"sus_{n}", (("transparency", "dynamic"),)): "4" if n % 2 else "0" for n in range(1, 5)
+        (f"sus_{n}", (("transparency", "dynamic"),)): Said("4" if n % 2 else "0")
+        for n in range(1, 5)
     }
     study = with_blocks("sus")
-    rows = rows_of(questionnaire.after(study, 1), Answers(), kept)
+    rows = rows_of(questionnaire.after(study, 1), Answers(), dict(kept))
     mine = {r["item"]: r["value"] for r in rows if r["transparency"] == "dynamic"}
     assert set(mine) == {f"sus_{n}" for n in range(5, 11)} | {"sus"}
-    both = {item: value for (item, *_), value in kept.items()} | mine
+    both = {item: said.value for (item, *_), said in kept.items()} | mine
     assert float(mine["sus"]) == sus_score(both)
     new = {f"sus_{n}": mine["sus_5"] for n in range(1, 11)}
     assert float(mine["sus"]) != sus_score(new)
