@@ -6,7 +6,7 @@ visible strongly enough. It is a tool for planning studies, never evidence about
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 
 import numpy as np
@@ -26,6 +26,8 @@ from seethrough.tasks.kit.skills.glance import Glance
 from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 from seethrough.tasks.kit.skills.strategy import Play
+from seethrough.tasks.kit.unsure import BUTTON
+from seethrough.tasks.kit.unsure import KEY as UNSURE
 
 
 class SimulatedParticipant:
@@ -44,6 +46,7 @@ class SimulatedParticipant:
         self._strategy: Play | None = None
         self._task, self._began = "", 0.0
         self._mood: Mood | None = None
+        self._blind = True  # has seen no target in this trial
 
     def about(self, seed: int) -> dict[str, object]:
         """What a sidecar says of it, so that anybody can simulate it again."""
@@ -61,6 +64,7 @@ class SimulatedParticipant:
         self._mood = mood_for(self.person, task, now)
         self.effects = self._mood.effects
         self._strategy = None
+        self._blind = True
         self._task, self._began = task, now
         self.opinions.begin(task)
 
@@ -68,17 +72,30 @@ class SimulatedParticipant:
         self, view: View, look: Callable[[], Visibility], now: float, task: str
     ) -> list[Event]:
         """What it does next, at times from `now` on. It may think first: the times say so."""
-        glance = Glance(view, look, now)
+        glance = Glance(view, self._seeing(look, view), now)
         if self._strategy is None:
             self._strategy = TASKS[task].simulate.play(self._begun(task, now), glance)
             return next(self._strategy)
         try:
             events = self._strategy.send(glance)
+            if BUTTON in view.hud and self._blind and _answers(events):
+                time = events[-1].time
+                events = [KeyPress(time, UNSURE), KeyRelease(time + 0.1, UNSURE)]
         except StopIteration:
             # The answer did not count (a key lost, a limit changed): press enter again.
             events = [KeyPress(now + 1.0, "enter"), KeyRelease(now + 1.1, "enter")]
         self.opinions.spent(self._task, events[-1].time - self._began)
         return events
+
+    def _seeing(self, look: Callable[[], Visibility], view: View) -> Callable[[], Visibility]:
+        """A look that remembers whether any target showed."""
+
+        def seeing() -> Visibility:
+            seen = look()
+            self._blind &= not seen.pixels[view.scene.targets].any()
+            return seen
+
+        return seeing
 
     def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Read and fill in a page: answers by name, and the seconds it took."""
@@ -89,3 +106,8 @@ class SimulatedParticipant:
             self.begin_trial(task, now)
         assert self._mood is not None
         return self._mood
+
+
+def _answers(events: Sequence[Event]) -> bool:
+    """Whether they confirm an answer."""
+    return any(isinstance(event, KeyPress) and event.key == "enter" for event in events)

@@ -52,7 +52,9 @@ TRIALS = (
     Column("task", "text", "what was to be done: a task's name, as T1 count"),
     Column("scene", "text", "which scene: a name of the study's set, or the stream it came from"),
     Column("targets", "integer", "number of targets in the scene"),
-    Column("answer", "text", "the participant's answer, as given"),
+    Column(
+        "answer", "text", "the participant's answer, as given; unknown: left by \"I don't know\""
+    ),
     Column("truth", "text", "the right answer"),
     Column(
         "correct",

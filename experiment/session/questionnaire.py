@@ -22,6 +22,7 @@ from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
 from seethrough.experiment.session.moments import QUESTION_STREAM, Moment, asked_at, in_order
+from seethrough.experiment.session.strangers import called
 from seethrough.experiment.study.described import each_of
 from seethrough.experiment.study.design import PARTICIPANT, generator
 from seethrough.experiment.study.factors import Levels
@@ -191,9 +192,11 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
         def ask(person: Input, given: Given) -> list[Row]:
             known = {item: said.value for (item, at), said in given.items() if at == cell}
             now = replace(asking, given=known)
-            page = words.named(study, kind.pages(parameters, now)[number], pairs)
+            pages = called("question", planned.use, "pages", partial(kind.pages, parameters, now))
+            page = words.named(study, pages[number], pairs)
             page = replace(page, simulate=partial(kind.simulate, parameters, page))
-            rows = kind.rows(parameters, now, number, person.ask(page))
+            answer = partial(kind.rows, parameters, now, number, person.ask(page))
+            rows = called("question", planned.use, "rows", answer)
             return [{**row, **planned.about, **planned.mark} for row in rows]
 
         last = kind.last(parameters, asking, number)

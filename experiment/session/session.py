@@ -17,10 +17,12 @@ from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import levels, questionnaire
 from seethrough.experiment.session.moments import Moment, moments_of
 from seethrough.experiment.session.questionnaire import Given, Item, Said, Step
+from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, Trial, session_for
+from seethrough.tasks.kit.unsure import UNKNOWN
 from seethrough.tasks.worlds.building.building_parameters import METRES
 
 
@@ -35,7 +37,7 @@ def run_session(
     done: frozenset[int] = frozenset(),
     given: Given | None = None,
 ) -> str:
-    """Run a slot's session: `complete`, `left` or `time limit`. Raises DisplayLost.
+    """Run a slot's session: `complete`, `left` or `time limit`. Raises DisplayLost, PluginFailed.
 
     Trials numbered in `done` are not played again, and what was answered in `given` is not asked
     again (experiment/session/resume.py).
@@ -48,6 +50,9 @@ def run_session(
         status = "time limit"
     except DisplayLost:
         status = "display lost"
+        raise
+    except PluginFailed:
+        status = "plug-in failed"
         raise
     except Leave:
         pass  # the caller and the record are told by the status
@@ -172,6 +177,8 @@ def _feedback(record: TrialRecord) -> Page:
     if outcome is None:
         return Page("feedback", "feedback.title", (Paragraph("feedback.time"),))
     values: Values = (("answer", outcome.answer), ("truth", outcome.truth))
+    if outcome.answer == UNKNOWN:
+        return Page("feedback", "feedback.title", (Paragraph("feedback.unsure"),))
     text = "feedback.right" if outcome.correct else "feedback.wrong"
     if outcome.distance is not None:
         text = "feedback.distance" if outcome.correct else "feedback.other_room"

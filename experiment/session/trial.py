@@ -12,12 +12,14 @@ from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, TextField
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import viewpoint
 from seethrough.experiment.session.hand import Hand
+from seethrough.experiment.session.options import as_asked, with_confidence
+from seethrough.experiment.session.strangers import called
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.scene.camera import Camera
-from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.base import Outcome, Task, View
 from seethrough.tasks.kit.events import (
     Event,
     FocusChange,
@@ -105,16 +107,21 @@ class TrialRun:
         """What the trial is drawn with."""
         return self.study.part(trial.levels).technique
 
+    def task(self, trial: Trial) -> Task:
+        """The trial's task, with what the study lets one say of it."""
+        return as_asked(self.world.tasks[trial.task], self.study, trial)
+
     def begin(self, trial: Trial) -> Any:
         """The task's first state, from the trial's own stream."""
-        task = self.world.tasks[trial.task]
-        return self.scenes.begin(task, trial, self.world.display.aspect)
+        aspect = self.world.display.aspect
+        begin = partial(self.scenes.begin, self.task(trial), trial, aspect)
+        return called("world", trial.world, "make", begin)
 
     def preview(self, trial: Trial) -> View:
         """What the instruction page shows: a scene of the task that is no trial's scene, seen from
         where it shows what is asked for."""
         example = self.scenes.example(trial)
-        task, state = self.world.tasks[trial.task], self.begin(example)
+        task, state = self.task(trial), self.begin(example)
         view = task.view(state)
         camera = viewpoint.best(view.scene, task.example(state, PICTURE_ASPECT))
         return View(view.scene, camera, tuple(e for e in view.hud if isinstance(e, Inset)))
@@ -136,7 +143,9 @@ class TrialRun:
                     break
             if not running.ended:
                 running.show()
-        return running.record()
+        return with_confidence(
+            running.record(), self.study, world.input.ask, world.recorder.trial_ends
+        )
 
 
 def _interrupts(event: Event) -> TypeGuard[KeyPress]:
@@ -154,8 +163,9 @@ class Running:
     """A trial while it runs."""
 
     def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
-        self._world, self._task = run.world, run.world.tasks[trial.task]
+        self._world, self._task = run.world, run.task(trial)
         self._technique = run.technique(trial)
+        self._technique_name = run.study.part(trial.levels).technique_name
         self._hand = Hand(self._technique, run.world.display.aspect)
         self._trial, self._state, self._limit = trial, state, limit
         refresh = run.study.part(trial.levels).display.refresh
@@ -185,7 +195,8 @@ class Running:
     def show(self) -> None:
         """Show the view as it is now and note the frame."""
         self.view = self._viewed()
-        flip = self._world.display.show(self.view, self._technique)
+        show = partial(self._world.display.show, self.view, self._technique)
+        flip = called("technique", self._technique_name, "drawing", show)
         if self._watch.frames == 0:
             self.first, self._first_within = flip, self._world.flip_within()
         if not self._watch.seen:
@@ -233,7 +244,8 @@ class Running:
             return False
         if not isinstance(event, Tick):
             self._within = event.within
-        used = self._hand.on_event(event, self.view)
+        told = partial(self._hand.on_event, event, self.view)
+        used = called("technique", self._technique_name, "on_event", told)
         state = self._state if used else self._task.on_event(self._state, event)
         if state is not self._state:
             self._state, self._outcome = state, self._task.outcome(state)

@@ -15,6 +15,7 @@ from seethrough.experiment.study.design import number_of, scene_names
 from seethrough.experiment.study.migrate import is_old, migrated
 from seethrough.experiment.study.own_model_files import beside
 from seethrough.experiment.study.parser import Parser
+from seethrough.experiment.study.plugin_files import taken
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_errors import study_error
 from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
@@ -56,10 +57,10 @@ def load(name: str) -> Study:
     """Read and check a study. Raises InputError: of each fault file, key, value and what was
     expected."""
     path = find(name)
-    table = read_toml(path)
     faults: list[str] = []
     more = 0
     study = None
+    table = taken(read_toml(path), path)
     try:
         study = parse(table, str(path))
     except InputError as error:

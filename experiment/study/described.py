@@ -10,7 +10,7 @@ from seethrough.experiment.study.factors import ALONE, Factor
 from seethrough.experiment.study.reading import STARTS, Question
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.measure import TIME
+from seethrough.tasks.kit.measure import CONFIDENCE, TIME
 
 
 def design_entry(study: Study) -> dict[str, Any]:
@@ -21,7 +21,7 @@ def design_entry(study: Study) -> dict[str, Any]:
     return {
         "factors": [_factor(study, factor) for factor in study.factors],
         "excluded": [dict(levels) for levels in study.excluded],
-        "tasks": [_task(task, margins) for task in study.tasks()],
+        "tasks": [_task(study, task, margins) for task in study.tasks()],
         "predictions": [
             {k: v for k, v in said.items() if v not in (None, "")}
             for said in analysis["predictions"]
@@ -82,9 +82,10 @@ def _factor(study: Study, factor: Factor) -> dict[str, Any]:
     return said
 
 
-def _task(name: str, margins: dict[str, float]) -> dict[str, Any]:
+def _task(study: Study, name: str, margins: dict[str, float]) -> dict[str, Any]:
     task = TASKS[name]
-    measures = [measure.as_dict() for measure in (TIME, *task.measures)]
+    asked = any(part.limits.options(name).confidence for part in study.parts.values())
+    measures = [m.as_dict() for m in (TIME, *task.measures, *[CONFIDENCE] * asked)]
     for measure in measures:
         own = margins.get(measure["column"], measure["margin"])
         measure["margin"] = margins.get(measure["name"], own)

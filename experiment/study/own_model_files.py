@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.model_files import check_files
+from seethrough.experiment.study.plugin_files import keep as keep_plugins
 from seethrough.tasks.kit.own_models import READER, OwnModel, kept_as, mesh_of, packed, read
 
 if TYPE_CHECKING:
@@ -48,7 +49,9 @@ def beside(parameters: Any, path: Path) -> Any:
 
 
 def keep(study: Study, data: Path) -> None:
-    """Put the meshes into the data folder, for replays on any machine. Raises InputError."""
+    """Put the meshes, and the code that the study brings along, into the data folder, for replays
+    on any machine. Raises InputError."""
+    keep_plugins(study.plugins(), data)
     for model in models_of(study):
         path = kept_as(replace(model, folder=str(data / FOLDER)))
         try:

@@ -47,7 +47,7 @@ class Parser:
         self.faults += [
             Fault(name, value, known=("factors", *sections()))
             for name, value in self.base.items()
-            if name not in sections()
+            if name not in (*sections(), "plugins")  # which a sidecar describes
         ]
         if "study" not in self.base:
             self.faults.append(Fault("study", MISSING, "a table, [study]"))

@@ -63,7 +63,9 @@ def _given(factors: Sequence[Factor], name: str, questions: Questions) -> Iterat
         asks = [n for n, q in questions.items() if item in items_of(factors, n, q)]
         if not asks:
             every = [i for n, q in questions.items() if n != name for i in items_of(factors, n, q)]
-            yield Fault(f"{key}.{item}", own.table.given[item], known=tuple(dict.fromkeys(every)))
+            said = f"an item of a question before {name}"
+            known = tuple(dict.fromkeys(every))
+            yield Fault(f"{key}.{item}", own.table.given[item], said, known)
         elif not any(order[n] < order[name] for n in asks):
             which = "itself" if asks[0] == name else f"{asks[0]}, which comes later"
             said = f"an item of a question before {name}: {item} is asked by {which}"

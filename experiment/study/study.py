@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from seethrough import registry
 from seethrough.experiment.study.cells import Part
 from seethrough.experiment.study.design import Design, Trial
 from seethrough.experiment.study.factors import Cell, Factor, Levels
@@ -118,7 +119,26 @@ class Study:
             "task": _limits_table(self.tables["task"]),
             "questions": questions,
             "texts": dict(self.texts),
+            **({"plugins": self.plugins()} if self.plugins() else {}),
         }
+
+    def plugins(self) -> list[dict[str, str]]:
+        """Each technique, world, task and kind of question in use that is not ours, with the hash
+        of its code; the file's name where the study brought it along."""
+        parts = self.parts.values()
+        questions = {q.use: q for part in parts for q in part.questions.values()}
+        used = {
+            "technique": [part.technique_name for part in parts],
+            "world": [part.world for part in parts],
+            "task": self.tasks(),
+            "question": [use for use in questions if use in registry.known("question")],
+        }
+        return [
+            {"kind": kind, "name": name, "file": origin.beside, "sha256": origin.sha256}
+            for kind, names in used.items()
+            for name in dict.fromkeys(names)
+            if (origin := registry.origin(kind, name)) is not None
+        ]
 
     def digest(self) -> str:
         """SHA-256 of the resolved study: two sessions with the same digest ran the same study."""

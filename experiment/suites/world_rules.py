@@ -44,7 +44,7 @@ def has_its_texts(world: Any) -> Iterator[str]:
 def makes_the_same_place_again(world: Any) -> Iterator[str]:
     """One stream, one place; another stream, another one; nothing but the stream decides."""
     p = world.Parameters()
-    with no_clock():
+    with no_clock(world):
         one, two, other = (world.make(np.random.default_rng(s), p).scene for s in (1, 1, 2))
     if not np.array_equal(one.transforms, two.transforms):
         yield "one stream made two places"
