@@ -137,6 +137,7 @@ class Item:
 
     `each`: the factors that it is asked for each level of, none where it is asked once. `scale` of
     one group (`group`) are averaged. `of`: a factor that a preference is between two levels of.
+    `against`: it counts the other way round in that average, on its scale of `points` from `low`.
     """
 
     name: str
@@ -146,6 +147,7 @@ class Item:
     of: str = ""
     points: int | None = None
     low: float = 0.0
+    against: bool = False
 
 
 @dataclass(frozen=True, slots=True)

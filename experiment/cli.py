@@ -30,6 +30,7 @@ COMMANDS = {
     "report": "make the statistics report from a data folder",
     "seal": "print one hash over everything that was recorded",
     "keys": "list what a study file may say: keys, types, defaults, limits, meaning",
+    "texts": "write what is to be translated for a study in a language of its own",
     "check": "check a study before anybody is invited",
     "design": "print, write or draw what a study's factors make",
     "migrate": "rewrite a study file of an earlier version",

@@ -59,10 +59,10 @@ class Origin:
     content: bytes = b""
 
 
-_provided: dict[tuple[str, str], tuple[Any, Origin]] = {}
+_provided: dict[tuple[str, str], tuple[object, Origin]] = {}
 
 
-def provide(kind: str, name: str, plugin: Any, origin: Origin) -> None:
+def provide(kind: str, name: str, plugin: object, origin: Origin) -> None:
     """A plug-in that a study brings along; one that had the name before is forgotten.
 
     Raises PluginError where an installed one has the name.
@@ -134,7 +134,7 @@ def get(kind: str, name: str) -> Any:
 
 
 @cache
-def _loaded(kind: str, name: str) -> Any:
+def _loaded(kind: str, name: str) -> object:
     place = _places(kind)[name]
     if isinstance(place, str):
         found = getattr(import_module(place), KINDS[kind].constant)

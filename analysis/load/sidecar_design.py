@@ -213,6 +213,8 @@ class _Reader:
                 self.text(t, p, "group"),
                 self.text(t, p, "of"),
                 self.value(t, p, "points", None, lambda v: isinstance(v, int), "a number"),
+                self.value(t, p, "low", 0, lambda v: isinstance(v, int), "a number"),
+                self.value(t, p, "against", False, lambda v: isinstance(v, bool), "true or false"),
             )
             for p, t in self.tables(entry, ENTRY, "items")
         )

@@ -12,7 +12,7 @@ from seethrough.analysis.cells import Cells
 from seethrough.analysis.comparison import Pair, add_holm, pair_of, sd_of
 from seethrough.analysis.design import Factor, Item
 from seethrough.analysis.figures.comparison import ratings_figure
-from seethrough.analysis.measures import answers, ratings
+from seethrough.analysis.measures import all_one_way, answers, ratings
 from seethrough.analysis.page.blocks import Block, Cited, Column, Section, Table, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.measured import in_short
@@ -97,7 +97,7 @@ def _ratings(
     main = next((f for f in factors if f is context.design.main), factors[-1])
     others = [f for f in factors if f is not main]
     contrasts = [c for c in main.contrasts() if c.level in cells.factors[main.name]]
-    several = len(contrasts) > 1
+    several, together = len(contrasts) > 1, all_one_way(cells, items)
     each, overall = [], []
     labels = {i.name: i.label for i in items}
     for contrast in contrasts:
@@ -111,7 +111,7 @@ def _ratings(
                 each.append(pair_of(key, label, "", 2, cells, contrast, "ratings", at=at))
         if len(cells.factors["item"]) > 1 or others:
             key = f"{_stem(name)}_overall{ending}"
-            overall.append(pair_of(key, f"overall{words}", "", 2, cells, contrast))
+            overall.append(pair_of(key, f"overall{words}", "", 2, together, contrast))
     found, means = keep(each), keep(overall)
     rows = [friedman_row(m, context, 30 + i + 1000 * number)
             for i, m in enumerate([*means, *found])]  # fmt: skip
@@ -131,7 +131,7 @@ def _ratings(
         [*means, *found], [*over_all, *each_said], strict=True)], context)  # fmt: skip
     ending = "conditions" if name == "ratings" else f"{name}_conditions"
     ordered = [main.name, *(f.name for f in others)]
-    over = conditions(context, cells, ordered, ending, f"{_stem(name)}_conditions",
+    over = conditions(context, together, ordered, ending, f"{_stem(name)}_conditions",
                       "Overall rating", 50 + 1000 * number)  # fmt: skip
     if several or not found:
         return [*said, tests, *over]
@@ -147,7 +147,8 @@ def _points(items: Sequence[Item]) -> str:
     """`0–4` where the items say how many points their scale has."""
     points = {i.points for i in items}
     only = next(iter(points)) if len(points) == 1 else None
-    return f"0–{only - 1}" if only else ""
+    low = {i.low for i in items}
+    return f"{min(low):g}–{min(low) + only - 1:g}" if only and len(low) == 1 else ""
 
 
 def _said(m: Pair, labels: Mapping[str, str]) -> str:

@@ -20,6 +20,7 @@ from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, folder_of
+from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.hand import Hand
 from seethrough.experiment.session.options import as_asked
 from seethrough.experiment.study.config import Study, parse
@@ -27,6 +28,7 @@ from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.plugin_files import kept as kept_plugins
 from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.experiment.study.translations import texts_of
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
@@ -55,6 +57,11 @@ class Recorded:
     def technique(self) -> Any:
         """What the trial was drawn with."""
         return self.study.part(self.trial.levels).technique
+
+    @property
+    def texts(self) -> Texts:
+        """What the participant read, in their language."""
+        return texts_of(self.study, self.study.part(self.trial.levels).study.language)
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,11 +21,12 @@ from seethrough.experiment.questions.ready import question
 from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
-from seethrough.experiment.session.moments import QUESTION_STREAM, Moment, asked_at, in_order
+from seethrough.experiment.session.moments import QUESTION_STREAM, Asked, Moment, asked_at, in_order
 from seethrough.experiment.session.strangers import called
 from seethrough.experiment.study.described import each_of
 from seethrough.experiment.study.design import PARTICIPANT, generator
 from seethrough.experiment.study.factors import Levels
+from seethrough.experiment.study.question_table import Wanted
 from seethrough.experiment.study.reading import Question
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import WORLDS
@@ -69,7 +70,7 @@ class Planned:
     factor: str = ""
     cells: tuple[Levels, ...] = ()
     mark: Mapping[str, str] = field(default_factory=dict)
-    given: Mapping[str, Any] = field(default_factory=dict)
+    given: Mapping[str, Wanted] = field(default_factory=dict)
 
 
 def asked(
@@ -127,7 +128,8 @@ def between(study: Study, slot: int, now: Moment, every: Sequence[Moment]) -> It
 def _at(when: str, study: Study, slot: int) -> Iterator[Step]:
     plan = study.plan
     cells = [plan.levels(c) for c in plan.groups[plan.group_of(slot)[0]].cells]
-    here = [(name, q, {}) for name, q in study.questions.items() if q.when_asked == when]
+    every = study.questions.items()
+    here: list[Asked] = [(name, q, {}) for name, q in every if q.when_asked == when]
     for name, question_, _ in in_order(study, slot, here):
         meant = tuple(at for at in cells if study.part(at).questions[name].meant_for(at))
         each = each_of(study, question_)
@@ -188,12 +190,14 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
     cell = tuple(sorted(at.items()))
     pairs = [*planned.about.items(), *((planned.factor, level) for level in planned.of)]
 
+    language = study.session_part(slot).study.language
+
     def step(number: int) -> Step:
         def ask(person: Input, given: Given) -> list[Row]:
             known = {item: said.value for (item, at), said in given.items() if at == cell}
             now = replace(asking, given=known)
             pages = called("question", planned.use, "pages", partial(kind.pages, parameters, now))
-            page = words.named(study, pages[number], pairs)
+            page = words.named(study, pages[number], pairs, language)
             page = replace(page, simulate=partial(kind.simulate, parameters, page))
             answer = partial(kind.rows, parameters, now, number, person.ask(page))
             rows = called("question", planned.use, "rows", answer)
@@ -206,7 +210,7 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
         yield step(number)
 
 
-def holds(wanted: Mapping[str, Any], at: Mapping[str, str], given: Given) -> bool:
+def holds(wanted: Mapping[str, Wanted], at: Mapping[str, str], given: Given) -> bool:
     """Whether earlier answers are what a question wants: to each item the last one that is about no
     other level than `at` has, nor about another trial."""
     return all(_is(one, _last(item, at, given)) for item, one in wanted.items())
@@ -221,7 +225,7 @@ def _last(item: str, at: Mapping[str, str], given: Given) -> Said | None:
     return found[-1] if found else None
 
 
-def _is(wanted: Any, said: Said | None) -> bool:
+def _is(wanted: Wanted, said: Said | None) -> bool:
     """Whether an answer is what is wanted: a number or one between limits, a text, or one of
     several."""
     if said is None:

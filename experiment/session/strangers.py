@@ -12,8 +12,10 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
-from typing import Any, TypeVar
+from types import FrameType, UnionType
+from typing import TypeVar
+
+from numpy.random import Generator
 
 from seethrough import registry
 from seethrough.experiment.display.display import Leave
@@ -97,7 +99,7 @@ class Watched:
         self.worlds, self.Parameters, self.measures = task.worlds, task.Parameters, task.measures
         self.title, self.instruction = task.title, task.instruction
 
-    def _call(self, what: str, call: Callable[[], Made], kinds: Any = object) -> Made:
+    def _call(self, what: str, call: Callable[[], Made], kinds: type | UnionType = object) -> Made:
         found = called("task", self.name, what, call)
         if not isinstance(found, kinds):
             wanted = getattr(kinds, "__name__", None) or "an Outcome or None"
@@ -105,30 +107,30 @@ class Watched:
             raise PluginFailed(f"task {self.name}: {what}: gave {shown}, expected {wanted}")
         return found
 
-    def make_scene(self, rng: Any, setting: Setting) -> Any:
+    def make_scene(self, rng: Generator, setting: Setting) -> object:
         """The task's."""
         return self._call("make_scene", lambda: self._task.make_scene(rng, setting))
 
-    def begin(self, made: Any, setting: Setting, aspect: float) -> Any:
+    def begin(self, made: object, setting: Setting, aspect: float) -> object:
         """The task's."""
         return self._call("begin", lambda: self._task.begin(made, setting, aspect))
 
-    def on_event(self, state: Any, event: Event) -> Any:
+    def on_event(self, state: object, event: Event) -> object:
         """The task's."""
         return self._call("on_event", lambda: self._task.on_event(state, event))
 
-    def view(self, state: Any) -> View:
+    def view(self, state: object) -> View:
         """The task's, a View."""
         return self._call("view", lambda: self._task.view(state), View)
 
-    def outcome(self, state: Any) -> Outcome | None:
+    def outcome(self, state: object) -> Outcome | None:
         """The task's, an Outcome or None."""
         return self._call("outcome", lambda: self._task.outcome(state), Outcome | None)
 
-    def solution(self, state: Any) -> FloorPlan | None:
+    def solution(self, state: object) -> FloorPlan | None:
         """The task's."""
         return self._call("solution", lambda: self._task.solution(state), FloorPlan | None)
 
-    def example(self, state: Any, aspect: float) -> Example:
+    def example(self, state: object, aspect: float) -> Example:
         """The task's, an Example."""
         return self._call("example", lambda: self._task.example(state, aspect), Example)

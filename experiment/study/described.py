@@ -57,14 +57,17 @@ def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
     compared = asked.table.of or next((f.name for f in study.factors if f.block), "")
     items = []
     for item, words in known.items():
-        scale = re.search(r"\(0–(\d+)\)$", words)
+        scale = re.search(r"\((-?\d+)–(-?\d+)\)$", words)
+        low, high = (int(scale[1]), int(scale[2])) if scale else (0, 0)
         items.append({
             "name": item,
             "label": item.replace("_", " "),
             "each": each,
             "group": name if each and len(known) > 1 else "",
             "of": compared if asked.use == "comparison" and item == "preference" else "",
-            **({"points": int(scale[1]) + 1} if scale else {}),
+            **({"points": high - low + 1} if scale else {}),
+            **({"low": low} if low else {}),
+            **({"against": True} if item in getattr(asked.parameters, "reverse", ()) else {}),
         })  # fmt: skip
     return items
 

@@ -24,6 +24,7 @@ from seethrough.experiment.study.scopes import sections
 from seethrough.experiment.study.study import Study
 
 MOST_CELLS = 10_000
+DESCRIBED = ("plugins", "translations")  # what a sidecar says besides
 
 
 class Parser:
@@ -47,7 +48,7 @@ class Parser:
         self.faults += [
             Fault(name, value, known=("factors", *sections()))
             for name, value in self.base.items()
-            if name not in (*sections(), "plugins")  # which a sidecar describes
+            if name not in (*sections(), *DESCRIBED)
         ]
         if "study" not in self.base:
             self.faults.append(Fault("study", MISSING, "a table, [study]"))
@@ -72,7 +73,7 @@ class Parser:
         return Study(
             found["study"], factors, found["design"], found["practice"], found["display"],
             found["session"], found["questions"], found["analysis"], texts, tables, parts,
-            excluded,
+            excluded, self.base.get("translations", {}),
         ), []  # fmt: skip
 
     def _read(self, section: str) -> Any:

@@ -9,11 +9,10 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, gathered, one_line, shown
@@ -41,11 +40,14 @@ class PluginFile:
         return hashlib.sha256(self.content).hexdigest()
 
 
-def taken(table: Mapping[str, Any], path: Path) -> dict[str, Any]:
+def taken(table: Mapping[str, object], path: Path) -> dict[str, object]:
     """The study's table without the entries that name files of plug-ins, which are known from now
     on. Raises InputError: of each that cannot be taken, where and why."""
     plain = {name: own for name, own in table.items() if name not in ("question", "plugins")}
-    faults = [f"{path}: plugins: unknown key; code is named where it is used, as "
+    faults = [f"{path}: translations: unknown key; a language is named as study.language"] * (
+        "translations" in table
+    )
+    faults += [f"{path}: plugins: unknown key; code is named where it is used, as "
               '[task.mine] file = "mine.py"'] * ("plugins" in table)  # fmt: skip
     for kind, name, file in _named(table):
         where = f"{path}: {kind}.{name}.file = {shown(file)}"
@@ -53,29 +55,34 @@ def taken(table: Mapping[str, Any], path: Path) -> dict[str, Any]:
             _take(PluginFile(kind, name, file, _read(path, where, file)), path.parent / file, where)
         except InputError as error:
             faults += error.faults
-        own = {k: v for k, v in table[kind][name].items() if k != "file"}
+        section = plain.get(kind, table[kind])
+        own = {k: v for k, v in _table(_table(section)[name]).items() if k != "file"}
         if kind == "question":
             faults += [f"{path}: question.{name}.{k}: expected `file` alone; its keys stand in "
                        "[questions]" for k in own]  # fmt: skip
         else:
-            plain[kind] = {**plain[kind], name: own}
+            plain[kind] = {**_table(section), name: own}
     faults += _strange(table.get("question", {}), path)
     if faults:
         raise gathered(faults)
     return plain
 
 
-def _named(table: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+def _table(value: object) -> Mapping[str, object]:
+    """A table, or an empty one where it is something else."""
+    return value if isinstance(value, Mapping) else {}
+
+
+def _named(table: Mapping[str, object]) -> Iterator[tuple[str, str, str]]:
     """(kind, name, file) of each table that names a file of code."""
     for kind in KINDS:
-        tables = table.get(kind, {})
-        for name, own in tables.items() if isinstance(tables, Mapping) else ():
-            file = own.get("file") if isinstance(own, Mapping) else None
+        for name, own in _table(table.get(kind)).items():
+            file = _table(own).get("file")
             if isinstance(file, str) and (kind == "question" or file.endswith(".py")):
                 yield kind, name, file
 
 
-def _strange(tables: Any, path: Path) -> list[str]:
+def _strange(tables: object, path: Path) -> list[str]:
     """What [question] may not say: it has files of kinds of questions alone."""
     if not isinstance(tables, Mapping):
         return [f"{path}: question = {shown(tables)}: expected tables, [question.NAME]"]
@@ -83,7 +90,7 @@ def _strange(tables: Any, path: Path) -> list[str]:
         f"{path}: question.{name} = {shown(own)}: expected a table with the `file` of a kind of "
         "question; questions stand in [questions]"
         for name, own in tables.items()
-        if not (isinstance(own, Mapping) and isinstance(own.get("file"), str))
+        if not isinstance(_table(own).get("file"), str)
     ]
 
 
@@ -192,7 +199,7 @@ def kept_as(said: Mapping[str, str], data: Path) -> Path:
     return data / FOLDER / f"{said['kind']}-{said['name']}-{said['sha256'][:12]}.py"
 
 
-def kept(study: Mapping[str, Any], data: Path) -> None:
+def kept(study: Mapping[str, Sequence[Mapping[str, str]]], data: Path) -> None:
     """Make the plug-ins known that a sidecar's study used, as its data folder kept them. Raises
     InputError."""
     for said in study.get("plugins", ()):

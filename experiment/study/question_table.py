@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import field_validator
 
@@ -68,14 +68,14 @@ class QuestionTable(Table):
 
     @field_validator("only", mode="before")
     @classmethod
-    def _levels(cls, value: Any) -> Any:
+    def _levels(cls, value: object) -> object:
         if not isinstance(value, Mapping):
             return value
         return {k: tuple(v) if isinstance(v, list) else v for k, v in value.items()}
 
     @field_validator("given", mode="before")
     @classmethod
-    def _given(cls, value: Any) -> Any:
+    def _given(cls, value: object) -> object:
         if not isinstance(value, Mapping):
             return value
         for item, wanted in value.items():

@@ -34,7 +34,7 @@ class Limits:
     TaskTable by task), and their parameters."""
 
     every: TaskTable = field(default_factory=TaskTable)
-    own: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    own: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     tables: Mapping[str, Any] = field(default_factory=dict)
 
     def options(self, task: str) -> TaskTable:
@@ -134,7 +134,7 @@ def _limits(table: Mapping[str, Any]) -> Read:
     known = plugins.names("task")
     plain = {k: v for k, v in table.items() if k not in known}
     value, faults = model("task", TaskTable, plain)
-    said: dict[str, Mapping[str, Any]] = {}
+    said: dict[str, Mapping[str, object]] = {}
     tables: dict[str, Any] = {}
     for name in (k for k in table if k in known):
         own = table[name]

@@ -32,7 +32,9 @@ class Study:
     """A whole study, checked: what holds everywhere, its factors, and each cell's `parts`.
 
     `design`, `practice`, `display`, `questions` and `study` are as the base of the study has them;
-    a level may say otherwise of its cells. `tables` are the base's technique, world and task.
+    a level may say otherwise of its cells. `translations` are the texts of languages of its own, by
+    their files, as experiment/study/translations.py reads them. `tables` are the base's
+    technique, world and task.
     """
 
     study: StudyTable
@@ -47,6 +49,7 @@ class Study:
     tables: Mapping[str, Chosen | Limits] = field(hash=False)
     parts: Mapping[Cell, Part] = field(hash=False)
     excluded: tuple[Levels, ...] = field(hash=False)
+    translations: Mapping[str, Mapping[str, str]] = field(default_factory=dict, hash=False)
 
     @cached_property
     def plan(self) -> Design:
@@ -120,6 +123,7 @@ class Study:
             "questions": questions,
             "texts": dict(self.texts),
             **({"plugins": self.plugins()} if self.plugins() else {}),
+            **({"translations": self.translations} if self.translations else {}),
         }
 
     def plugins(self) -> list[dict[str, str]]:

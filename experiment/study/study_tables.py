@@ -24,6 +24,7 @@ EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
 TASKS_SAID = f"an array of some of {', '.join(map(shown, registry.known('task')))}, each once"
 NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
+LANGUAGE = f'one of {", ".join(languages())}, or a file of texts beside the study, as "fr.toml"'
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
 
@@ -41,8 +42,8 @@ def _plain(value: str) -> str:
 
 
 def _language(value: str) -> str:
-    if value not in languages():
-        raise ValueError(f"one of {', '.join(languages())}")
+    if value not in languages() and not value.endswith(".toml"):
+        raise ValueError(LANGUAGE)
     return value
 
 
@@ -68,7 +69,7 @@ def _task(value: str) -> str:
     return value
 
 
-def as_tuple(value: Any) -> Any:
+def as_tuple(value: object) -> object:
     """TOML has arrays, frozen tables have tuples."""
     return tuple(value) if isinstance(value, list) else value
 
@@ -104,7 +105,7 @@ class StudyTable(Table):
     language: Annotated[
         str, AfterValidator(_language),
         key("of all that participants read", scope=SESSION,
-            said=f"one of {', '.join(languages())}"),
+            said=LANGUAGE),
     ] = "en"  # fmt: skip
 
 

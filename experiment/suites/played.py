@@ -31,6 +31,7 @@ from seethrough.tasks.kit.events import (
 ASPECT = 4 / 3
 MOST_EVENTS = 20_000
 CLOCKS = ("time", "monotonic", "perf_counter", "process_time", "time_ns", "monotonic_ns")
+DATES = ("now", "utcnow", "today")
 KEYS = (*"0123456789ackrxyz", "left", "right", "up", "down", "enter", "space", "backspace", "tab")
 
 
@@ -55,10 +56,8 @@ def no_clock(plugin: object = None) -> Iterator[None]:
     def refuse(*_: Any) -> float:
         raise ReadsTheClock("expected the times of events, not the clock's")
 
-    class NoDate(datetime.datetime):
-        now = utcnow = today = refuse
-
-    kept = [(time, name, getattr(time, name)) for name in CLOCKS]
+    no_date = type("datetime", (datetime.datetime,), dict.fromkeys(DATES, refuse))
+    kept: list[tuple[object, str, object]] = [(time, n, getattr(time, n)) for n in CLOCKS]
     clocks = {clock for _, _, clock in kept}
     module = sys.modules.get(type(plugin).__module__)
     for name, value in list(vars(module).items()) if module else ():
@@ -67,7 +66,7 @@ def no_clock(plugin: object = None) -> Iterator[None]:
         elif value is datetime:
             kept.append((datetime, "datetime", datetime.datetime))
     for where, name, value in kept:
-        setattr(where, name, NoDate if isinstance(value, type) else refuse)
+        setattr(where, name, no_date if isinstance(value, type) else refuse)
     try:
         yield
     finally:
@@ -75,7 +74,7 @@ def no_clock(plugin: object = None) -> Iterator[None]:
             setattr(where, name, value)
 
 
-def _among(value: Any, clocks: set[Any]) -> bool:
+def _among(value: object, clocks: set[object]) -> bool:
     """Whether it is one of the clocks; what cannot be hashed is none."""
     try:
         return value in clocks

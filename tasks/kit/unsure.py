@@ -6,7 +6,8 @@ Wrapped about any task, so that none has to know of it; as pure as what it wraps
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+
+from numpy.random import Generator
 
 from seethrough.tasks.kit.base import Example, Outcome, Setting, Task, View
 from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
@@ -21,7 +22,7 @@ BUTTON = Button("button.unsure", Rect(MARGIN, 1 - MARGIN - 0.055, 0.34, 0.055))
 class UnsureState:
     """The task's own state, and whether it was left."""
 
-    state: Any
+    state: object
     left: bool = False
 
 
@@ -37,11 +38,11 @@ class Unsure:
         self.title, self.instruction, self.texts = task.title, task.instruction, task.texts
         self.simulate = task.simulate
 
-    def make_scene(self, rng: Any, setting: Setting) -> Any:
+    def make_scene(self, rng: Generator, setting: Setting) -> object:
         """The task's."""
         return self._task.make_scene(rng, setting)
 
-    def begin(self, made: Any, setting: Setting, aspect: float) -> UnsureState:
+    def begin(self, made: object, setting: Setting, aspect: float) -> UnsureState:
         """The task's first state."""
         return UnsureState(self._task.begin(made, setting, aspect))
 

@@ -18,8 +18,10 @@ Item = TypeVar("Item")
 class LikertParameters:
     """What a study may say of Likert scales."""
 
-    text: str = key("", "the statement; or `items`, where there are several")
-    items: tuple[str, ...] = key((), "statements, one below the other", said="an array of texts")
+    text: str = key("", "the statement; or `items`, where there are several", shown=True)
+    items: tuple[str, ...] = key(
+        (), "statements, one below the other", said="an array of texts", shown=True
+    )
     names: tuple[str, ...] = key(
         (), "what the data call the items; none: the table's name, with a number where there are "
         "several", said="an array of texts, one for each item",
@@ -28,8 +30,7 @@ class LikertParameters:
     first: int = key(1, "what the lowest point counts", low=-100, high=100)
     ends: tuple[str, ...] = key(
         ("question.low", "question.high"), "what the lowest and the highest point mean",
-        said="an array of two texts",
-    )  # fmt: skip
+        said="an array of two texts", shown=True)  # fmt: skip
     reverse: tuple[str, ...] = key(
         (), "names of items that count the other way round, in the score too",
         said="an array of names of items",
@@ -39,7 +40,7 @@ class LikertParameters:
     shuffle: bool = key(False, "whether each participant has the items in another order")
     per_page: int = key(0, "items on a page; 0: all on one", low=0, high=100)
     required: bool = key(True, "the page goes on only when each is answered")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)

@@ -14,14 +14,13 @@ from seethrough.tasks.kit.world import NO_TEXTS, Texts
 class RankingParameters:
     """What a study may say of a ranking."""
 
-    text: str = key(..., "what is asked; 1 is first")
+    text: str = key(..., "what is asked; 1 is first", shown=True)
     options: tuple[str, ...] = key(
         (), "what is put in order; none: the levels that are compared (`of`)",
-        said="an array of two or more texts, each once",
-    )  # fmt: skip
+        said="an array of two or more texts, each once", shown=True)  # fmt: skip
     shuffle: bool = key(False, "whether each participant has the options in another order")
     required: bool = key(True, "the page goes on only when all have a rank")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)
