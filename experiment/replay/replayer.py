@@ -29,6 +29,7 @@ from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.plugin_files import kept as kept_plugins
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.experiment.study.translations import texts_of
+from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
@@ -62,6 +63,11 @@ class Recorded:
     def texts(self) -> Texts:
         """What the participant read, in their language."""
         return texts_of(self.study, self.study.part(self.trial.levels).study.language)
+
+    @property
+    def look(self) -> Look:
+        """How the trial's scene looked."""
+        return self.study.part(self.trial.levels).look
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +165,7 @@ def replay(recorded: Recorded) -> Iterator[Frame]:
     state = StudyScenes(recorded.study).begin(task, recorded.trial, aspect)
     *shown, last = _frames(recorded.camera)
     rest = iter(shown)
-    hand = Hand(recorded.technique, aspect)
+    hand = Hand(recorded.technique, aspect, recorded.look)
     view = hand.shown(task.view(state))
     time, digest, camera = next(rest)
     yield Frame(time, view, digest, camera)

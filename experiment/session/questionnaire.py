@@ -29,6 +29,7 @@ from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.question_table import Wanted
 from seethrough.experiment.study.reading import Question
 from seethrough.experiment.study.study import Study
+from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import WORLDS
 
 Item = tuple[str, Pairs]  # item, and factor and level of what it is about; the trial, if it is one
@@ -262,3 +263,7 @@ class StudyPlaces:
     def technique(self, about: Mapping[str, str]) -> Any:
         """What frames are drawn with at these levels."""
         return self.study.part(self.cells[-1]).technique
+
+    def look(self, about: Mapping[str, str]) -> Look:
+        """How scenes look at these levels."""
+        return self.study.part(self.cells[-1]).look

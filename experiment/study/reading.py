@@ -16,6 +16,7 @@ from seethrough.experiment.study.parameter_tables import MISSING, Fault, Faults,
 from seethrough.experiment.study.question_table import QuestionTable
 from seethrough.experiment.study.study_errors import faults_of
 from seethrough.experiment.study.study_tables import TABLES, Table, TaskTable
+from seethrough.renderer.look.look import Look
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,8 @@ def read(section: str, table: Any, whole: bool) -> Read:
         return None, [Fault(section, table, f"a table, [{section}]")]
     if section in ("technique", "world"):
         return _chosen(section, table, whole)
+    if section == "look":
+        return _look(table)
     if section == "task":
         return _limits(table)
     if section == "questions":
@@ -90,6 +93,13 @@ def model(section: str, kind: type[Table], table: Mapping[str, Any]) -> Read:
         return kind.model_validate(dict(table)), []
     except ValidationError as error:
         return None, faults_of(error, section, table)
+
+
+def _look(table: Mapping[str, object]) -> Read:
+    try:
+        return built(Look, table), []
+    except Faults as error:
+        return None, [fault._replace(key=f"look.{fault.key}") for fault in error.found]
 
 
 def _chosen(section: str, table: Mapping[str, Any], whole: bool) -> Read:
