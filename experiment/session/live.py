@@ -80,6 +80,7 @@ def play_in_window(
             say,
             period=window.period,
             waiting=window.waiting,
+            explores=watched is None,
             flip_within=lambda: window.flip_within,
         )
         return run_session(study, start.slot, world, start.done, start.given)

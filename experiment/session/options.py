@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from seethrough.experiment.display.display import Leave
-from seethrough.experiment.pages.pages import Answers, Page, Scale
+from seethrough.experiment.pages.pages import Page, Scale
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.strangers import Watched, is_stranger
+from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.study import Study
@@ -25,19 +25,17 @@ def as_asked(task: Task, study: Study, trial: Trial) -> Task:
     return Unsure(plain) if study.part(trial.levels).limits.options(trial.task).unsure else plain
 
 
-def with_confidence(
-    record: TrialRecord, study: Study, ask: Callable[[Page], Answers], keep: Callable[..., None]
-) -> TrialRecord:
+def with_confidence(record: TrialRecord, study: Study, world: Surroundings) -> TrialRecord:
     """The record with how sure one is, where the study asks for it and there is an answer. Raises
-    Leave of who leaves the page, once `keep` has the record without it."""
+    Leave of who leaves the page, once the recorder has the record without it."""
     trial, outcome = record.trial, record.outcome
     wanted = study.part(trial.levels).limits.options(trial.task).confidence
     if not wanted or trial.training or outcome is None or record.repeat:
         return record
     try:
-        said = int(ask(_page(trial.levels))[CONFIDENCE.name]) + 1
+        said = int(world.input.ask(_page(trial.levels))[CONFIDENCE.name]) + 1
     except Leave:
-        keep(record)
+        world.recorder.trial_ends(record)
         raise
     more = {**outcome.more, CONFIDENCE.name: said}
     return replace(record, outcome=replace(outcome, more=more))

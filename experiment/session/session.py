@@ -140,6 +140,8 @@ def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
     """The training trials, each with feedback, until the study's limit or criterion."""
     world, practice = run.world, study.part(task_set.trials[0].levels).practice
     limit = practice.limit
+    if practice.explore and world.explores:
+        run.play(run.scenes.exploring(task_set.trials[0]), practice.explore)
     right: list[bool] = []
     began = world.clock.now()
     for trial in task_set.training:

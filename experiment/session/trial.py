@@ -33,6 +33,7 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
+from seethrough.tasks.kit.explore import EXPLORE
 from seethrough.tasks.kit.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
@@ -110,6 +111,8 @@ class TrialRun:
 
     def task(self, trial: Trial) -> Task:
         """The trial's task, with what the study lets one say of it."""
+        if trial.task == EXPLORE.name:
+            return EXPLORE
         return as_asked(self.world.tasks[trial.task], self.study, trial)
 
     def look(self, trial: Trial) -> Look:
@@ -149,9 +152,7 @@ class TrialRun:
                     break
             if not running.ended:
                 running.show()
-        return with_confidence(
-            running.record(), self.study, world.input.ask, world.recorder.trial_ends
-        )
+        return with_confidence(running.record(), self.study, world)
 
 
 def _interrupts(event: Event) -> TypeGuard[KeyPress]:

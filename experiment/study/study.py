@@ -25,7 +25,7 @@ from seethrough.experiment.study.study_tables import (
 )
 from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import TASKS, WORLDS
-from seethrough.tasks.kit.base import Setting
+from seethrough.tasks.kit.base import NoParameters, Setting
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,8 @@ class Study:
     def setting(self, trial: Trial) -> Setting:
         """Where and how a trial's task is set."""
         part = self.part(trial.levels)
-        own = part.limits.tables.get(trial.task) or TASKS[trial.task].Parameters()
+        plain = TASKS[trial.task].Parameters if trial.task in TASKS else NoParameters
+        own = part.limits.tables.get(trial.task) or plain()
         return Setting(WORLDS[part.world], part.place, own)
 
     def tasks(self) -> tuple[str, ...]:
@@ -115,6 +116,8 @@ class Study:
         ]
         plain = ("study", "design", "practice", "display", "session", "analysis")
         said = {name: json.loads(getattr(self, name).model_dump_json()) for name in plain}
+        if not self.practice.explore:
+            del said["practice"]["explore"]  # so a study of before is the same study
         if not self.design.tasks:
             del said["design"]["tasks"]  # every cell's levels say them
         return {

@@ -8,6 +8,7 @@ from typing import Any
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
 from seethrough.tasks.kit.base import Setting, Task
+from seethrough.tasks.kit.explore import EXPLORE
 from seethrough.tasks.kit.world import OWN
 
 
@@ -31,6 +32,13 @@ class StudyScenes:
         if key not in self._shared:
             self._shared[key] = task.make_scene(rng, setting)
         return self._shared[key]
+
+    def exploring(self, trial: Trial) -> Trial:
+        """What one looks around in before the practice: a place like this trial's, no trial's."""
+        return replace(
+            trial, in_set=0, task=EXPLORE.name, scene="explore", training=True,
+            stream=(*trial.stream[:-1], 3 * TRAINING_TRIAL),
+        )  # fmt: skip
 
     def example(self, trial: Trial) -> Trial:
         """A trial like this one whose scene no trial of the study uses: for instructions."""

@@ -162,6 +162,11 @@ class PracticeTable(Table):
         key("most time for the practice trials of a task set; 0: no limit", "s", scope=BLOCK,
             ge=0, le=1e9),
     ] = 300.0  # fmt: skip
+    explore: Annotated[
+        float,
+        key("time to look around freely in a scene before the practice trials, which Enter ends; "
+            "0: none", "s", scope=BLOCK, ge=0, le=1e9),
+    ] = 0.0  # fmt: skip
     until: Annotated[
         tuple[int, int] | None,
         key("practise until so many of the last so many are right, as [3, 4]; none: `trials`",
