@@ -20,6 +20,7 @@ BENCHES = (
     "looks",
     "ordering",
     "ordering_accuracy",
+    "pages",
     "session",
     "simulate",
     "speed",

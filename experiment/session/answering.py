@@ -42,6 +42,9 @@ class _Task:
     Parameters, texts = NoParameters, NO_TEXTS
     simulate = None
 
+    def begin(self, made: object, setting: object, aspect: float) -> bool:
+        return False
+
     def view(self, state: bool) -> View:
         return NOTHING
 
@@ -71,8 +74,8 @@ class _Tasks(Mapping[str, Any]):
 class _NoScenes:
     """Begins a trial without a scene."""
 
-    def begin(self, task: Any, trial: Any, aspect: float) -> bool:
-        return False
+    def begin(self, task: Any, trial: Any, aspect: float) -> object:
+        return task.begin(None, None, aspect)
 
 
 class _Hand:
