@@ -28,7 +28,7 @@ def question(base: Mapping[str, Any], rng: np.random.Generator) -> Made:
     wrong: dict[str, Callable[[], object]] = {
         "unknown kind": lambda: hard.update(use=_pick(rng, ["liker", "", "x" * 300, "\n"]) or "no"),
         "unknown key": lambda: hard.update(pionts=7),
-        "no such moment": lambda: hard.update(when=_pick(rng, ["often", "trials", "", "\x1b"]) + "x"),
+        "no such moment": lambda: hard.update(when=_pick(rng, ["often", "\x1b"]) + "x"),
         "unknown factor": lambda: hard.update(each=["view"]),
         "factors that are none": lambda: hard.update(each=_pick(rng, ["scenario", 3, [1], [[]]])),
         "only at no level": lambda: hard.update(only={"scenario": "nowhere"}),
@@ -59,7 +59,8 @@ def question(base: Mapping[str, Any], rng: np.random.Generator) -> Made:
             c={"use": "ranking", "text": "?", "options": ["a", "b", "a"]}),
         "right that is none": lambda: asked.update(
             c={"use": "choice", "text": "?", "options": ["a", "b"], "right": "c"}),
-        "low above high": lambda: asked.update(n={"use": "number", "text": "?", "low": 9, "high": 1}),
+        "low above high": lambda: asked.update(
+            n={"use": "number", "text": "?", "low": 9, "high": 1}),
         "letters that there are not": lambda: why.update(text="漢字"),
         "weights": lambda: asked.update(tlx={"weighted": _pick(rng, [1, "yes", [True]])}),
         "a mixed factor between trials": lambda: (
@@ -127,8 +128,8 @@ def plug_in(base: Mapping[str, Any], rng: np.random.Generator) -> Made:
     study = copy.deepcopy(dict(base))
     kind = _pick(rng, ["technique", "world", "task", "question"])
     code = {"mine.py": b"raise SystemExit('it ran')\n"}
-    how = _pick(rng, ["not trusted", "no file", "elsewhere", "no text", "a folder", "a name of ours",
-                      "keys beside", "a described one"])  # fmt: skip
+    how = _pick(rng, ["not trusted", "no file", "elsewhere", "no text", "a folder",
+                      "a name of ours", "keys beside", "a described one"])  # fmt: skip
     own: Any = {"file": "mine.py"}
     name = "mine"
     if how == "no file":
