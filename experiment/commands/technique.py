@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from itertools import chain
 from pathlib import Path
 
 from seethrough import registry
@@ -20,6 +21,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     tried = inner.add_parser("check", help="run the suite that every technique has to pass")
     tried.add_argument("name", metavar="NAME", help="a technique, as `list` names it, or a file")
     tried.add_argument("--trust", action="store_true", help=TRUST)
+    tried.add_argument(
+        "--all", action="store_true", help="exactness as well on every scene and option: minutes"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -36,7 +40,8 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(
             f"technique check {short(args.name)}: {unknown(args.name, names, 'technique')}"
         )
-    from seethrough.experiment.suites.technique_suite import check
+    from seethrough.experiment.suites.requirements import asked
+    from seethrough.experiment.suites.technique_suite import check, check_all
     from seethrough.renderer.gpu.device.context import standalone
 
     try:
@@ -44,7 +49,9 @@ def run(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         raise InputError(str(error)) from error
     holds = True
-    for finding in check(registry.get("technique", args.name), context):
+    technique = registry.get("technique", args.name)
+    more = check_all(technique, context) if args.all else ()
+    for finding in chain(check(technique, context), [asked(technique)], more):
         print(finding, flush=True)
         holds &= finding.holds
     return 0 if holds else 1

@@ -77,13 +77,12 @@ class Texts:
         """Where a text stands among all."""
         return list(self._texts).index(key)
 
-    def of_others(self, tasks: Set[str], worlds: Set[str], questions: Set[str]) -> dict[str, bool]:
-        """Text of a task, world or kind of question → whether it is one of these."""
-        named = {"task": tasks, "world": worlds, "question": questions}
+    def of_others(self, used: Mapping[str, Set[str]]) -> dict[str, bool]:
+        """Text of a plug-in → whether that is one of these, by kind."""
         found: dict[str, bool] = {}
         for kind, name, texts in _each_plugin():
             for key in texts.get("en", {}):
-                found[key] = found.get(key, False) or name in named[kind]
+                found[key] = found.get(key, False) or name in used[kind]
         return found
 
     def keys(self) -> frozenset[str]:
@@ -92,7 +91,7 @@ class Texts:
 
 
 def _of_plugins(language: str) -> dict[str, str]:
-    """What tasks, worlds and question kinds bring along; in English what they have no other of."""
+    """What plug-ins of every kind bring along; in English what they have no other of."""
     found: dict[str, str] = {}
     for _, _, texts in _each_plugin():
         found |= {**texts.get("en", {}), **texts.get(language, {})}
@@ -101,7 +100,7 @@ def _of_plugins(language: str) -> dict[str, str]:
 
 def _each_plugin() -> Iterator[tuple[str, str, OwnTexts]]:
     """(kind, name, texts) of each that brings some along."""
-    for kind in ("task", "world", "question"):
+    for kind in ("technique", "task", "world", "question"):
         for name in registry.known(kind):
             try:
                 texts = registry.get(kind, name).texts

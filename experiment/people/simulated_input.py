@@ -10,12 +10,21 @@ from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.session.strangers import called
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.renderer.techniques.base import Own
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, Tick
 
 
 class Looks(Protocol):
     """A display that tells what can be seen in the view it shows."""
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of the view."""
+
+    @property
+    def technique(self) -> Own:
+        """What the view shown last is drawn with."""
 
     def look(self) -> Visibility:
         """What can be seen in the view shown last."""
@@ -39,9 +48,11 @@ class SimulatedInput:
 
     def events(self, view: View) -> list[Event]:
         """The participant's next events, and a Tick at the time of the last."""
+        display = self.display
         play = partial(
-            self.participant.events, view, self.display.look, self.clock.now(), self._task
-        )
+            self.participant.events, view, display.look, self.clock.now(), self._task,
+            display.technique, display.aspect,
+        )  # fmt: skip
         events = called("task", self._task, "simulate", play)
         end = max([e.time for e in events], default=self.clock.now())
         self.clock.advance(end)

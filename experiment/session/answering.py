@@ -18,7 +18,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import NoParameters, Outcome, View
 from seethrough.tasks.kit.events import Event, Tick
 from seethrough.tasks.kit.measure import Measure
-from seethrough.tasks.kit.world import NO_TEXTS
+from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS
 
 NOTHING = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
 FRAME = 0.5  # s
@@ -40,7 +40,7 @@ class _Task:
     worlds: tuple[str, ...] = ()
     measures: tuple[Measure, ...] = ()
     Parameters, texts = NoParameters, NO_TEXTS
-    simulate = None
+    simulate, takes = None, NO_KEYS
 
     def begin(self, made: object, setting: object, aspect: float) -> bool:
         return False

@@ -97,7 +97,7 @@ class Watched:
         self.name, self.code, self.version = task.name, task.code, task.version
         self.source, self.texts, self.simulate = task.source, task.texts, task.simulate
         self.worlds, self.Parameters, self.measures = task.worlds, task.Parameters, task.measures
-        self.title, self.instruction = task.title, task.instruction
+        self.title, self.instruction, self.takes = task.title, task.instruction, task.takes
 
     def _call(self, what: str, call: Callable[[], Made], kinds: type | UnionType = object) -> Made:
         found = called("task", self.name, what, call)

@@ -89,7 +89,18 @@ def needed(study: Study) -> dict[str, str]:
     kinds = any(part.world != "abstract" for part in study.parts.values()) or "depth_test" in uses
     sure = [part.limits.options(t) for part in study.parts.values() for t in part.design.tasks]
     texts = Texts("en", study.texts)
-    plugins = texts.of_others({*study.tasks()}, {part.world for part in study.parts.values()}, uses)
+    plugins = texts.of_others(
+        {
+            "technique": {  # who reads how to use their hands
+                part.technique_name
+                for part in study.parts.values()
+                if part.technique.technique.active(part.technique)
+            },
+            "world": {part.world for part in study.parts.values()},
+            "task": {*study.tasks()},
+            "question": uses,
+        }
+    )
     found = {}
     for key in sorted(texts.keys(), key=texts.place):
         table = key.partition(".")[0]
@@ -161,8 +172,13 @@ def template(study: Study, given: Mapping[str, str]) -> str:
     of it already."""
     parts = [f"# Texts of the study {study.study.name}: fill in what stands between the quotes."]
     tables: dict[str, list[str]] = {}
-    for key, text in needed(study).items():
+    texts = needed(study)
+    for key, text in texts.items():
         table, _, name = key.rpartition(".")
+        while table in texts:  # a text of that name cannot be a table as well
+            table, _, more = table.rpartition(".")
+            name = f"{more}.{name}"
+        name = json.dumps(name) if "." in name else name
         entry = f"# {json.dumps(text, ensure_ascii=False)}\n"
         entry += f"{name} = {json.dumps(given.get(key, ''), ensure_ascii=False)}"
         tables.setdefault(table, []).append(entry)

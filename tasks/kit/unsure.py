@@ -36,7 +36,7 @@ class Unsure:
         )  # fmt: skip
         self.worlds, self.Parameters, self.measures = task.worlds, task.Parameters, task.measures
         self.title, self.instruction, self.texts = task.title, task.instruction, task.texts
-        self.simulate = task.simulate
+        self.simulate, self.takes = task.simulate, task.takes | {f"key:{KEY}"}
 
     def make_scene(self, rng: Generator, setting: Setting) -> object:
         """The task's."""
