@@ -15,6 +15,7 @@ from seethrough.experiment.export.dataset import (
     latest_attempts,
     put,
 )
+from seethrough.experiment.record.columns import measures_among
 
 MEASURES = ("time", "time_clean", "timed_out", "correct", "count_error", "distance")
 NUMBERS = {"true": "1", "false": "0"}
@@ -28,11 +29,12 @@ def wide(data: Dataset, out: Path) -> None:
     naming, grouping = _naming(data), _grouping(data)
     meaning |= {factor: said[factor] for factor in grouping}
     rows: dict[str, dict[str, str]] = {p: {"participant": p} for p in data.participants}
+    own = [c.name for c in measures_among(data.columns("trials"))]
     for trial in latest_attempts(data.tables["trials"]):
         rows[trial["participant"]]["slot"] = trial["slot"]
         for factor in grouping:
             rows[trial["participant"]][factor] = trial[factor]
-        for measure in MEASURES:
+        for measure in (*MEASURES, *own):
             if trial[measure] != "":
                 levels = [trial[factor] for factor in naming]
                 name = "_".join([measure, *levels, trial["task"], trial["trial_in_set"]])

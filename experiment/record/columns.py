@@ -183,6 +183,12 @@ def columns_in(table: str, header: Sequence[str]) -> tuple[Column, ...]:
     )
 
 
+def measures_among(columns: Sequence[Column]) -> list[Column]:
+    """Those of a trial table's columns that are measures of tasks besides what ours measure."""
+    own = set(_own("trials", [column.name for column in columns], MEASURES_AFTER))
+    return [column for column in columns if column.name in own]
+
+
 def factors_in(header: Sequence[str]) -> tuple[str, ...]:
     """The factors among the names of a trial table's columns."""
     return tuple(_own("trials", header, FACTORS_AFTER["trials"]))

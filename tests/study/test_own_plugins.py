@@ -83,6 +83,7 @@ def test_the_toys_go_from_a_study_file_to_its_report(own, capsys):
         ("simulate", "toys.toml", "--participants", "2", "--out", "data", "--trust"),
         ("replay", "data", "--participant", "S01", "--trial", "1", "--verify", "--trust"),
         ("report", "data", "--out", "report"),
+        ("export", "data", "--format", "wide", "--out", "wide"),
     ):
         registry._provided.clear()  # as a new process has it
         assert cli.main(words) == 0, capsys.readouterr()
@@ -100,6 +101,10 @@ def test_the_toys_go_from_a_study_file_to_its_report(own, capsys):
     }
     kept = sorted(p.name for p in (own / "data/plugins").iterdir())
     assert kept == sorted(f"{p['kind']}-{p['name']}-{p['sha256'][:12]}.py" for p in said)
+    with open(own / "wide/wide.csv", encoding="utf-8", newline="") as file:
+        wide = next(csv.DictReader(file))
+    sure = {r["view"]: r["confidence"] for r in rows if r["task"] == "toy_task"}
+    assert {view: wide[f"confidence_{view}_toy_task_1"] for view in sure} == sure
     assert "toy_task" in (own / "report/report.html").read_text("utf-8")
     assert capsys.readouterr().err.count("tried by the suite, once") == 4
 
