@@ -10,10 +10,10 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 from zlib import crc32
 
-from seethrough.experiment.display.display import Input
+from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.questions.choice.choice_question import ChoiceParameters
 from seethrough.experiment.questions.kit import Asking, Row
 from seethrough.experiment.questions.ranking.ranking_question import RankingParameters
@@ -47,12 +47,19 @@ TRIAL = "after_trial"  # the column that says after which one it was asked
 COLOR_CHECK = "color_check"  # its stream has no further word
 
 
+class Asks(Protocol):
+    """Whoever fills pages in."""
+
+    def ask(self, page: Page) -> Answers:
+        """Show a page until it is answered. Raises Leave if the session is to end."""
+
+
 @dataclass(frozen=True)
 class Step:
     """A page. Its rows are written at once, in order: one of `last` says that it was answered."""
 
     last: tuple[Item, ...]
-    ask: Callable[[Input, Given], list[Row]]
+    ask: Callable[[Asks, Given], list[Row]]
     shown: Callable[[Given], bool] = lambda given: True
 
 
@@ -75,7 +82,7 @@ class Planned:
 
 
 def asked(
-    steps: Iterator[Step], person: Input, known: dict[Item, Said] | None = None
+    steps: Iterator[Step], person: Asks, known: dict[Item, Said] | None = None
 ) -> Iterator[list[Row]]:
     """The rows of each page once it is answered; those in `known` are left out, and all go into it.
     Raises Leave."""
@@ -194,7 +201,7 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
     language = study.session_part(slot).study.language
 
     def step(number: int) -> Step:
-        def ask(person: Input, given: Given) -> list[Row]:
+        def ask(person: Asks, given: Given) -> list[Row]:
             known = {item: said.value for (item, at), said in given.items() if at == cell}
             now = replace(asking, given=known)
             pages = called("question", planned.use, "pages", partial(kind.pages, parameters, now))
