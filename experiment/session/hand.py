@@ -9,16 +9,27 @@ from dataclasses import replace
 
 from seethrough.renderer.techniques.base import Own, Shot
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Wheel
+from seethrough.tasks.kit.events import (
+    Event,
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerPress,
+    Wheel,
+)
 
 HEIGHT = 1000  # of the shot that events are told in: positions are in view units
+PICKED = 600  # of the picture in which is looked what a click hits
+AIMING = ("enter", "space")  # keys that click where the view aims
 
 
 class Hand:
     """Keeps the state of a trial's technique (its parameters), from the first event on."""
 
-    def __init__(self, technique: Own, aspect: float) -> None:
+    def __init__(self, technique: Own, aspect: float, window: int = HEIGHT) -> None:
+        """`window`: how many pixels high the window is that the study is made for."""
         self._technique, self._rules = technique, technique.technique
+        self._window = window
         self._size = (round(aspect * HEIGHT), HEIGHT)
         self.state = self._rules.begin(technique)
 
@@ -29,6 +40,25 @@ class Hand:
     def shown(self, view: View) -> View:
         """A task's view with the technique's state."""
         return view if self.state is None else replace(view, drawn=self.state)
+
+    def pointed(self, event: Event, view: View) -> Event:
+        """The event, told what it hits in the frame, where the view wants to know: a press where it
+        is, enter and space where the view aims."""
+        if view.aim is None:
+            return event
+        if isinstance(event, PointerPress):
+            return replace(event, thing=self._thing(view, (event.x, event.y)))
+        if isinstance(event, KeyPress) and event.key in AIMING:
+            return replace(event, thing=self._thing(view, view.aim))
+        return event
+
+    def _thing(self, view: View, place: tuple[float, float]) -> int:
+        from seethrough.renderer.reference.pointed import pointed  # only where things are clicked
+
+        width, height = self._size
+        size = (round(width * PICKED / height), PICKED)
+        shot = Shot(view.scene, view.camera, size, PICKED / self._window)
+        return pointed(shot, self._technique, self.state, place)
 
     def on_event(self, event: Event, view: View) -> bool:
         """Let the technique see an event, with what the frame shows. Whether it used it up."""
