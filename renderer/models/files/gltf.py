@@ -97,7 +97,9 @@ def _part(
     if node.joints is not None and "JOINTS_0" in attributes:
         points = node.skinned(points, attributes)
     else:
-        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+        with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is refused later
+            plain = np.array_equal(matrix, np.eye(4))
+            points = points if plain else points @ matrix[:3, :3].T + matrix[:3, 3]
     triangles = _triangles(file, primitive, len(points), what)
     if node.joints is None and np.linalg.det(matrix[:3, :3]) < 0:
         triangles = triangles[:, ::-1]

@@ -12,6 +12,7 @@ from seethrough.renderer.models.files.part import Array, Found
 from seethrough.renderer.models.files.source import Refused
 
 _INSTANCED = "EXT_mesh_gpu_instancing"
+_COUNTS = {"matrix": 16, "rotation": 4, "scale": 3, "translation": 3}
 _MOST_INSTANCES = 10_000
 
 
@@ -144,7 +145,10 @@ class Nodes:
 
 
 def _matrix(raw: dict[str, Any], what: str) -> Array:
-    """(4, 4) parent ← node."""
+    """(4, 4) parent ← node. Raises Refused."""
+    for name, count in _COUNTS.items():
+        if name in raw and np.shape(raw[name]) != (count,):
+            raise Refused(f"{what}.{name} = {str(raw[name])[:40]}: expected {count} numbers")
     if "matrix" in raw:
         matrix = np.array(raw["matrix"], float).reshape(4, 4).T
     else:

@@ -75,7 +75,11 @@ def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileF
             yield _no_camera("start", p.start, place)
     by_file = {place.file: place for place in places}
     for number, item in enumerate(p.items):
-        place = by_file[item.file or p.files[0]]
+        place = by_file.get(item.file) if item.file or len(places) > 1 else places[0]
+        if place is None:
+            said = f"expected one of {', '.join(p.files)[:100]}"
+            yield FileFault(f"items[{number}].file", item.file, said)
+            continue
         if item.ask not in place.names:
             said = _expected(f"a thing of {place.file}", item.ask, place.names)
             yield FileFault(f"items[{number}].ask", item.ask, said)

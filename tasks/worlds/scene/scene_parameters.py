@@ -97,12 +97,6 @@ class SceneParameters:
                 f"sha256 = {[s[:12] for s in self.sha256[:3]]}, expected an array of 64 "
                 "hexadecimal digits for each file, or none"
             )
-        for number, item in enumerate(self.items):
-            if item.file not in (*names, "") or (not item.file and len(names) > 1):
-                raise ValueError(
-                    f"items[{number}].file = {item.file[:40]!r}, expected one of "
-                    f"{', '.join(names)[:100]}"
-                )
 
     @property
     def controls(self) -> str:

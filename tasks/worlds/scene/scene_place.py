@@ -73,14 +73,16 @@ def read(p: SceneParameters, file: str) -> SceneFile:
     if p.sha256 and p.folder and (kept := Path(p.folder) / kept_name(p, file)).is_file():
         return _unpacked(kept)
     path = path_of(p, file)
-    found = _read(path, p.detail)
+    about = path.stat() if path.is_file() else None
+    found = _read(path, p.detail, (about.st_mtime_ns, about.st_size) if about else ())
     if p.sha256 and p.sha256[p.files.index(file)] != found.digest:
         raise ValueError(f"{path}: is another file now than the study began with")
     return found
 
 
 @cache
-def _read(path: Path, detail: int) -> SceneFile:
+def _read(path: Path, detail: int, state: tuple[int, ...]) -> SceneFile:
+    """Kept for as long as the file stays as it is."""
     return read_scene(path, detail)
 
 
