@@ -29,7 +29,8 @@ class ScenePlace:
     """A scene, what participants call its things (`labels`), and where one may stand.
 
     An orbit is about the origin; `radius` reaches from there over everything. `cameras` are the
-    file's, by name; `start` is the one to begin at, "" for none.
+    file's, by name; `start` is the one to begin at, "" for none; `notes` say what is not shown as
+    it is in the file.
     """
 
     scene: Scene
@@ -39,6 +40,7 @@ class ScenePlace:
     cameras: Mapping[str, Camera]
     radius: float
     start: str = ""
+    notes: tuple[str, ...] = ()
 
     @property
     def targets(self) -> NDArray[np.int64]:
@@ -114,7 +116,7 @@ def opened(p: SceneParameters, file: str) -> ScenePlace:
     cameras = {s.name: _camera(s, moved @ whole, p.unit, radius) for s in found.standpoints}
     names = tuple(thing.name for thing in found.things)
     labels = tuple(str(own.get("label") or n) for own, n in zip(tags, names, strict=True))
-    return ScenePlace(scene, file, names, labels, cameras, radius, p.start)
+    return ScenePlace(scene, file, names, labels, cameras, radius, p.start, found.notes)
 
 
 def _metres(p: SceneParameters) -> NDArray[np.float64]:

@@ -77,18 +77,22 @@ class SceneWorld:
         return standing(place, parameters, aspect)
 
     def views(self, parameters: SceneParameters, first: Camera) -> list[Camera]:
-        """Round the middle; from where one begins to every side; or the file's cameras."""
+        """Round the middle; the file's cameras; who walks looks to every side from there, or from
+        where one begins and a step away."""
         if parameters.move == "orbit":
             return round_the_middle(first)
-        if parameters.move == "walk":
-            step = first.far / 32  # an eighth of the scene
-            places = [first.eye + step * np.array([x, 0.0, z]) for x in (-1, 1) for z in (-1, 1)]
-            return headings(first, [first.eye, *places])
+        walks = parameters.move == "walk"
         for file in parameters.files:
             cameras = list(opened(parameters, file).cameras.values())
-            if any(np.array_equal(camera.eye, first.eye) for camera in cameras):
-                return cameras
-        return round_the_middle(first)
+            places = [np.array([c.eye[0], first.eye[1] if walks else c.eye[1], c.eye[2]])
+                      for c in cameras]  # fmt: skip
+            if any(np.array_equal(place, first.eye) for place in places):
+                return headings(first, places) if walks else cameras
+        if not walks:
+            return round_the_middle(first)
+        step = first.far / 32  # an eighth of the scene
+        away = [first.eye + step * np.array([x, 0.0, z]) for x in (-1, 1) for z in (-1, 1)]
+        return headings(first, [first.eye, *away])
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:
         """From the start past what is asked for, as far as one walks at all."""
