@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Own, Shot
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import (
@@ -24,11 +25,14 @@ AIMING = ("enter", "space")  # keys that click where the view aims
 
 
 class Hand:
-    """Keeps the state of a trial's technique (its parameters), from the first event on."""
+    """Keeps the state of a trial's technique (its parameters), from the first event on, and has the
+    trial's look."""
 
-    def __init__(self, technique: Own, aspect: float, window: int = HEIGHT) -> None:
+    def __init__(
+        self, technique: Own, aspect: float, look: Look = PLAIN, window: int = HEIGHT
+    ) -> None:
         """`window`: how many pixels high the window is that the study is made for."""
-        self._technique, self._rules = technique, technique.technique
+        self._technique, self._rules, self._look = technique, technique.technique, look
         self._window = window
         self._size = (round(aspect * HEIGHT), HEIGHT)
         self.state = self._rules.begin(technique)
@@ -38,7 +42,8 @@ class Hand:
         return kind_of(event) in self._rules.takes
 
     def shown(self, view: View) -> View:
-        """A task's view with the technique's state."""
+        """A task's view as it looks, with the technique's state."""
+        view = view.dressed(self._look)
         return view if self.state is None else replace(view, drawn=self.state)
 
     def pointed(self, event: Event, view: View) -> Event:

@@ -1,6 +1,7 @@
 // Provides what a technique's rule says of a surface: its lit colour where it is kept, nothing where
 // it is removed. A template: `rule` is the technique's own GLSL. With PEELED, only the nearest
-// surface behind the layer before, and the colour comes times its opacity, which is the alpha.
+// surface behind the layer before, and the colour comes times its opacity, which is the alpha. With
+// GHOSTS, what is removed instead, without any colour: lines go along its edges.
 in vec3 offset;
 in vec3 normal;
 in vec3 color;
@@ -61,17 +62,21 @@ void main() {
     s.front = gl_FrontFacing;
     s.number = channel;
     float shown = opacity(s);
+#ifdef GHOSTS
+    if (shown > 0.0 || !s.front) discard;
+#else
     if (shown <= 0.0) discard;
     if (!s.front && !opened(s)) discard;
-    vec3 lit = min(color * shade(s.front ? normal : -normal, -offset), 1.0);
-    lit = mix(lit, tinted.rgb, tinted.a);
+#endif
+    vec3 shown_color = lit(color, s.front ? normal : -normal, offset);
+    shown_color = hazed(mix(shown_color, tinted.rgb, tinted.a), offset);
 #ifdef PEELED
-    picture = vec4(lit * shown, shown);
+    picture = vec4(shown_color * shown, shown);
     vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
     vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
     place = vec4(gl_FragCoord.z, float(object + 1), n.z >= 0.0 ? n.xy : folded);
 #else
-    picture = vec4(lit, 1.0);
+    picture = vec4(shown_color, 1.0);
 #endif
 #if defined(WITH_IDS) && !defined(PEELED)
     id = float(object + 1);

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 from numpy.random import Generator
 
+from seethrough.renderer.look.dressed import dressed
+from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan, Point
 from seethrough.tasks.kit.measure import Measure
-from seethrough.tasks.kit.world import NO_TEXTS, Texts, World
+from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Texts, World
 
 if TYPE_CHECKING:
     from seethrough.tasks.kit.skills.strategy import Strategy
@@ -31,6 +33,11 @@ class View:
     captured: bool = False
     drawn: Any = None
     aim: Point | None = None
+
+    def dressed(self, look: Look) -> View:
+        """The view of the scene as it looks."""
+        scene = dressed(self.scene, look)
+        return self if scene is self.scene else replace(self, scene=scene)
 
 
 @dataclass(frozen=True)
@@ -85,11 +92,12 @@ class NoParameters:
 
 class Basics:
     """What most tasks have in common, to be inherited: any place of the world will do, the question
-    is about its targets, and there are no parameters."""
+    is about its targets, no keys are taken, and there are no parameters."""
 
     name: str
     version = "1"
     least = 1  # targets that a scene has to have
+    takes = NO_KEYS
     Parameters: Any = NoParameters
     texts: Texts = NO_TEXTS
 
@@ -127,8 +135,9 @@ class Task(Protocol):
 
     `code` is how a paper calls it (T1), `worlds` are those it can be set in (or
     ANYWHERE), `measures` what it
-    measures beside the time, `title` and `instruction` the names of its texts, and `simulate` how a
-    simulated person does it.
+    measures beside the time, `title` and `instruction` the names of its texts, `takes` the keys
+    that it answers to beside those of its world ("key:enter"), and `simulate` how a simulated
+    person does it.
     """
 
     name: str
@@ -140,6 +149,7 @@ class Task(Protocol):
     measures: tuple[Measure, ...]
     title: str
     instruction: str
+    takes: frozenset[str]
     texts: Texts
     simulate: Strategy
 

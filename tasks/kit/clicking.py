@@ -19,9 +19,11 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
 )
 from seethrough.tasks.kit.hud import Element, Mark, Point
+from seethrough.tasks.kit.world import keys
 
 SLIP = 0.012  # view heights that the pointer may move while the button is down
 RATE = 0.4  # view heights a second that keys move the cross
+TAKES = keys(("a", "d", "w", "s", "enter", "space"))
 STEPS = {"a": (-1, 0), "d": (1, 0), "w": (0, -1), "s": (0, 1)}
 
 

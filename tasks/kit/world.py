@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -19,6 +19,7 @@ from seethrough.tasks.kit.events import Event
 
 OWN, SHARED, FILES = "own", "shared", "files"
 ANYWHERE = ("*",)  # the worlds of a task that takes any place with targets
+NO_KEYS: frozenset[str] = frozenset()
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
 NO_TEXTS: Texts = MappingProxyType({})
 
@@ -106,7 +107,8 @@ class World(Protocol):
     """A world, without state: parameters go in, places come out.
 
     `scenario` is what tables call it. `moving`: "orbit" turns the world about its middle, "walk"
-    moves through it with the pointer captured. `controls` is the text that says how.
+    moves through it with the pointer captured. `controls` is the text that says how, `takes` are
+    the keys that do it, as techniques name them: "key:up".
     """
 
     name: str
@@ -115,6 +117,7 @@ class World(Protocol):
     scenario: str
     moving: str
     controls: str
+    takes: frozenset[str]
     Parameters: Any
     texts: Texts
 
@@ -134,6 +137,11 @@ class World(Protocol):
 def moving_of(world: World, parameters: object) -> str:
     """How one moves in a world with these parameters: as they say themselves, else as it says."""
     return str(getattr(parameters, "move", world.moving))
+
+
+def keys(names: Iterable[str]) -> frozenset[str]:
+    """Keys as `takes` names them."""
+    return frozenset(f"key:{name}" for name in names)
 
 
 def scenes(default: str) -> Any:

@@ -13,7 +13,7 @@ from numpy.random import Generator
 from seethrough.renderer.declared import check, key
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, View
-from seethrough.tasks.kit.clicking import Clicking, clicking
+from seethrough.tasks.kit.clicking import TAKES, Clicking, clicking
 from seethrough.tasks.kit.controls import Orbit
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
@@ -64,6 +64,7 @@ class Locate(Basics):
     name, code = "locate", "L"
     source = "Vanacken2007"
     worlds = ("scene",)
+    takes = TAKES
     Parameters = LocateParameters
     measures: tuple[Measure, ...] = (WRONG_CLICKS, CORRECT)
     texts: Texts = OwnTexts("seethrough.tasks.locate")

@@ -15,7 +15,7 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, View
-from seethrough.tasks.kit.clicking import Clicking, clicking, of_free_pointer
+from seethrough.tasks.kit.clicking import TAKES, Clicking, clicking, of_free_pointer
 from seethrough.tasks.kit.controls import Orbit
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
@@ -77,6 +77,7 @@ class Select(Basics):
     name, code = "select", "S"
     source = "Vanacken2007"
     worlds = ANYWHERE
+    takes = TAKES
     Parameters = SelectParameters
     measures: tuple[Measure, ...] = (MISSES,)
     texts: Texts = OwnTexts("seethrough.tasks.select")

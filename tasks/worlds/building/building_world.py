@@ -7,10 +7,10 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from seethrough.renderer.scene.camera import Camera
-from seethrough.tasks.kit.controls import Walk, walk
+from seethrough.tasks.kit.controls import ARROWS, Walk, walk
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.views import headings, nearest_next
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.worlds.building.building import Building, unique_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
@@ -23,6 +23,7 @@ class BuildingWorld:
     scenario = "walkthrough"
     moving = "walk"
     controls = "walkthrough.controls"
+    takes = keys(ARROWS)
     Parameters = BuildingParameters
     texts: Texts = OwnTexts("seethrough.tasks.worlds.building")
 

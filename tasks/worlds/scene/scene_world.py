@@ -11,10 +11,10 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from seethrough.renderer.scene.camera import Camera
-from seethrough.tasks.kit.controls import Orbit, Walk
+from seethrough.tasks.kit.controls import ARROWS, Orbit, Walk
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.views import headings, nearest_next, round_the_middle
-from seethrough.tasks.kit.world import Asked, Texts
+from seethrough.tasks.kit.world import Asked, Texts, keys
 from seethrough.tasks.worlds.scene import scene_files
 from seethrough.tasks.worlds.scene.scene_parameters import SceneParameters
 from seethrough.tasks.worlds.scene.scene_place import ScenePlace, opened
@@ -29,6 +29,7 @@ class SceneWorld:
     scenario = "scene"
     moving = "orbit"
     controls = "scene.orbit"
+    takes = keys(ARROWS)
     Parameters = SceneParameters
     texts: Texts = OwnTexts("seethrough.tasks.worlds.scene")
 
