@@ -25,6 +25,7 @@ BENCHES = (
     "speed",
     "statistics",
     "techniques",
+    "worlds",
 )
 
 

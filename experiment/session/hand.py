@@ -20,7 +20,8 @@ from seethrough.tasks.kit.events import (
 )
 
 HEIGHT = 1000  # of the shot that events are told in: positions are in view units
-PICKED = 600  # of the picture in which is looked what a click hits
+PICKED = 600  # of the picture in which is looked what a click hits,
+COARSE = 300  # and where a technique's rule has to see all targets for it
 AIMING = ("enter", "space")  # keys that click where the view aims
 
 
@@ -58,11 +59,11 @@ class Hand:
         return event
 
     def _thing(self, view: View, place: tuple[float, float]) -> int:
-        from seethrough.renderer.reference.pointed import pointed  # only where things are clicked
+        from seethrough.renderer.reference.pointed import is_local, pointed  # only for clicks
 
-        width, height = self._size
-        size = (round(width * PICKED / height), PICKED)
-        shot = Shot(view.scene, view.camera, size, PICKED / self._window)
+        (width, height), high = self._size, PICKED if is_local(self._technique) else COARSE
+        size = (round(width * high / height), high)
+        shot = Shot(view.scene, view.camera, size, high / self._window)
         return pointed(shot, self._technique, self.state, place)
 
     def on_event(self, event: Event, view: View) -> bool:

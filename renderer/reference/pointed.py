@@ -13,9 +13,10 @@ from seethrough.renderer.reference.reference import exact_shares
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Own, Shot
+from seethrough.renderer.techniques.base import Own, Plain, Shot
 
 NOTHING = -1
+ROUND = 3  # pixels about the place that are looked at: a line is as wide
 
 
 def pointed(shot: Shot, technique: Own, state: Own, place: tuple[float, float]) -> int:
@@ -33,9 +34,17 @@ def pointed(shot: Shot, technique: Own, state: Own, place: tuple[float, float]) 
     near = _on_ray(shown, shot.camera, _direction(shot, column + 0.5, row + 0.5))
     if not near.any():
         return NOTHING
-    among = np.nonzero(near | shown.targets)[0]
+    # Without anything that is not local to a pixel, targets elsewhere are nothing to it.
+    local = is_local(technique)
+    among = np.nonzero(near if local else near | shown.targets)[0]
     part = Scene(tuple(shown.objects[i] for i in among), shown.background)
-    seen, _ = surfaces(Shot(part, shot.camera, shot.size, shot.scale))
+    window = [row - ROUND, row + ROUND, column - ROUND, column + ROUND]
+    parts = np.tile(
+        np.clip(window, 0, [height - 1, height - 1, width - 1, width - 1]), (len(among), 1)
+    )
+    if not local:
+        parts[part.targets] = [0, height - 1, 0, width - 1]
+    seen, _ = surfaces(Shot(part, shot.camera, shot.size, shot.scale), parts)
     look = rules.rule(technique, state, seen, rules.known(technique, state, seen))
     objects, shares = exact_shares(seen, look, row * width + column)
     if not len(objects):
@@ -45,6 +54,12 @@ def pointed(shot: Shot, technique: Own, state: Own, place: tuple[float, float]) 
     found = int(among[best])
     hidden = 1.0 - float(shares.sum()) > float(total[best])
     return NOTHING if hidden or found >= len(shot.scene.objects) else found
+
+
+def is_local(technique: Own) -> bool:
+    """Whether all that a technique's rule knows of a surface lies at its pixel: then a click costs
+    little at any size."""
+    return type(technique.technique).known is Plain.known
 
 
 def _direction(shot: Shot, column: float, row: float) -> Floats:
