@@ -146,8 +146,8 @@ class HudDrawing:
                 self.list.add_circle(imgui.ImVec2(x * s, y * s), r, color, 0, thick)
                 continue
             for dx, dy in ((r, 0.0), (0.0, r)):
-                ends = (imgui.ImVec2(x * s + k * dx, y * s + k * dy) for k in (-1, 1))
-                self.list.add_line(*ends, color, thick)
+                start, end = (imgui.ImVec2(x * s + k * dx, y * s + k * dy) for k in (-1, 1))
+                self.list.add_line(start, end, color, thick)
 
     def _plan(self, plan: FloorPlan) -> None:
         draw_plan(self.list, plan, self.scale)

@@ -75,19 +75,19 @@ def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileF
             yield _no_camera("start", p.start, place)
     by_file = {place.file: place for place in places}
     for number, item in enumerate(p.items):
-        place = by_file.get(item.file) if item.file or len(places) > 1 else places[0]
-        if place is None:
+        own = by_file.get(item.file) if item.file or len(places) > 1 else places[0]
+        if own is None:
             said = f"expected one of {', '.join(p.files)[:100]}"
             yield FileFault(f"items[{number}].file", item.file, said)
             continue
-        if item.ask not in place.names:
-            said = _expected(f"a thing of {place.file}", item.ask, place.names)
+        if item.ask not in own.names:
+            said = _expected(f"a thing of {own.file}", item.ask, own.names)
             yield FileFault(f"items[{number}].ask", item.ask, said)
-        elif not place.scene.targets[place.names.index(item.ask)]:
+        elif not own.scene.targets[own.names.index(item.ask)]:
             said = "expected a target: tag it with target = true"
             yield FileFault(f"items[{number}].ask", item.ask, said)
-        if item.start and item.start not in place.cameras:
-            yield _no_camera(f"items[{number}].start", item.start, place)
+        if item.start and item.start not in own.cameras:
+            yield _no_camera(f"items[{number}].start", item.start, own)
 
 
 def _no_camera(key: str, value: str, place: ScenePlace) -> FileFault:
