@@ -38,10 +38,9 @@ Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
 FREE = {
     "pace": 3.0,  # decisions: all mental times
     "recheck": 4.0,  # thoroughness: telling a thing as counted already
-    "patience": 3.0,  # thoroughness: views without news before a count is believed
+    "worth": 4.0,  # thoroughness: seconds one would spend for one more thing
     "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
-    "trust": 1.6,  # caution: how far a view through walls is believed
-    "trust_cloud": 2.4,  # caution: patience saved by seeing things through others, up to .96
+    "cloud_depth": 2.0,  # sharpness: how surely a thing is known again in a world that turns
     "sd_person": 4.0,
     "sd_task": 4.0,
     "sd_trial": 4.0,
@@ -101,8 +100,7 @@ def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
     for (name, factor), value in zip(FREE.items(), x, strict=True):
         scale = exp(float(np.clip(value, -log(factor), log(factor))))
         changes[name] = getattr(profile, name) * scale
-    for share in ("diligence", "trust", "trust_cloud"):
-        changes[share] = min(changes[share], 1.0)
+    changes["diligence"] = min(changes["diligence"], 1.0)
     return replace(profile, **changes)
 
 
