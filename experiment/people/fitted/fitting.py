@@ -1,4 +1,4 @@
-"""Fitting: a profile whose times come near the published ones.
+"""Fitting: a profile whose times and errors come near the published ones.
 
 Every evaluation uses the same random streams, trial by trial, so that profiles differ and luck
 does not. Means come first: times are nearly proportional to the pace.
@@ -19,7 +19,8 @@ from scipy.stats.qmc import Halton
 
 from seethrough.experiment.people.fitted.calibration import (
     FITTED,
-    TimeMeasure,
+    Key,
+    Moments,
     measured,
     misfit,
     published,
@@ -52,7 +53,7 @@ STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chan
 PACES = 1  # evaluations that correct the pace alone
 STEPS = 6  # evaluations of the larger crowd, once its derivatives are there
 LAST = 1 + len(FREE) + STEPS  # all evaluations of the larger crowd
-LOOSE = 1.0  # logarithm of the factor by which a constant may move for one tolerance of misfit
+LOOSE = 1.0  # logarithm of the factor by which a constant may move for one standard error
 
 
 class Crowd:
@@ -70,7 +71,7 @@ class Crowd:
         self.traits = ndtri(even.random(count))
 
     def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, object]]:
-        """Who, which task and level, and how long: every trial of `tasks`, after its training.
+        """Who, which task and level, how long, how far off, for every trial of `tasks`.
 
         What is drawn on the way is kept person by person: an interrupted fit goes on with it.
         """
@@ -85,10 +86,13 @@ class Crowd:
                 for trial in task_set.training:
                     play_trial(person, self.pool, trial)
                 for trial in task_set.trials:
-                    time = play_trial(person, self.pool, trial)[0].time
+                    record = play_trial(person, self.pool, trial)[0]
+                    of = record.outcome
                     rows.append(
-                        {"participant": slot, "task": trial.task,
-                         "transparency": trial.levels["transparency"], "time": time}
+                        {"participant": slot, "task": trial.task, "time": record.time,
+                         "transparency": trial.levels["transparency"], "truth": of.truth,
+                         "count_error": of.count_error, "distance": of.distance,
+                         "correct": of.correct}
                     )  # fmt: skip
             self.pool.looks.flush()
         return rows
@@ -112,7 +116,7 @@ class _Search:
         self.value, self.best, self.x = np.inf, start, np.zeros(len(FREE))
         self.count = 0
 
-    def found(self, x: NDArray[np.float64]) -> dict[str, TimeMeasure]:
+    def found(self, x: NDArray[np.float64]) -> dict[Key, Moments]:
         """What the crowd does with the constants at `x`."""
         profile = with_free(self.start, x)
         simulated = measured(self.play(profile))
@@ -124,7 +128,7 @@ class _Search:
         return simulated
 
     def residuals(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Tolerances off; and how far the constants have moved, so that none moves for nothing."""
+        """Standard errors off; and how far constants have moved, so that none moves for nothing."""
         return np.concatenate([residuals(self.found(x)), x / LOOSE])
 
 
@@ -157,12 +161,14 @@ def calibrate(
     return search.best, float(search.value)
 
 
-def _too_slow(simulated: Mapping[str, TimeMeasure]) -> float:
+def _too_slow(simulated: Mapping[Key, Moments]) -> float:
     """By how much the fitted means are too long: the mean logarithm of their ratios."""
     ratios = [
         ours / theirs
         for task in FITTED
-        for ours, theirs in zip(simulated[task].means, published()[task].means, strict=True)
+        for ours, theirs in zip(
+            simulated[task, "time"].means, published()[task, "time"].means, strict=True
+        )
     ]
     return float(np.mean(np.log(ratios)))
 
