@@ -12,6 +12,7 @@ from scipy import special
 from seethrough.analysis.stats.distributions import noncentral_t_interval, t_quantile
 
 ENOUGH = 0.8
+FAR = 35.0
 MOST = 10_000  # people; who needs more is told ∞
 
 
@@ -20,8 +21,10 @@ def signed_power(
 ) -> float:
     """P(p < α and the predicted sign) with n people."""
     df = n - 1 if df is None else df
-    critical = t_quantile(1 - alpha / sides, df)
-    return float(1 - special.nctdtr(df, delta * sqrt(n), critical))
+    critical, far = t_quantile(1 - alpha / sides, df), delta * sqrt(n)
+    if abs(far) > FAR:
+        return float(far > 0)  # nctdtr has no digits there
+    return float(1 - special.nctdtr(df, far, critical))
 
 
 def wrong_sign(delta: float, n: int, alpha: float) -> float:

@@ -117,7 +117,7 @@ def test_power_asks_what_the_report_asks(tables, tmp_path):
         ("power published --out {t}/p --participants 1..4", "--participants = 1..4: expected A..B"),
         ("power published --out {t}/p --participants many", "--participants = many: expected A..B"),
         ("power published --out {t}/p --replications 3", "--replications = 3: expected a number"),
-        ("power published --out {t}/p", "--effect: expected \"PREDICTION=0.2 sd\", published, or a data"),
+        ("power published --out {t}/p", "--effect: expected \"PREDICTION=0.2 sd\", published"),
         ("power published --out {t}/p --effect {t}/nix", "published, or a data folder"),
         ("calibrate published --out {t}/c --tables {t}/t --participants 2",
          "--participants = 2: expected at least 3"),

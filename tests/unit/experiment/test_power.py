@@ -40,6 +40,9 @@ def test_closed_form_agrees_with_published_values():
         signed_power(0.0, 16, 0.05), 0.025, rtol=1e-9
     )  # false, and by luck the right way
     assert needed(0.0, 0.05) == needed(-0.3, 0.05) == inf
+    # The larger an effect the fewer it takes, to effects that nobody could overlook.
+    grown = [needed(delta, 0.05) for delta in (0.1, 0.3, 1.0, 3.0, 10.0, 100.0)]
+    assert grown == sorted(grown, reverse=True) and grown[-1] == 3
     # One-sided, 80 %: dz .5 takes 27 (G*Power 3.1, t test, one sample).
     assert needed(0.5, 0.05, sides=1) == 27
 
