@@ -62,6 +62,21 @@ def test_visual_mode_explains_its_effects(tmp_path, capsys):
     assert "hasty" in json.dumps(sidecar) and "crowding" in json.dumps(sidecar)
 
 
+def test_two_workers_play_the_same_real_sessions_as_one(tmp_path):
+    """Byte for byte but for when they were recorded."""
+    told = {}
+    for workers in ("1", "2"):
+        out = tmp_path / workers
+        words = ["simulate", "demo", "--participants", "2", "--workers", workers]
+        assert cli.main([*words, "--out", str(out)]) == 0
+        told[workers] = [
+            {k: v for k, v in row.items() if k not in ("started", "chain")} for row in rows(out)
+        ]
+        traces = sorted(out.glob("data/simulated/*/traces/*"))
+        told[workers].append([(path.name, path.read_bytes()) for path in traces])
+    assert told["1"] == told["2"] and len(told["1"]) == 2 * 8 + 1
+
+
 def test_power_from_the_paper_and_from_simulated_people(tables, tmp_path, capsys):
     page = tmp_path / "p.html"
     words = ["--participants", "8..12", "--replications", "50", "--out", str(page)]
@@ -108,7 +123,8 @@ def test_power_asks_what_the_report_asks(tables, tmp_path):
         ("simulate demo --out {t}/x --profile hero", "--profile = hero: expected one of average"),
         ("simulate demo --out {t}/x --mode data --pool 0", "--pool = 0: expected at least 1 scene"),
         ("simulate demo --out {t}/x --mode data --workers 0", "--workers = 0: expected a number"),
-        ("simulate demo --out {t}/x --workers 2", "expected with --mode data only"),
+        ("simulate demo --out {t}/x --workers 0", "--workers = 0: expected a number from 1"),
+        ("simulate demo --out {t}/x --workers 2 --explain", "expected with one worker"),
         ("simulate demo --out {t}/x --scheduler tcp://h:1", "expected with --mode data only"),
         ("simulate demo --out {t}/x --mode data --scheduler tcp://h:1 --workers 2",
          "--workers and --scheduler: expected one of them"),

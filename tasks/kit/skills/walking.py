@@ -93,7 +93,7 @@ class Walker:
         x, _, z = camera.eye.tolist()
         self.eye = (x, z)
         # What can be seen from a cell is judged from its middle.
-        self.cell = self.known.layout.cell(self.eye)
+        self.cell = self.known.layout.grid.cell(self.eye)
         self.yaw = atan2(-camera.rotation.item(2, 0), camera.rotation.item(0, 0))
 
     def look(self) -> Found:
@@ -194,7 +194,7 @@ class Walker:
         self.through.add(seen, float(expected.sum()))
 
     def _inspect(self) -> None:
-        plan = self.known.layout
+        plan = self.known.layout.grid
         inside = plan.ahead(self.cell, self.yaw)
         here = plan.near(self.cell)
         self.known.inspect(np.where(inside, self.quality(), here))
@@ -207,7 +207,7 @@ class Walker:
             if thing.number not in self.recognised:
                 x, z = self.place(thing.number, thing.clear)
                 place = (x - self.error[0], z - self.error[1])
-                self.known.unclear[thing.number] = self.known.layout.cell(place)
+                self.known.unclear[thing.number] = self.known.layout.grid.cell(place)
 
     def quality(self) -> NDArray[np.float64]:
         """(n,) how surely a thing in each cell would be recognised from where one stands."""
@@ -221,10 +221,10 @@ class Walker:
 
     def _sure(self) -> NDArray[np.float64]:
         """(n,) the same if nothing hid anything; looked up where nobody's eyes differ."""
-        p, kept = self.mood.profile, self.known.layout.sure
+        p, kept = self.mood.profile, self.known.layout.grid.sure
         key = (self.cell, p.recognise, p.recognise_spread)
         if key not in kept:
-            distance = np.maximum(self.known.layout.ways(self.cell)[0], 1.0)
+            distance = np.maximum(self.known.layout.grid.ways(self.cell)[0], 1.0)
             if len(kept) >= MOST_KEPT:
                 kept.clear()  # calibration tries profile after profile
             kept[key] = likely(FILLED / distance**2, p.recognise, p.recognise_spread)
@@ -235,9 +235,9 @@ class Walker:
 
         What is most worth its time: unseen cells that a look would show, over seconds.
         """
-        distance, toward = self.known.layout.ways(self.cell)
+        distance, toward = self.known.layout.grid.ways(self.cell)
         worth = self.known.gain(self.quality())
-        inside = self.known.layout.ahead(self.cell, self.yaw + TURNS)
+        inside = self.known.layout.grid.ahead(self.cell, self.yaw + TURNS)
         gains = (inside @ worth) / TURN_AND_LOOK
         side = int(gains.argmax())
         best, choice = float(gains[side]), (float(TURNS[side]), None)
@@ -245,11 +245,13 @@ class Walker:
         # Only what is unseen is worth going to: there, one will at least have seen that.
         unseen = self.known.unseen
         rates = np.where(
-            unseen > GOAL * unseen.max(), _nearby(unseen, self.known.layout.size) / seconds, 0.0
+            unseen > GOAL * unseen.max(),
+            _nearby(unseen, self.known.layout.grid.size) / seconds,
+            0.0,
         )
         there = int(rates.argmax())
         if rates[there] > best:
-            x, z = self.known.layout.centers[there].tolist()
+            x, z = self.known.layout.grid.centers[there].tolist()
             return float(apart(toward[there], self.yaw)), (x, z)
         return choice
 

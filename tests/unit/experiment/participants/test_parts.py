@@ -179,10 +179,11 @@ def test_known_walls_hide_cells_and_doorways_do_not():
     cube = geometry.box()
     models = {"a": lambda: cube, "b": lambda: cube}
     b = unique_building(np.random.default_rng(1), BuildingParameters(), models)
-    plan = layout(b.scene)
+    whole = layout(b.scene)
+    plan = whole.grid
     assert plan.size == 16 and len(plan.centers) == 256
-    assert len(plan.segments) == 4 + 2 * len(b.floor.walls)
-    known = Known(plan)
+    assert len(whole.segments) == 4 + 2 * len(b.floor.walls)
+    known = Known(whole)
     eye = b.start
     assert_allclose(plan.centers[plan.cell(eye)], eye)
     rng = np.random.default_rng(3)
@@ -307,7 +308,7 @@ def test_what_is_unseen_nearby_is_summed_over_a_square():
         for i in range(16)
         for j in range(16)
     ]
-    assert_allclose(_nearby(known.unseen, known.layout.size), expected, rtol=1e-12)
+    assert_allclose(_nearby(known.unseen, known.layout.grid.size), expected, rtol=1e-12)
 
 
 def test_looks_from_one_place_do_not_add_up_and_from_two_they_do():
