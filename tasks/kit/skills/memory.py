@@ -146,7 +146,8 @@ class Memory:
         """How many things a next look is expected to show that none showed before.
 
         How often known things were seen again says how easily things are seen here (as recapture
-        does); one more than were counted is always thought to be possible.
+        does); one more than were counted is always thought to be possible. People stop looking
+        when little comes of it (Chun1996, Wolfe2013).
         """
         a, b = SPREAD * self.again.mean, SPREAD * (1 - self.again.mean)
         missed = 1.0  # chance that all looks so far missed a thing
