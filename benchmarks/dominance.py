@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from unittest import mock
 
 import numpy as np
@@ -79,7 +80,7 @@ def play(shown: Shown, seed: int) -> Played:
     with mock.patch.object(simulate, "red_things", counted):
         while task.outcome(state) is None:
             view = task.view(state)
-            for event in person.events(view, lambda v=view, t=now: look(v, t), now, "count"):
+            for event in person.events(view, partial(look, view, now), now, "count"):
                 state = task.on_event(state, event)
                 now = max(now, event.time)
     outcome = task.outcome(state)

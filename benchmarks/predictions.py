@@ -11,11 +11,10 @@ from __future__ import annotations
 
 import argparse
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import log
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from seethrough.analysis.stats.undefined import is_defined
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.persons.profile_file import find
+from seethrough.experiment.people.runs.data_mode import Row as Trial
 from seethrough.experiment.people.runs.data_mode import play_session
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import drawing
@@ -112,19 +112,17 @@ def outcomes(people: int, pool: int, tables: Path | None, profile: str) -> Itera
             yield _outcome(comparison, rows)
 
 
-def _played(
-    name: str, people: int, pool: int, tables: Path | None, profile: str
-) -> list[dict[str, Any]]:
+def _played(name: str, people: int, pool: int, tables: Path | None, profile: str) -> list[Trial]:
     study = load(name)
     scenes = drawing(study, pool, KeptLooks(tables))
-    rows: list[dict[str, Any]] = []
+    rows: list[Trial] = []
     for slot in study.plan.slots(people):
         rows += play_session(study, slot, SEED, scenes, find(profile)).trials
         scenes.looks.flush()
     return rows
 
 
-def _outcome(comparison: Comparison, rows: Sequence[Mapping[str, Any]]) -> Outcome:
+def _outcome(comparison: Comparison, rows: Sequence[Trial]) -> Outcome:
     own = [r for r in rows if r["task"] in comparison.tasks]
     people = sorted({str(r["participant"]) for r in own})
     both = [
@@ -140,9 +138,7 @@ def _outcome(comparison: Comparison, rows: Sequence[Mapping[str, Any]]) -> Outco
     return Outcome(comparison, found.difference, float(low), float(high))
 
 
-def _value(
-    comparison: Comparison, rows: Sequence[Mapping[str, Any]], person: str, level: str
-) -> float:
+def _value(comparison: Comparison, rows: Sequence[Trial], person: str, level: str) -> float:
     """A person's value: mean log time, |Σ error| / Σ truth, mean distance or share right."""
     own = [r for r in rows if str(r["participant"]) == person and r[comparison.factor] == level]
     if not own:

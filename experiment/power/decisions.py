@@ -164,9 +164,8 @@ def decide(planned: Planned, results: Sequence[Results], alpha: float) -> Decide
     shown = there & (used < alpha)
     reached = shown & (fits > 0)
     against = (shown & (fits < 0)).any(axis=0)
-    if planned.any:
-        return Decided(reached.any(axis=0), against)
-    return Decided((reached | ~there).all(axis=0) & there.any(axis=0), against)
+    some, every = reached.any(axis=0), (reached | ~there).all(axis=0) & there.any(axis=0)
+    return Decided(np.asarray(some if planned.any else every), np.asarray(against))
 
 
 def _holm(p: Array) -> Array:

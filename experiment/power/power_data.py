@@ -9,6 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from seethrough.analysis import measures
+from seethrough.analysis.cells import people as people_of
 from seethrough.analysis.design import Design
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.exclude import apply_rules
@@ -48,7 +49,7 @@ def sampled(context: Context, plans: Plans) -> tuple[Sampled, Array]:
     Raises InputError where a group has fewer than two people, or nobody has a score.
     """
     design, trials = context.design, context.study.trials
-    people = measures.people(trials)
+    people = people_of(trials)
     scores = np.stack([_column(context, s, people) for s in plans.scores], axis=1)
     own = [measures.groups_of(trials, f, people) for f in design.groups]
     keys = list(zip(*own, strict=True)) if own else [()] * len(people)

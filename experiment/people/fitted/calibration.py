@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import atanh, sqrt
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,23 @@ PEOPLE = 16  # that the published study had
 ENOUGH = 2.0  # standard errors within which a fitted row counts as met
 
 Key = tuple[str, str]  # a task and what is measured in it: time, error, correct, distance
+
+
+class TrialRow(TypedDict, total=False):
+    """A trial: who, what, how long, how far off; what a task does not measure is None or absent."""
+
+    participant: str | int
+    task: str
+    transparency: str
+    time: float
+    truth: str
+    count_error: int | None
+    distance: float | None
+    correct: bool | float | None
+
+
+Part = tuple[float, float]  # what is added up, and of how much
+Person = str | int
 
 
 @dataclass(frozen=True)
@@ -79,9 +96,9 @@ def published() -> Mapping[Key, Moments]:
     return found
 
 
-def measured(rows: Iterable[Mapping[str, Any]]) -> dict[Key, Moments]:
+def measured(rows: Iterable[TrialRow]) -> dict[Key, Moments]:
     """The same from trials: one value per participant, task and level first."""
-    cells: dict[Key, dict[str, dict[Any, list[tuple[float, float]]]]] = {}
+    cells: dict[Key, dict[str, dict[Person, list[Part]]]] = {}
     for row in rows:
         for what, value in _values(row):
             levels = cells.setdefault((row["task"], what), {lv: {} for lv in LEVELS})
@@ -89,22 +106,21 @@ def measured(rows: Iterable[Mapping[str, Any]]) -> dict[Key, Moments]:
     return {key: _moments(levels, key[1] == "error") for key, levels in cells.items()}
 
 
-def _values(row: Mapping[str, Any]) -> Iterable[tuple[str, tuple[float, float]]]:
+def _values(row: TrialRow) -> Iterable[tuple[str, Part]]:
     """What a trial is measured by: (what, (part, whole)); a count's errors add up with their
     signs, and so do its truths."""
     yield "time", (float(row["time"]), 1.0)
-    if row.get("count_error") is not None:
-        yield "error", (float(row["count_error"]), float(row["truth"]))
-    elif row.get("distance") is not None:
-        yield "distance", (float(row["distance"]), 1.0)
-    elif row.get("correct") is not None:
-        yield "correct", (float(row["correct"]), 1.0)
+    error, distance, correct = (row.get("count_error"), row.get("distance"), row.get("correct"))
+    if error is not None:
+        yield "error", (float(error), float(row["truth"]))
+    elif distance is not None:
+        yield "distance", (float(distance), 1.0)
+    elif correct is not None:
+        yield "correct", (float(correct), 1.0)
 
 
-def _moments(
-    levels: Mapping[str, Mapping[Any, Sequence[tuple[float, float]]]], sizes: bool
-) -> Moments:
-    people = sorted(set(levels[LEVELS[0]]) & set(levels[LEVELS[1]]))
+def _moments(levels: Mapping[str, Mapping[Person, Sequence[Part]]], sizes: bool) -> Moments:
+    people = sorted(set(levels[LEVELS[0]]) & set(levels[LEVELS[1]]), key=str)
     sums = np.array([[np.sum(levels[lv][p], axis=0) for lv in LEVELS] for p in people])
     values = (np.abs(sums[..., 0]) if sizes else sums[..., 0]) / sums[..., 1]
     sds = np.std(values, axis=0, ddof=1)
@@ -133,7 +149,7 @@ class Line:
 
 def lines(simulated: Mapping[Key, Moments]) -> list[Line]:
     """Every published row that was simulated, the fitted ones first."""
-    found = []
+    found: list[Line] = []
     for task in (*FITTED, *SEEN):
         for (own, what), theirs in published().items():
             if own == task and (task, what) in simulated:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from math import exp, log
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +20,7 @@ from seethrough.experiment.people.fitted.calibration import (
     FITTED,
     Key,
     Moments,
+    TrialRow,
     measured,
     misfit,
     published,
@@ -33,7 +33,7 @@ from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.tasks.kit.skills.profile import Profile
 
-Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
+Play = Callable[[Profile], Iterable[TrialRow]]
 
 # What may be fitted, each within a factor of the starting profile's value.
 FREE = {
@@ -70,12 +70,12 @@ class Crowd:
         even = Halton(TRAITS, seed=generator(seed, (SIMULATED,)))
         self.traits = ndtri(even.random(count))
 
-    def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, object]]:
+    def play(self, profile: Profile, tasks: Collection[str]) -> list[TrialRow]:
         """Who, which task and level, how long, how far off, for every trial of `tasks`.
 
         What is drawn on the way is kept person by person: an interrupted fit goes on with it.
         """
-        rows = []
+        rows: list[TrialRow] = []
         for slot in self.slots:
             person = SimulatedParticipant(
                 generator(self.seed, (SIMULATED, slot)), profile, traits=self.traits[slot - 1]
@@ -88,6 +88,7 @@ class Crowd:
                 for trial in task_set.trials:
                     record = play_trial(person, self.pool, trial)[0]
                     of = record.outcome
+                    assert of is not None  # it was played to its end
                     rows.append(
                         {"participant": slot, "task": trial.task, "time": record.time,
                          "transparency": trial.levels["transparency"], "truth": of.truth,

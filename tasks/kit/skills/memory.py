@@ -44,7 +44,8 @@ def doubt(way: NDArray[np.float64], along: NDArray[np.float64]) -> NDArray[np.fl
     across = (ACROSS * far + 1.0) ** 2
     line = unit[:, :, None] * unit[:, None, :]
     flat: NDArray[np.float64] = across[:, None, None] * np.eye(way.shape[1])
-    return flat + ((along * far) ** 2)[:, None, None] * line
+    made: NDArray[np.float64] = flat + ((along * far) ** 2)[:, None, None] * line
+    return made
 
 
 def meet(
