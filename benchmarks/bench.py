@@ -21,11 +21,13 @@ BENCHES = (
     "ordering",
     "ordering_accuracy",
     "pages",
+    "predictions",
     "session",
     "simulate",
     "speed",
     "statistics",
     "techniques",
+    "worlds",
 )
 
 

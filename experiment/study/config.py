@@ -19,6 +19,7 @@ from seethrough.experiment.study.plugin_files import taken
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_errors import study_error
 from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
+from seethrough.experiment.study.study_items import lacking_items
 from seethrough.experiment.study.toml_file import read_toml
 from seethrough.experiment.study.translations import unshowable_texts, with_translations
 
@@ -79,7 +80,11 @@ def load(name: str, translated: bool = True) -> Study:
     if lines := unshowable_texts(study, str(path)):
         raise gathered(lines)
     study = with_translations(study, path) if translated else study
-    return study.with_places(lambda place: beside(place, path))
+    study = study.with_places(lambda place: beside(place, path))
+    lacking = lacking_items(study)
+    if lacking:
+        raise gathered([f"{path}: {line}" for line in lacking])
+    return study
 
 
 def _files(table: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -57,3 +57,5 @@ ABSOLUTE_ERROR = Measure(
 # Of any task whose study asks for it.
 CONFIDENCE = Measure("confidence", "", "more", "ordinal", label="confidence")
 DISTANCE = Measure("distance", "units", "less", "ratio", label="distance", price=True)
+WRONG_CLICKS = Measure("wrong_clicks", "", "less", "count", label="wrong clicks", price=True)
+MISSES = Measure("misses", "", "less", "count", label="misses", price=True)
