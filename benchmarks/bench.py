@@ -20,7 +20,6 @@ BENCHES = (
     "looks",
     "ordering",
     "ordering_accuracy",
-    "pages",
     "predictions",
     "session",
     "simulate",

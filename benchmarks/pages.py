@@ -82,8 +82,3 @@ def page_figures() -> Iterator[Row]:
         median, worst = sorted(turning.took)[len(turning.took) // 2], max(turning.took)
         yield row("page to page, median", scene, median, "ms", MUST, AIM)
         yield row("page to page, worst", scene, worst, "ms", MUST, AIM)
-
-
-def figures() -> Iterator[Row]:
-    """All of them."""
-    yield from page_figures()
