@@ -1,6 +1,7 @@
 """From one page of a long questionnaire to the next: figures of `seethrough bench worlds`.
 
 The pages are those of a session: made by its questionnaire, laid out, drawn, answered and recorded.
+Times are processor time of all threads, since the machine may be busy; waiting for the disk is not.
 """
 
 from __future__ import annotations
@@ -58,9 +59,9 @@ class _Turning:
         self.stage.draw_form(form, self.target, 1 / 60)
         self.stage.context.finish()
         if self.answered:
-            self.took.append(1000 * (time.perf_counter() - self.answered))
+            self.took.append(1000 * (time.process_time() - self.answered))
         self.stage.draw_form(form, self.target, 1 / 60)
-        self.answered = time.perf_counter()
+        self.answered = time.process_time()
         return {"button": "0", **dict.fromkeys(page.required, "3")}
 
 

@@ -23,7 +23,10 @@ class StudyScenes:
 
     def setting(self, trial: Trial) -> Setting:
         """Where and how a trial's task is set, and which item it asks for, if they are counted."""
-        return replace(self.study.setting(trial), item=self._items.of(trial))
+        setting = self.study.setting(trial)
+        if trial.task == EXPLORE.name:
+            return setting
+        return replace(setting, item=self._items.of(trial))
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""

@@ -180,7 +180,8 @@ def test_people_may_look_around_before_they_practise(explores):
 def test_looking_around_moves_as_the_world_does():
     """Orbiting turns by the arrow keys, and a click on the button is enough; walking captures the
     pointer, so Enter is."""
-    for world, walks in ((WORLDS["abstract"], False), (WORLDS["building"], True)):
+    for name, walks in (("abstract", False), ("building", True), ("scene", False)):
+        world = WORLDS[name]
         place = world.Parameters()
         made = world.make(np.random.default_rng(1), place)
         start = EXPLORE.begin(made, Setting(world, place, None), 4 / 3)
