@@ -17,6 +17,7 @@ BENCHES = (
     "accuracy",
     "design",
     "effects",
+    "looks",
     "ordering",
     "ordering_accuracy",
     "session",

@@ -12,7 +12,8 @@ from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.levels.layer import MASK, NOTHING, OBJECT, clip_from_offset
+from seethrough.renderer.gpu.levels.layer import MASK, NOTHING, OBJECT
+from seethrough.renderer.gpu.levels.lens import clip_from_offset
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene

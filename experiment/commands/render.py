@@ -8,12 +8,14 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError
+from seethrough.renderer.look.dressed import dressed
+from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import SHORTCUTS
 from seethrough.renderer.scene.camera import Camera, look_at
@@ -25,6 +27,8 @@ from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParamet
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building import unique_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+
+Given = TypeVar("Given", Parameters, Look)
 
 HELP = "draw a scene into a picture"
 
@@ -84,6 +88,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a parameter of the technique, as mask=circle (may be given again)",
     )
     parser.add_argument(
+        "--look",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        help="a key of a study's [look], as fog=40 (may be given again)",
+    )
+    parser.add_argument(
         "--explain", action="store_true", help="print what the frame needs, and why"
     )
     parser.add_argument(
@@ -111,7 +122,8 @@ def run(args: argparse.Namespace) -> int:
     from seethrough.renderer.gpu.renderer import Renderer
 
     scene, camera = SCENES[args.scene](args.seed, size[0] / size[1])
-    technique = _technique(args.technique, args.set)
+    technique = _given("set", named(args.technique), args.set)
+    scene = dressed(scene, _given("look", PLAIN, args.look))
     unknown = sorted(set(args.without) - set(SHORTCUTS))
     if unknown:
         raise InputError(f"--without = {unknown[0]}: expected one of {', '.join(SHORTCUTS)}")
@@ -136,8 +148,8 @@ def _study(args: argparse.Namespace, size: tuple[int, int], out: Path) -> int:
     from seethrough.experiment.gallery.study_plates import first_trials, plates
     from seethrough.experiment.study.config import load
 
-    if args.set or args.without:
-        raise InputError("--set and --without: expected with a scene; a study has its own")
+    if args.set or args.without or args.look:
+        raise InputError("--set, --look and --without: expected with a scene; a study has its own")
     study = load(args.scene)
     try:
         plates(study, open_context(), size, args.samples).save(out)
@@ -147,15 +159,15 @@ def _study(args: argparse.Namespace, size: tuple[int, int], out: Path) -> int:
     return 0
 
 
-def _technique(name: str, settings: list[str]) -> Parameters:
-    """The technique with `settings` ("key=value", values as in TOML or bare words)."""
+def _given(option: str, base: Given, settings: list[str]) -> Given:
+    """Parameters with `settings` ("key=value", values as in TOML or bare words)."""
     values: dict[str, Any] = {}
-    known = {field.name for field in fields(named(name))}
+    known = {field.name for field in fields(base)}
     for text in settings:
         key, equals, value = text.partition("=")
         if not equals or key not in known:
-            wanted = ", ".join(sorted(known)) or f"none, {name} has no parameters"
-            raise InputError(f"--set = {text}: expected KEY=VALUE with one of {wanted}")
+            wanted = ", ".join(sorted(known)) or "none, it has no parameters"
+            raise InputError(f"--{option} = {text}: expected KEY=VALUE with one of {wanted}")
         try:
             values[key] = tomllib.loads(f"value = {value}")["value"]
         except tomllib.TOMLDecodeError:
@@ -163,10 +175,9 @@ def _technique(name: str, settings: list[str]) -> Parameters:
         if isinstance(values[key], list):
             values[key] = tuple(values[key])
     try:
-        set_: Parameters = replace(named(name), **values)
-        return set_
+        return replace(base, **values)
     except (TypeError, ValueError) as error:
-        raise InputError(f"--set: {error}") from error
+        raise InputError(f"--{option}: {error}") from error
 
 
 def _size(text: str) -> tuple[int, int]:

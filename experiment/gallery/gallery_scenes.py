@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.experiment.gallery import gallery_hard, gallery_techniques
+from seethrough.experiment.gallery import gallery_hard, gallery_looks, gallery_techniques
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, LARGE, Plate, Section
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
@@ -29,19 +29,20 @@ BUILDING = 3  # the seed of one whose first room has models behind its walls
 
 def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     """The gallery from top to bottom."""
+    scenes = _views(aspect, seed)
     yield Section(
         "The three scenes and the models",
         "Standard rendering beside dynamic transparency.",
-        tuple(_scenes(aspect, seed)),
+        tuple(_scenes(aspect, scenes)),
     )
+    yield from gallery_looks.sections(scenes)
     yield from gallery_techniques.sections(stage(), aspect, seed)
     yield from _options()
     yield from gallery_hard.sections()
 
 
-def _scenes(aspect: float, seed: int) -> Iterator[Plate]:
-    """Elmqvist2009's scenes, each drawn both ways, and the contact sheet of the models."""
-    from seethrough.renderer.models.forms.sheet import contact_sheet_scene
+def _views(aspect: float, seed: int) -> dict[str, tuple[Scene, Camera]]:
+    """Elmqvist2009's scenes by name, and from where they are seen."""
     from seethrough.renderer.models.vehicles.jeep import jeep_scene
 
     parameters = AbstractParameters()
@@ -52,12 +53,24 @@ def _scenes(aspect: float, seed: int) -> Iterator[Plate]:
     house = unique_building(np.random.default_rng(BUILDING), building)
     view = walk(building, house.start).camera()
     side = look_at(np.array([2.2, 1.5, -2.6]), np.array([0.0, 0.42, 0.0]), fov_y=0.47)
-    scenes = (
-        ("abstract", "The abstract world: 200 shapes, the red ones are targets", world, near),
-        ("walkthrough", "The building: all models are targets", house.scene, view),
-        ("jeep", "The jeep: engine, gearbox, axles and seats are targets", jeep_scene(), side),
-    )
-    for name, caption, scene, camera in scenes:
+    return {
+        "abstract": (world, near),
+        "walkthrough": (house.scene, view),
+        "jeep": (jeep_scene(), side),
+    }
+
+
+def _scenes(aspect: float, scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[Plate]:
+    """The scenes, each drawn both ways, and the contact sheet of the models."""
+    from seethrough.renderer.models.forms.sheet import contact_sheet_scene
+
+    captions = {
+        "abstract": "The abstract world: 200 shapes, the red ones are targets",
+        "walkthrough": "The building: all models are targets",
+        "jeep": "The jeep: engine, gearbox, axles and seats are targets",
+    }
+    for name, caption in captions.items():
+        scene, camera = scenes[name]
         words = f"{caption}; standard"
         yield Plate(f"{name}-standard", words, scene, camera, Standard(), LARGE)
         words = f"{caption}; dynamic transparency"

@@ -44,8 +44,9 @@ def plates(study: Study, context: Any, size: tuple[int, int], samples: int) -> A
     renderer = Renderer(context, size, samples)
     for k, trial in enumerate(trials):
         task = TASKS[trial.task]
-        view = task.view(scenes.begin(task, trial, width / height))
-        renderer.draw(view.scene, view.camera, study.part(trial.levels).technique)
+        part = study.part(trial.levels)
+        view = task.view(scenes.begin(task, trial, width / height)).dressed(part.look)
+        renderer.draw(view.scene, view.camera, part.technique)
         x, y = k % across * width, k // across * (height + TITLE)
         said = ", ".join((*trial.levels.values(), trial.task))
         words.text((x + 4, y + 4), said, fill="black", font_size=14)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.random import Generator
 
 from seethrough.experiment.pages.pages import Answers, Asked, Block, Page, Paragraph
+from seethrough.renderer.look.look import Look
 from seethrough.tasks.kit.world import Texts
 
 Row = Mapping[str, str]
@@ -28,6 +29,9 @@ class Places(Protocol):
 
     def technique(self, about: Mapping[str, str]) -> Any:
         """What frames are drawn with at these levels."""
+
+    def look(self, about: Mapping[str, str]) -> Look:
+        """How scenes look at these levels."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,6 +25,7 @@ from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
@@ -53,6 +54,11 @@ class Recorded:
     def technique(self) -> Any:
         """What the trial was drawn with."""
         return self.study.part(self.trial.levels).technique
+
+    @property
+    def look(self) -> Look:
+        """How the trial's scene looked."""
+        return self.study.part(self.trial.levels).look
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,7 +155,7 @@ def replay(recorded: Recorded) -> Iterator[Frame]:
     state = StudyScenes(recorded.study).begin(task, recorded.trial, aspect)
     *shown, last = _frames(recorded.camera)
     rest = iter(shown)
-    hand = Hand(recorded.technique, aspect)
+    hand = Hand(recorded.technique, aspect, recorded.look)
     view = hand.shown(task.view(state))
     time, digest, camera = next(rest)
     yield Frame(time, view, digest, camera)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Own, Shot
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Wheel
@@ -15,10 +16,11 @@ HEIGHT = 1000  # of the shot that events are told in: positions are in view unit
 
 
 class Hand:
-    """Keeps the state of a trial's technique (its parameters), from the first event on."""
+    """Keeps the state of a trial's technique (its parameters), from the first event on, and has the
+    trial's look."""
 
-    def __init__(self, technique: Own, aspect: float) -> None:
-        self._technique, self._rules = technique, technique.technique
+    def __init__(self, technique: Own, aspect: float, look: Look = PLAIN) -> None:
+        self._technique, self._rules, self._look = technique, technique.technique, look
         self._size = (round(aspect * HEIGHT), HEIGHT)
         self.state = self._rules.begin(technique)
 
@@ -27,7 +29,8 @@ class Hand:
         return kind_of(event) in self._rules.takes
 
     def shown(self, view: View) -> View:
-        """A task's view with the technique's state."""
+        """A task's view as it looks, with the technique's state."""
+        view = view.dressed(self._look)
         return view if self.state is None else replace(view, drawn=self.state)
 
     def on_event(self, event: Event, view: View) -> bool:

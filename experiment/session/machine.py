@@ -39,8 +39,9 @@ def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> Fra
     """Draw a trial's first view, turning, for so long."""
     size = (study.display.width, study.display.height)
     task = TASKS[trial.task]
-    view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1]))
-    technique = study.part(trial.levels).technique
+    part = study.part(trial.levels)
+    view = task.view(StudyScenes(study).begin(task, trial, size[0] / size[1])).dressed(part.look)
+    technique = part.technique
     renderer = Renderer(context, size, samples_for(study.display.samples, context))
     renderer.draw(view.scene, view.camera, technique)
     context.finish()

@@ -25,6 +25,7 @@ from seethrough.experiment.study.design import PARTICIPANT, generator
 from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.reading import Question
 from seethrough.experiment.study.study import Study
+from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import WORLDS
 
 Item = tuple[str, Pairs]  # item, and factor and level of what it is about
@@ -192,3 +193,7 @@ class StudyPlaces:
     def technique(self, about: Mapping[str, str]) -> Any:
         """What frames are drawn with at these levels."""
         return self.study.part(self.cells[-1]).technique
+
+    def look(self, about: Mapping[str, str]) -> Look:
+        """How scenes look at these levels."""
+        return self.study.part(self.cells[-1]).look

@@ -16,6 +16,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
 from seethrough.tasks.kit.base import Outcome, View
 from seethrough.tasks.kit.events import (
@@ -105,6 +106,10 @@ class TrialRun:
         """What the trial is drawn with."""
         return self.study.part(trial.levels).technique
 
+    def look(self, trial: Trial) -> Look:
+        """How the trial's scene looks."""
+        return self.study.part(trial.levels).look
+
     def begin(self, trial: Trial) -> Any:
         """The task's first state, from the trial's own stream."""
         task = self.world.tasks[trial.task]
@@ -117,7 +122,8 @@ class TrialRun:
         task, state = self.world.tasks[trial.task], self.begin(example)
         view = task.view(state)
         camera = viewpoint.best(view.scene, task.example(state, PICTURE_ASPECT))
-        return View(view.scene, camera, tuple(e for e in view.hud if isinstance(e, Inset)))
+        shown = View(view.scene, camera, tuple(e for e in view.hud if isinstance(e, Inset)))
+        return shown.dressed(self.look(trial))
 
     def play(self, trial: Trial, limit: float) -> TrialRecord:
         """Run one trial to its confirmed answer or its limit (seconds; 0: none). Raises Leave."""
@@ -156,7 +162,7 @@ class Running:
     def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
         self._world, self._task = run.world, run.world.tasks[trial.task]
         self._technique = run.technique(trial)
-        self._hand = Hand(self._technique, run.world.display.aspect)
+        self._hand = Hand(self._technique, run.world.display.aspect, run.look(trial))
         self._trial, self._state, self._limit = trial, state, limit
         refresh = run.study.part(trial.levels).display.refresh
         self._watch = _Watch(run.world.period or 1.0 / refresh)

@@ -20,21 +20,33 @@ from seethrough.experiment.study.study_tables import (
     PracticeTable,
     StudyTable,
 )
+from seethrough.renderer.look.look import Look
 from seethrough.tasks.kit.world import OWN
 
-VARIED = ("study", "design", "practice", "technique", "world", "task", "display", "questions")
+VARIED = (
+    "study",
+    "design",
+    "practice",
+    "technique",
+    "world",
+    "look",
+    "task",
+    "display",
+    "questions",
+)
 
 
 @dataclass(frozen=True)
 class Part:
-    """What holds in a cell: `technique` draws, in the `world` made with `place`; `limits` of
-    trials; `design` with its tasks, `practice` and `questions`; `display` and `study` of the
-    session."""
+    """What holds in a cell: `technique` draws, in the `world` made with `place`, which has that
+    `look`; `limits` of trials; `design` with its tasks, `practice` and `questions`; `display` and
+    `study` of the session."""
 
     technique: Any
     technique_name: str
     world: str
     place: Any
+    look: Look
     limits: Limits
     design: DesignTable
     practice: PracticeTable
@@ -110,8 +122,8 @@ def _part(cell: Cell, values: Mapping[str, tuple[tuple[int, ...], dict[Cell, Any
     own = {s: found[tuple(cell[i] for i in at)] for s, (at, found) in values.items()}
     technique, world = own["technique"], own["world"]
     return Part(
-        technique.parameters, technique.use, world.use, world.parameters, own["task"],
-        own["design"], own["practice"], own["questions"], own["display"], own["study"],
+        technique.parameters, technique.use, world.use, world.parameters, own["look"],
+        own["task"], own["design"], own["practice"], own["questions"], own["display"], own["study"],
     )  # fmt: skip
 
 

@@ -26,6 +26,7 @@ from seethrough.experiment.study.study_tables import (
     TaskTable,
 )
 from seethrough.renderer.declared import Key, allowed, declared
+from seethrough.renderer.look.look import Look
 
 REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "keys.md"
 REQUIRED = object()
@@ -40,6 +41,8 @@ ABOUT = {
     "analysis": "What is decided before anybody is invited.",
     "analysis.margins": "Differences that would not matter; a measure without one has none.",
     "analysis.predictions": "What is expected, a table `[[analysis.predictions]]` each.",
+    "look": "How the picture looks besides what the technique shows: cues of depth and contact. "
+    "All are off without being set.",
     "task": "What holds for each task.",
     "task.NAME": "What holds for one task.",
     "questions.NAME": "A named table each, asked in this order.",
@@ -57,6 +60,7 @@ def tables() -> dict[str, Any]:
             cls = plugins.parameters(kind, name)
             found[f"{kind}.{name}"] = cls
             found |= {f"{kind}.{name}.{n}": c for n, c in plugins.inner_tables(cls).items()}
+    found["look"] = Look
     found |= {"task": TaskTable, "task.NAME": TaskTable, **_own("task")}
     found |= {"questions.NAME": QuestionTable, **_own("question", "questions")}
     found |= {name: TABLES[name] for name in ("display", "session", "analysis")}

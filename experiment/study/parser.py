@@ -51,7 +51,7 @@ class Parser:
         if "study" not in self.base:
             self.faults.append(Fault("study", MISSING, "a table, [study]"))
         found = {s: self._read(s) for s in ("study", "session", "analysis", "design", "practice",
-                                            "display", "questions")}  # fmt: skip
+                                            "display", "questions", "look")}  # fmt: skip
         tables = {s: self._read(s) for s in ("technique", "world", "task")}
         people = found["study"].participants if found["study"] is not None else None
         factors, wrong = read_factors(self.table, RESERVED, people)
@@ -70,8 +70,8 @@ class Parser:
             return None, more
         return Study(
             found["study"], factors, found["design"], found["practice"], found["display"],
-            found["session"], found["questions"], found["analysis"], texts, tables, parts,
-            excluded,
+            found["session"], found["questions"], found["analysis"], texts, tables,
+            found["look"], parts, excluded,
         ), []  # fmt: skip
 
     def _read(self, section: str) -> Any:

@@ -20,6 +20,7 @@ from seethrough.experiment.study.study_tables import (
     Table,
     TaskTable,
 )
+from seethrough.renderer.look.look import Look
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,8 @@ def read(section: str, table: Any, whole: bool) -> Read:
         return None, [Fault(section, table, f"a table, [{section}]")]
     if section in ("technique", "world"):
         return _chosen(section, table, whole)
+    if section == "look":
+        return _look(table)
     if section == "task":
         return _limits(table)
     if section == "questions":
@@ -89,6 +92,13 @@ def model(section: str, kind: type[Table], table: Mapping[str, Any]) -> Read:
         return kind.model_validate(dict(table)), []
     except ValidationError as error:
         return None, faults_of(error, section, table)
+
+
+def _look(table: Mapping[str, object]) -> Read:
+    try:
+        return built(Look, table), []
+    except Faults as error:
+        return None, [fault._replace(key=f"look.{fault.key}") for fault in error.found]
 
 
 def _chosen(section: str, table: Mapping[str, Any], whole: bool) -> Read:

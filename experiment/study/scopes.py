@@ -15,8 +15,11 @@ from pydantic.fields import FieldInfo
 
 FIXED, SESSION, BLOCK, TRIAL = "fixed", "session", "block", "trial"
 
-# Tables whose keys plug-ins declare; every key in them has the table's scope.
-OF_PLUGINS = {"technique": TRIAL, "world": TRIAL, "task": BLOCK, "questions": BLOCK, "texts": FIXED}
+# Tables whose keys plug-ins and the renderer declare; every key in them has the table's scope.
+OF_PLUGINS = {
+    "technique": TRIAL, "world": TRIAL, "look": TRIAL, "task": BLOCK, "questions": BLOCK,
+    "texts": FIXED,
+}  # fmt: skip
 
 SCENES = ("world", "task")  # tables that make scenes
 

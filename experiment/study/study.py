@@ -22,6 +22,7 @@ from seethrough.experiment.study.study_tables import (
     SessionTable,
     StudyTable,
 )
+from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import TASKS, WORLDS
 from seethrough.tasks.kit.base import Setting
 
@@ -31,7 +32,8 @@ class Study:
     """A whole study, checked: what holds everywhere, its factors, and each cell's `parts`.
 
     `design`, `practice`, `display`, `questions` and `study` are as the base of the study has them;
-    a level may say otherwise of its cells. `tables` are the base's technique, world and task.
+    a level may say otherwise of its cells. `tables` are the base's technique, world and task, and
+    `look` is the base's.
     """
 
     study: StudyTable
@@ -44,6 +46,7 @@ class Study:
     analysis: AnalysisTable
     texts: Mapping[str, str] = field(hash=False)
     tables: Mapping[str, Chosen | Limits] = field(hash=False)
+    look: Look
     parts: Mapping[Cell, Part] = field(hash=False)
     excluded: tuple[Levels, ...] = field(hash=False)
 
@@ -115,6 +118,7 @@ class Study:
             **said,
             "factors": [_factor_table(factor) for factor in self.factors],
             **{name: _chosen_table(self.tables[name]) for name in ("technique", "world")},
+            "look": _plain(self.look),
             "task": _limits_table(self.tables["task"]),
             "questions": questions,
             "texts": dict(self.texts),

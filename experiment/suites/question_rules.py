@@ -21,6 +21,7 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
+from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.skills.profile import AVERAGE
 
@@ -39,6 +40,9 @@ class _Study:
         from seethrough.renderer.techniques.standard.opaque import Standard
 
         return Standard()
+
+    def look(self, about: object) -> Look:
+        return PLAIN
 
 
 def _askings() -> Iterator[Asking]:

@@ -14,6 +14,7 @@ from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.layer import FrameStats, Layer
+from seethrough.renderer.look.shaders import defines
 from seethrough.renderer.plan.planner import SHORTCUTS, FramePlan, plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
@@ -47,8 +48,8 @@ class Renderer:
         self.without = frozenset(without)
         self.plan: FramePlan | None = None
         self._store = MeshStore(context)
-        self._layer = Layer(context, self._store, ids=False)
-        self._id_layer: Layer | None = None
+        self._layers: dict[tuple[bool, tuple[str, ...]], Layer] = {}
+        self._layer(False, Scene(()))  # most pictures have no look: its programs are there at once
         self._tables: dict[int, SceneTable] = {}
         self._present = program(context, "present.vert", "present.frag")
         self._triangle = context.vertex_array(self._present.program, [])
@@ -94,7 +95,7 @@ class Renderer:
             drawn = technique.technique.drawn(technique, state)
             self.plan = plan(shown, camera, drawn, self.size, without, scale, state=state)
             args = (self._table(shown), self.plan, camera, drawn, self._target)
-            stats = self._layer.draw(*args, scale, state=state)
+            stats = self._layer(False, shown).draw(*args, scale, state=state)
             self._target.resolve()
             self._shown = (scene, camera, technique, state)
         if target_framebuffer is not None:
@@ -132,15 +133,15 @@ class Renderer:
         frame = self._looked(scene, camera, technique, size, state)
         if len(frame.exact):
             # What a frame sorts by pixel is in none of its layers.
-            small, layer = self._looking(size)
+            small, layer = self._looking(size, scene)
             scale = size[1] / self.size[1]
             layer.draw(self._table(scene), frame, camera, technique, small, scale)
             shares = self.shares(scene, camera, technique, size)
             return visibility_of_shares(shares, small.read(), n)
-        layers = self._layers(scene, camera, technique, size, frame, state)
+        layers = self._drawn(scene, camera, technique, size, frame, state)
         if len(scene.objects) > n:  # what a technique adds is nobody's
             layers = [(w[ids <= n], ids[ids <= n], alpha[ids <= n]) for w, ids, alpha in layers]
-        return visibility(layers, self._looking(size)[0].read(), n)
+        return visibility(layers, self._looking(size, scene)[0].read(), n)
 
     def _looked(
         self,
@@ -159,7 +160,7 @@ class Renderer:
     ) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
         """What each pixel shows when it is sorted by itself: from the front, objects + 1 (h, w),
         0 for none, and their shares of the pixel (h, w)."""
-        layer, scale = self._looking(size)[1], size[1] / self.size[1]
+        layer, scale = self._looking(size, scene)[1], size[1] / self.size[1]
         frame = self._looked(scene, camera, technique, size)
         return layer.exact_layers(self._table(scene), frame, camera, technique, size, scale)
 
@@ -171,7 +172,7 @@ class Renderer:
         technique, scale = technique.technique.looked_at(technique), size[1] / self.size[1]
         frame = plan(scene, camera, technique, size, self.without | {"held"}, scale)
         found = []
-        for where, numbers, opacity in self._layers(scene, camera, technique, size, frame):
+        for where, numbers, opacity in self._drawn(scene, camera, technique, size, frame):
             ids, alpha = np.zeros(size[::-1], np.int64), np.ones(size[::-1])
             ids.flat[where], alpha.flat[where] = numbers, opacity
             found.append((ids, alpha))
@@ -182,9 +183,11 @@ class Renderer:
     ) -> dict[str, NDArray[np.float32]]:
         """Name → (h, w) of the pictures that a technique's rule needs, of the frame's size."""
         frame = plan(scene, camera, technique, self.size, self.without)
-        return self._layer.needed(self._table(scene), frame, camera, technique, self.size)
+        return self._layer(False, scene).needed(
+            self._table(scene), frame, camera, technique, self.size
+        )
 
-    def _layers(
+    def _drawn(
         self,
         scene: Scene,
         camera: Camera,
@@ -193,7 +196,7 @@ class Renderer:
         frame: FramePlan,
         state: object = None,
     ) -> list[Drawn]:
-        small, layer = self._looking(size)
+        small, layer = self._looking(size, scene)
         found: list[Drawn] = []
         last = np.zeros(size[::-1], dtype=np.float32)
 
@@ -213,15 +216,20 @@ class Renderer:
         layer.draw(self._table(scene), frame, camera, technique, small, scale, keep, state)
         return [*found, *layer.peeled]
 
-    def _looking(self, size: tuple[int, int]) -> tuple[FrameTarget, Layer]:
-        """The picture with ids, and what draws into it."""
+    def _looking(self, size: tuple[int, int], scene: Scene) -> tuple[FrameTarget, Layer]:
+        """The picture with ids, and what draws the scene into it."""
         if self._small is None or self._small.size != size:
             if self._small is not None:
                 self._small.release()
             self._small = FrameTarget(self.context, _checked(size), ids=True)
-        if self._id_layer is None:
-            self._id_layer = Layer(self.context, self._store, ids=True)
-        return self._small, self._id_layer
+        return self._small, self._layer(True, scene)
+
+    def _layer(self, ids: bool, scene: Scene) -> Layer:
+        """What draws scenes that look like this one."""
+        key = (ids, defines(scene.look, scene.background))
+        if key not in self._layers:
+            self._layers[key] = Layer(self.context, self._store, *key)
+        return self._layers[key]
 
     def _unchanged(
         self, scene: Scene, camera: Camera, technique: Parameters, state: object

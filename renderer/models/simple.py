@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import lru_cache
 
+from seethrough.renderer.look.dressed import dressed
 from seethrough.renderer.models import MODELS, proxy
 from seethrough.renderer.scene.scene import Object, Scene
 
@@ -18,6 +19,8 @@ def simplified(scene: Scene) -> Scene:
     What is no model stays as it is. A tenth of a building's triangles are left; `python -m
     benchmarks.eyes` shows what that does to what a simulated participant measures.
     """
+    if scene.bare is not None:
+        return dressed(simplified(scene.bare), scene.look)
     return replace(scene, objects=tuple(_simple(thing) for thing in scene.objects))
 
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.look import floor, fog
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene import lighting
 from seethrough.renderer.scene.camera import Camera
@@ -111,14 +112,22 @@ def _left(pixel: NDArray[np.int64], alpha: Floats, additive: bool) -> Floats:
 
 
 def _lit(seen: Surfaces, look: Look, rows: NDArray[np.int64]) -> Floats:
-    """(k, 3) colours as shown: lit from the side that is seen, then tinted."""
+    """(k, 3) colours as shown: lit from the side that is seen, drawn on where it is a floor, then
+    tinted, and all of that seen through fog."""
     normal = np.where(seen.front[rows, None], seen.normal[rows], -seen.normal[rows])
     factor = lighting.shade(normal, -seen.offset[rows])
     lit = np.minimum(seen.color[rows] * factor[:, None], 1.0)
-    if look.tint is None:
-        return lit
-    tint = look.tint[rows]
-    return lit + tint[:, 3:] * (tint[:, :3] - lit)
+    scene, camera = seen.shot.scene, seen.shot.camera
+    if scene.look.has_floor:
+        own = floor.floors(tuple(o.kind for o in scene.objects))[seen.object[rows]]
+        lit[own] = floor.painted(
+            lit[own], seen.offset[rows][own], normal[own], camera.eye,
+            camera.pixel(seen.shot.size[1]), scene.look,
+        )  # fmt: skip
+    if look.tint is not None:
+        tint = look.tint[rows]
+        lit = lit + tint[:, 3:] * (tint[:, :3] - lit)
+    return fog.hazed(lit, seen.offset[rows], scene.background, scene.look)
 
 
 def _crossing(seen: Surfaces, look: Look, rows: NDArray[np.int64], before: Floats) -> Bools:

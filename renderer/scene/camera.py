@@ -58,6 +58,10 @@ class Camera:
             ]
         )
 
+    def pixel(self, height: int) -> float:
+        """The slope that one pixel of a picture so high spans in its middle."""
+        return float(2 * np.tan(self.fov_y / 2) / height)
+
     def depth(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n,) signed distance of (n, 3) points from the eye along the view vector (Elmqvist2009
         §V-B)."""

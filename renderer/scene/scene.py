@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.scene.geometry import Mesh
 
 if TYPE_CHECKING:
@@ -52,11 +53,20 @@ class Object:
 class Scene:
     """Objects in a fixed order: an object's index is its identity.
 
-    Id pictures hold index + 1, and 0 where there is only background.
+    Id pictures hold index + 1, and 0 where there is only background. `look` is how the picture
+    looks besides; a scene that was given one (renderer/look/dressed.py) keeps the `bare` one that
+    it is of.
     """
 
     objects: tuple[Object, ...]
     background: Color = (0.93, 0.94, 0.96)
+    look: Look = PLAIN
+    bare: Scene | None = None
+
+    @cached_property
+    def dresses(self) -> dict[Look, Scene]:
+        """This scene with other looks, as they were asked for."""
+        return {}
 
     @cached_property
     def transforms(self) -> NDArray[np.float64]:

@@ -11,7 +11,7 @@ layout(location = 1) out float id;
 #endif
 
 void main() {
-    picture = vec4(min(color * shade(normal, -offset), 1.0), 1.0);
+    picture = vec4(hazed(lit(color, normal, offset), offset), 1.0);
 #ifdef WITH_IDS
     id = float(object + 1);
 #endif

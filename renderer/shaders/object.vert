@@ -1,6 +1,6 @@
 // Provides an object's vertex: clip position, world normal, world offset from the eye, colour.
 // Objects are instances; `sequence` says which object an instance is and where it stands.
-uniform sampler2D table;     // one row each object: three rows of its matrix, its colour
+uniform sampler2D table;     // one row each object: three rows of its matrix, its colour and whether it is a floor
 uniform sampler2D sequence;  // one row each instance: (centre − eye, object), (channel, 0, 0, 0)
 uniform int first;           // the first row of this draw
 uniform mat4 clip_from_offset;  // clip ← (world − eye)
@@ -14,6 +14,9 @@ out vec3 normal;
 out vec3 color;
 flat out int object;
 flat out int channel;
+#ifdef FLOOR
+flat out float on_floor;
+#endif
 
 void main() {
     int row = first + gl_InstanceID;
@@ -28,5 +31,8 @@ void main() {
     vec3 a = cross(y, z), b = cross(z, x), c = cross(x, y);
     normal = vec3(dot(a, in_normal), dot(b, in_normal), dot(c, in_normal)) * sign(dot(a, x));
     color = in_color * texelFetch(table, ivec2(3, object), 0).rgb;
+#ifdef FLOOR
+    on_floor = texelFetch(table, ivec2(3, object), 0).a;
+#endif
     gl_Position = clip_from_offset * vec4(offset, 1.0);
 }

@@ -63,15 +63,15 @@ void main() {
     float shown = opacity(s);
     if (shown <= 0.0) discard;
     if (!s.front && !opened(s)) discard;
-    vec3 lit = min(color * shade(s.front ? normal : -normal, -offset), 1.0);
-    lit = mix(lit, tinted.rgb, tinted.a);
+    vec3 shown_color = lit(color, s.front ? normal : -normal, offset);
+    shown_color = hazed(mix(shown_color, tinted.rgb, tinted.a), offset);
 #ifdef PEELED
-    picture = vec4(lit * shown, shown);
+    picture = vec4(shown_color * shown, shown);
     vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
     vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
     place = vec4(gl_FragCoord.z, float(object + 1), n.z >= 0.0 ? n.xy : folded);
 #else
-    picture = vec4(lit, 1.0);
+    picture = vec4(shown_color, 1.0);
 #endif
 #if defined(WITH_IDS) && !defined(PEELED)
     id = float(object + 1);

@@ -12,7 +12,7 @@ layout(location = 1) out float surface;
 #endif
 
 void main() {
-    picture = vec4(min(color * shade(normal, -offset), 1.0), float(object));
+    picture = vec4(hazed(lit(color, normal, offset), offset), float(object));
 #ifdef WITH_SURFACES
     surface = float(channel + gl_PrimitiveID);
 #endif

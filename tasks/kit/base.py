@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 from numpy.random import Generator
 
+from seethrough.renderer.look.dressed import dressed
+from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
@@ -29,6 +31,11 @@ class View:
     hud: tuple[Element, ...] = ()
     captured: bool = False
     drawn: Any = None
+
+    def dressed(self, look: Look) -> View:
+        """The view of the scene as it looks."""
+        scene = dressed(self.scene, look)
+        return self if scene is self.scene else replace(self, scene=scene)
 
 
 @dataclass(frozen=True)

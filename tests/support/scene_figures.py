@@ -58,6 +58,7 @@ def plate(shown):
     """Of one of the gallery's pictures."""
     objects, camera, technique = shown.scene.objects, shown.camera, shown.technique
     used = asdict(technique) if is_dataclass(technique) else {}
+    look = {k: getattr(shown.scene.look, k) for k in shown.scene.look.on}
     return {
         "caption": shown.caption,
         "size": list(shown.size),
@@ -70,6 +71,7 @@ def plate(shown):
         "groups": np.bincount(np.bincount(shown.scene.group_of)).tolist(),
         "meshes": moments([[len(o.mesh.triangles), o.mesh.radius, *o.mesh.bounds.ravel()]
                            for o in objects]),
+        **({"look": look} if look else {}),
     }  # fmt: skip
 
 

@@ -118,8 +118,9 @@ def fill(batch: Batch, progress: Any = None) -> None:
     for trial in pooled_trials(study):
         for which in range(batch.pool):
             task = TASKS[trial.task]
-            view = task.view(pool.world(trial, which, aspect))
-            eyes = pool.eyes(view.scene, study.part(trial.levels).technique)
+            part = study.part(trial.levels)
+            view = task.view(pool.world(trial, which, aspect)).dressed(part.look)
+            eyes = pool.eyes(view.scene, part.technique)
             for camera in views_of(task.simulate.heights, view.camera):
                 eyes.look(view.scene, camera)
             pool.looks.flush()
@@ -145,5 +146,5 @@ def pooled_trials(study: Study) -> list[Trial]:
             for trial in task_set.trials:
                 part = study.part(trial.levels)
                 if not part.plan.shared:
-                    trials.setdefault((trial.task, part.technique, part.place), trial)
+                    trials.setdefault((trial.task, part.technique, part.place, part.look), trial)
     return list(trials.values())

@@ -17,6 +17,7 @@ from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import STUDY_SCENES, Trial, generator
 from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.renderer.look.look import PLAIN
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
@@ -93,7 +94,7 @@ class Pool(StudyScenes):
         return task.begin(self._scenes[name, setting.place], setting, aspect)
 
     def _open(self, scene: Scene, technique: Any) -> TableEyes:
-        name, moving = self._names[id(scene)]
+        name, moving = self._names[id(scene.bare or scene)]
         own = fingerprint(scene, technique, window_of(self.study))
         table = f"{name}-{own}/{technique.technique.name}"
         if technique not in self._draws:
@@ -112,9 +113,11 @@ def window_of(study: Study) -> tuple[int, int]:
 
 
 def fingerprint(scene: Scene, technique: object, window: tuple[int, int]) -> str:
-    """What a table depends on besides its viewpoints: objects, their meshes, the technique, and the
-    window, whose pixels the technique counts."""
+    """What a table depends on besides its viewpoints: objects, their meshes, the technique, the
+    look, and the window, whose pixels the technique counts."""
     digest = hashlib.sha256(f"{SIMPLE}{technique!r}, {window[0]} × {window[1]}".encode())
+    if scene.look != PLAIN:
+        digest.update(repr(scene.look).encode())
     digest.update((np.round(scene.transforms, 6) + 0.0).astype("<f8").tobytes())
     for thing in scene.objects:
         digest.update(f"{thing.kind},{thing.color},{len(thing.mesh.triangles)};".encode())

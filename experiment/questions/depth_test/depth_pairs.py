@@ -10,6 +10,7 @@ import numpy as np
 
 from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture, on_picture
 from seethrough.experiment.study.design import STUDY_SCENES, generator
+from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import rotation_y
@@ -34,9 +35,9 @@ class DepthTest:
     pairs: tuple[tuple[str, str], ...]
     nearer: tuple[int, ...]
 
-    def pages(self, technique: Parameters) -> list[Page]:
+    def pages(self, technique: Parameters, look: Look = PLAIN) -> list[Page]:
         """The picture once for each pair, large."""
-        picture = Picture(lambda: self.view, technique, height=0.56)
+        picture = Picture(lambda: self.view.dressed(look), technique, height=0.56)
         return [
             Page(
                 f"depth test {n}",

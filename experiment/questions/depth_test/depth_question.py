@@ -37,7 +37,8 @@ class DepthQuestion:
     def pages(self, p: DepthParameters, asking: Asking) -> tuple[Page, ...]:
         """The picture with each pair."""
         assert asking.study is not None, "a still shows a study's world"
-        return tuple(self._test(p, asking).pages(asking.study.technique(asking.about)))
+        study, about = asking.study, asking.about
+        return tuple(self._test(p, asking).pages(study.technique(about), study.look(about)))
 
     def rows(self, p: DepthParameters, asking: Asking, number: int, answers: Answers) -> list[Row]:
         """1 where it was right. The last brings the score."""

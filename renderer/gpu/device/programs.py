@@ -8,7 +8,14 @@ from importlib.resources import files
 
 import moderngl
 
+from seethrough.renderer.look.shaders import GLSL
 from seethrough.renderer.scene import lighting
+
+LIT = """
+vec3 lit(vec3 color, vec3 normal, vec3 offset) {
+    return painted(min(color * shade(normal, -offset), 1.0), normal, offset);
+}
+"""
 
 
 @cache
@@ -45,14 +52,15 @@ def program(
     version: int = 330,
     values: Mapping[str, object] | None = None,
 ) -> Shader:
-    """Build a program; `shade()` of renderer.lighting is known to the fragment shader. Both files
-    are templates if `values` are given."""
+    """Build a program. Fragment shaders know `lit()`, a surface's colour in the light of
+    renderer/scene/lighting.py with what is drawn on it, and `hazed()`, that colour from where the
+    eye is (renderer/look). Both files are templates if `values` are given."""
     head = f"#version {version} core\n" + "".join(f"#define {d}\n" for d in defines)
     sources = [_source(n) if values is None else _filled_in(n, values) for n in (vertex, fragment)]
     return Shader(
         context.program(
             vertex_shader=head + sources[0],
-            fragment_shader=head + lighting.glsl() + sources[1],
+            fragment_shader=head + lighting.glsl() + GLSL + LIT + sources[1],
         )
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
+from seethrough.renderer.gpu.levels.lens import clip_from_offset, tight
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
@@ -53,14 +54,21 @@ class FrameStats:
 
 
 class Layer:
-    """One kind of picture: its programs, and how a plan is drawn into it."""
+    """One kind of picture: its programs, and how a plan is drawn into it. `look` are the defines of
+    the scene's look (renderer/look/shaders.py)."""
 
-    def __init__(self, context: moderngl.Context, store: MeshStore, ids: bool) -> None:
+    def __init__(
+        self, context: moderngl.Context, store: MeshStore, ids: bool, look: Sequence[str] = ()
+    ) -> None:
         self._context, self._store = context, store
-        defines = ["WITH_IDS"] if ids else []
+        self._look = tuple(look)
+        defines = [*(["WITH_IDS"] if ids else []), *look]
         self._defines, self._ruled = defines, dict[str, Any]()
         self.peeled: list[Drawn] = []  # layers of the last frame with ids, from the back
         self._object = program(context, "object.vert", "object.frag", defines)
+        bare = [d for d in defines if not d.startswith("FLOOR")]
+        drawn_on = len(bare) < len(defines)  # of what is no floor nothing has to be asked
+        self._bare = program(context, "object.vert", "object.frag", bare) if drawn_on else None
         self._depth = program(context, "object.vert", "depth.frag", defines)
         self._flat = program(context, "flat.vert", "depth.frag", defines)
         self._masks = MaskPainter(context, defines)
@@ -89,17 +97,30 @@ class Layer:
         self._matrix = clip_from_offset(camera, size)
         runs, rest = self._before(table, frame, camera, technique, scale, size)
         self._set_state()
+        for shader in (self._object, self._depth, self._bare):
+            if shader is not None:
+                self._use(shader)
+                table.set_look(shader, camera, size[1])
+        counts, exact = None, None
+        if len(frame.exact) and after_level is None:
+            # Before the frame's own picture: on a software rasteriser to leave that half done and
+            # come back to it costs more than all the little cells.
+            exact = self._job(table, frame, camera, technique, scale, size)
+            if frame.levels:
+                counts = self._looked_up(table, frame, camera, technique, rest, size)
+            self._painter().begin(exact, self._masks if frame.levels else None)
+            self._bind(*self._bound)
+            self._set_state()
         target.clear(table.scene.background)
-        for shader in (self._object, self._depth):
-            self._use(shader)
         if len(frame.wide):
             self._draw_outside(frame, runs[1], size)
-        self._pass(self._object, runs[0], OPAQUE)
+        self._draw_opaque(runs[0], table)
         if after_level is not None:
             after_level(None)
         if frame.levels:
-            counts = self._looked_up(table, frame, camera, technique, rest, size)
-            target.framebuffer.use()
+            if exact is None:
+                counts = self._looked_up(table, frame, camera, technique, rest, size)
+                target.framebuffer.use()
             self._set_state()
             self._masks.begin(counts)
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
@@ -108,12 +129,22 @@ class Layer:
             self._draw_ruled(table, frame, technique, state, shot, target)
             if after_level is not None and not self.peeled:
                 after_level(frame.ruled)
-        if len(frame.exact) and after_level is None:
-            job = self._job(table, frame, camera, technique, scale, size)
-            self._draw_exact(job, target, self._masks if frame.levels else None)
+        if exact is not None:
+            passes, draws = self._painter().finish(exact, target.framebuffer)
+            self._passes += passes
+            self._draws += draws
         return FrameStats(
             self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
         )
+
+    def _draw_opaque(self, runs: list[Run], table: SceneTable) -> None:
+        """The opaque objects; those on which something is drawn by a program of their own."""
+        if self._bare is None:
+            self._pass(self._object, runs, OPAQUE)
+            return
+        floors = {id(table.meshes[slot]) for slot in table.slot[table.floors].tolist()}
+        self._pass(self._bare, [run for run in runs if id(run[0]) not in floors], OPAQUE)
+        self._pass(self._object, [run for run in runs if id(run[0]) in floors], OPAQUE)
 
     def _draw_ruled(
         self,
@@ -165,7 +196,7 @@ class Layer:
 
     def _painter(self) -> ExactPainter:
         if self._exact is None:
-            self._exact = ExactPainter(self._context)
+            self._exact = ExactPainter(self._context, self._look)
         return self._exact
 
     def _job(
@@ -179,11 +210,6 @@ class Layer:
     ) -> ExactJob:
         width = technique.width * scale
         return ExactJob(table, frame, camera, technique, width, size, self._matrix)
-
-    def _draw_exact(self, job: ExactJob, target: FrameTarget, made: MaskPainter | None) -> None:
-        passes, draws = self._painter().draw(job, target.framebuffer, made)
-        self._passes += passes
-        self._draws += draws
 
     def _set_state(self) -> None:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
@@ -364,22 +390,3 @@ def _scope(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]
     left, top = frame.holes[:, :2].min(axis=0).tolist()
     right, bottom = frame.holes[:, 2:].max(axis=0).tolist()
     return (left, size[1] - bottom, right - left, bottom - top)
-
-
-def clip_from_offset(camera: Camera, size: tuple[int, int]) -> bytes:
-    """clip ← (world − eye), for GLSL."""
-    turn = np.eye(4)
-    turn[:3, :3] = camera.rotation.T
-    return (camera.projection(size[0] / size[1]) @ turn).T.astype("f4").tobytes()
-
-
-def tight(camera: Camera, frame: FramePlan) -> Camera:
-    """The camera with its depth range closed in on what is drawn: more bits for each unit."""
-    seen = np.nonzero(frame.boxes.inside)[0]
-    if not len(seen):
-        return camera
-    near = max(camera.near, float(frame.boxes.near[seen].min()) * (1 - 1e-6))
-    far = min(camera.far, float(frame.boxes.far[seen].max()) * (1 + 1e-6))
-    if near >= far:
-        return camera
-    return Camera(camera.eye, camera.rotation, camera.fov_y, near, far)

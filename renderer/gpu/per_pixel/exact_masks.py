@@ -45,6 +45,7 @@ class ExactJob:
         sequence.use(1)
         shader["clip_from_offset"].write(self.clip)
         shader.set(table=0, sequence=1)
+        self.table.set_look(shader, self.camera, self.size[1])
 
 
 class ExactMasks:

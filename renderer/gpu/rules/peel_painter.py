@@ -76,7 +76,8 @@ class PeelPainter:
 
     def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
         self._context, self._ids = context, "WITH_IDS" in defines
-        self._programs = RulePrograms(context, ["PEELED"])
+        shown = [d for d in defines if d != "WITH_IDS"]
+        self._programs = RulePrograms(context, ["PEELED", *shown])
         self._put = program(context, "present.vert", "layer.frag")
         self._screen = context.vertex_array(self._put.program, [])
         self._edges = program(context, "present.vert", "edges.frag")

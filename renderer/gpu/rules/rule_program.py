@@ -42,6 +42,7 @@ class RulePrograms:
             )
         shader = self._programs[rules.glsl]
         use(shader, shot.camera, matrix)
+        table.set_look(shader, shot.camera, shot.size[1])
         shader.set(size=shot.size, lens=0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
         for name, value in rules.uniforms(technique, state, shot).items():
             if name in shader.members:
