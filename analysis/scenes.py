@@ -21,6 +21,9 @@ from seethrough.analysis.stats.distributions import t_quantile, t_two_sided
 
 FEWEST = 7
 """Shared scenes from which they are a sample: of fewer the spread cannot be estimated."""
+LEAST = 0.01
+"""Of the residuals' s.d.: scenes, or a mean of their levels and slopes, that spread by less do not
+spread at all. At that border the likelihood is flat, and where a search ends there is chance."""
 MOST_WORK = 5e10
 """Multiplications that a fit may take from each start: some ten seconds."""
 SCENE_SLOPES = "(1 + {} | scene)"
@@ -148,7 +151,8 @@ def _fit(
         return "cannot be fitted"
     if not found.converged or not np.all(found.errors[1 : len(rows.others) + 1] > 0):
         return "did not converge"
-    if found.edges[-1]:
+    least = float(np.min(np.linalg.eigvalsh(found.covariances[-1])))
+    if np.sqrt(max(0.0, least)) < LEAST * found.sigma:
         return "singular: a variance of scenes is estimated as 0, or a correlation as ±1"
     spread = rows.unit * np.sqrt(np.diag(found.covariances[-1]))
     return tuple(

@@ -86,8 +86,8 @@ def compared(
         p = table.cite(key, column)
         sign = "" if p.text.startswith(("<", ">")) else "= "
         estimate = "ratio" if row.get("ratio") is not None and "logs" in key else _estimate(row)
-        runs += ["; " if i else "", f"{row['label']}: {_named(estimate)} ",
-                 table.cite(key, estimate), *_interval(table, row, estimate), f", p {sign}", p]  # fmt: skip
+        runs += ["; " if i else "", f"{row['label']}: {_named(estimate)} "]
+        runs += [table.cite(key, estimate), *_interval(table, row, estimate), f", p {sign}", p]
     decides = min(used) if several else max(used)
     runs.append("." if len(tests) == 1 else f" ({_combined(several, decides)}).")
     runs += unlike

@@ -15,6 +15,9 @@ LEAST_ITEMS = 3
 """Of two items there is no factor to fit, and α is a correlation."""
 LEAST_OWN = 0.005
 """Of an item's variance, what is its own at least, as R's factanal has it."""
+APART = "an item seems to have nothing in common with the others"
+MOST_OWN = 0.999
+"""Where it is more, the likelihood is flat, and what the others have in common not to be told."""
 HEYWOOD = "an item seems to have no variance of its own"
 
 
@@ -84,6 +87,8 @@ def _omega(cov: Array) -> Number:
     psi = found.x
     if np.any(psi <= LEAST_OWN * (1 + 1e-6)):
         return Undefined(HEYWOOD)
+    if np.any(psi >= MOST_OWN):
+        return Undefined(APART)
     root = np.sqrt(psi)
     values, vectors = np.linalg.eigh(r / np.outer(root, root))
     load = root * vectors[:, -1] * np.sqrt(max(0.0, values[-1] - 1))

@@ -94,7 +94,7 @@ scenes_row <- function(d, plain) {
     nested <- gsub("transparency", "technique", plain$model)
     fit <- fit_of(paste("y ~", paste(c(fixed, nested, step), collapse = " + ")), rows)
     theta <- lme4::getME(fit, "Tlist")[["scene"]]
-    if (min(abs(diag(theta))) < 1e-4) next
+    if (min(svd(theta)$d) < 0.01) next
     own <- summary(fit)$coefficients["technique", ]
     estimate <- own[["Estimate"]] * unit
     error <- own[["Std. Error"]] * unit

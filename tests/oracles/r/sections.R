@@ -145,13 +145,13 @@ ratings_tables <- function(d) {
   q <- d$questions
   out <- list(single_items = single_items(q))
   q <- q[q$item %in% ITEMS & !is.na(q$value), ]
+  out$reliability <- reliability_rows(q, sort(unique(d$questions$participant), method = "radix"))
   if (!two_levels(q)) return(out)
   factors <- list(
     item = levels_in(q$item, ITEMS), scenario = levels_in(q$scenario, SCENARIOS), transparency = LEVELS
   )
   cells <- table_of(q, sort(unique(d$questions$participant), method = "radix"), "value", factors)
   v <- cells$values
-  if (length(factors$item) == 3) out$reliability <- reliability_rows(v, factors)
   overall <- of_cells(apply(v, c(1, 4), mean), 1, "rating_overall", "", "rating")
   each <- list()
   for (s in seq_along(factors$scenario)) {
@@ -175,10 +175,13 @@ ratings_tables <- function(d) {
 }
 
 # Cronbach's alpha with Feldt's interval (psych), and omega of one factor (factanal), by condition.
-reliability_rows <- function(v, factors) {
+reliability_rows <- function(q, who) {
   rows <- list()
-  for (t in LEVELS) for (s in factors$scenario) {
-    x <- v[, , match(s, factors$scenario), match(t, LEVELS)]
+  if (!all(ITEMS %in% q$item)) return(rows)
+  for (t in levels_in(q$transparency, LEVELS)) for (s in levels_in(q$scenario, SCENARIOS)) {
+    own <- q[q$transparency == t & q$scenario == s, ]
+    if (!nrow(own)) next
+    x <- tapply(own$value, list(factor(own$participant, who), factor(own$item, ITEMS)), mean)
     x <- x[rowSums(is.na(x)) == 0, , drop = FALSE]
     if (!nrow(x)) next
     row <- list(
@@ -218,7 +221,7 @@ omega_of <- function(x) {
   best <- fits[[which.min(sapply(fits, function(f) f$objective))]]$par
   load <- best[1:k]
   own <- best[-(1:k)]
-  if (any(own <= 0.005 * (1 + 1e-4))) return(undefined)
+  if (any(own <= 0.005 * (1 + 1e-4)) || any(own >= 0.999)) return(undefined)
   theirs <- try(factanal(covmat = cov(x), n.obs = nrow(x), factors = 1), silent = TRUE)
   if (!inherits(theirs, "try-error")) stopifnot(loss(c(theirs$loadings[, 1], theirs$uniquenesses)) >= loss(best) - 1e-6)
   sum_of <- sum(load * apply(x, 2, sd))^2
