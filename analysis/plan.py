@@ -78,7 +78,10 @@ def make_plan(
     )
     deviations = [
         *_choices(frozen, (planned_alpha, used_alpha), (planned_out, used_out)),
-        *_further(table, pairwise, aligned_ranks),
+        *_further(
+            [name for name in pairwise if name not in table.get("pairwise", ())],
+            aligned_ranks and table.get("aligned_ranks") is not True,
+        ),
         *_collection(study, configs, design, about),
     ]
     return Plan(
@@ -96,11 +99,10 @@ def make_plan(
     )
 
 
-def _further(table: Mapping[str, Any], pairwise: Sequence[str], aligned: bool) -> list[str]:
+def _further(new: Sequence[str], aligned: bool) -> list[str]:
     """Tests that were asked for with the report, not planned."""
-    new = [name for name in pairwise if name not in table.get("pairwise", ())]
     lines = [f"All pairs of {', '.join(new)} were not planned; they were asked for."] if new else []
-    if aligned and table.get("aligned_ranks") is not True:
+    if aligned:
         lines.append("Aligned ranks were not planned; they were asked for.")
     return lines
 

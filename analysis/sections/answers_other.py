@@ -87,7 +87,7 @@ def compared(
         sign = "" if p.text.startswith(("<", ">")) else "= "
         estimate = "ratio" if row.get("ratio") is not None and "logs" in key else _estimate(row)
         runs += ["; " if i else "", f"{row['label']}: {_named(estimate)} "]
-        runs += [table.cite(key, estimate), *_interval(table, row, estimate), f", p {sign}", p]
+        runs += [table.cite(key, estimate), *_interval(table, key, estimate), f", p {sign}", p]
     decides = min(used) if several else max(used)
     runs.append("." if len(tests) == 1 else f" ({_combined(several, decides)}).")
     runs += unlike
@@ -119,12 +119,12 @@ def _estimate(row: Mapping[str, Any]) -> str:
     return "ratio" if "geometric_level" in row else "difference"
 
 
-def _interval(table: Table, row: Mapping[str, Any], estimate: str) -> list[str | Cited]:
+def _interval(table: Table, key: str, estimate: str) -> list[str | Cited]:
     """` [0.75, 1.01]`, where the row has the estimate's interval."""
     ends = ("low", "high") if estimate == "estimate" else (f"{estimate}_low", f"{estimate}_high")
+    row = table.row(key)
     if not all(is_defined(row.get(end)) and row.get(end) is not None for end in ends):
         return []
-    key = str(row[table.columns[0].name])
     return [" [", table.cite(key, ends[0]), ", ", table.cite(key, ends[1]), "]"]
 
 

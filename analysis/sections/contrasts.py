@@ -60,6 +60,8 @@ OBSERVED = (
     "{} was brought along, not assigned: its groups may differ in anything else too, and no "
     "difference between them says why."
 )
+Row = dict[str, Any]
+"""A row of the table: what a column has, numbers or why there are none."""
 CONTRAST, BETWEEN, DIFFERENCE, SIMPLE = "contrast", "between", "interaction", "simple effect"
 TRENDS = {1: "linear trend", 2: "quadratic trend"}
 
@@ -88,7 +90,7 @@ def contrast_blocks(
 
     `cells` are logarithms where `log` says so; `anova`: which interactions were found.
     """
-    rows: list[dict[str, Any]] = []
+    rows: list[Row] = []
     tasks = cells.factors[TASK]
     places = [(task, cells.pick(task=task)) for task in tasks]
     if len(tasks) > 1 and measure.pool:
@@ -278,7 +280,7 @@ def _simple_rows(
 
 def row_of(
     context: Context, cells: Cells, asked: Asked, measure: Measured, log: bool
-) -> dict[str, Any] | None:
+) -> Row | None:
     """An asked contrast's row, of who has what it needs."""
     factors = design_at(context, cells).groups
     has = np.isfinite(asked.scores)
@@ -323,7 +325,7 @@ def _ratios(found: Estimate, log: bool, span: float | None) -> dict[str, Number 
     return {"ratio": ratio(found.estimate), "ratio_low": ratio(low), "ratio_high": ratio(high)}
 
 
-def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, Any]:
+def _margin(found: Estimate, measure: Measured, kind: str) -> Row:
     """The tests against the declared margin; trends and differences of differences have none."""
     if kind not in (CONTRAST, BETWEEN, SIMPLE):
         return dict.fromkeys(("tost_margin", "tost_p", "noninferior_p"))
@@ -339,7 +341,7 @@ def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, Any]:
     return {"tost_margin": measure.margin, "tost_p": both, "noninferior_p": worse}
 
 
-def _correct(rows: Sequence[dict[str, Any]], families: Sequence[str]) -> None:
+def _correct(rows: Sequence[Row], families: Sequence[str]) -> None:
     """Holm's p within each family."""
     for row in rows:
         row["p_holm"] = row["p"]

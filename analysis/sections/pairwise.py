@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from seethrough.analysis.sections.contrasts import (
     COLUMNS,
     OBSERVED,
     Asked,
+    Row,
     equal_weights,
     group_weights,
     level_of,
@@ -66,7 +66,7 @@ def _places(cells: Cells, pool: bool) -> Iterator[tuple[str, Cells]]:
 
 def pairwise_blocks(context: Context, measure: Measured, cells: Cells, log: bool) -> list[Block]:
     """The table of all pairs on the scale that decides; nothing where none was asked for."""
-    rows: list[dict[str, Any]] = []
+    rows: list[Row] = []
     families: list[str] = []
     for where, own in _places(cells, measure.pool):
         said = where if where == "overall" else context.design.task_said(where)
@@ -105,7 +105,7 @@ def _scores(
     return first - second, equal_weights(design), scale
 
 
-def _correct(rows: list[dict[str, Any]], families: list[str]) -> None:
+def _correct(rows: list[Row], families: list[str]) -> None:
     for row in rows:
         row["p_holm"] = row["p"]
     for family in dict.fromkeys(families):
@@ -120,7 +120,7 @@ def _note(context: Context) -> str:
     return " ".join([NOTE, *(OBSERVED.format(f.name[:1].upper() + f.name[1:]) for f in brought)])
 
 
-def _sentence(context: Context, measure: Measured, rows: list[dict[str, Any]]) -> Block:
+def _sentence(context: Context, measure: Measured, rows: list[Row]) -> Block:
     """Which pairs differ."""
     found = [str(r["label"]) for r in rows
              if is_defined(r["p_holm"]) and r["p_holm"] < context.plan.alpha]  # fmt: skip
@@ -132,7 +132,7 @@ def _sentence(context: Context, measure: Measured, rows: list[dict[str, Any]]) -
 
 def ranked_pairwise(context: Context, measure: Measured, cells: Cells) -> list[Block]:
     """The same of what is compared by its order: signed ranks within people, ranks of groups."""
-    rows: list[dict[str, Any]] = []
+    rows: list[Row] = []
     families: list[str] = []
     for where, own in _places(cells, measure.pool):
         said = where if where == "overall" else context.design.task_said(where)
@@ -154,7 +154,7 @@ def ranked_pairwise(context: Context, measure: Measured, cells: Cells) -> list[B
 
 def _ranked(
     context: Context, design: Design, cells: Cells, factor: Factor, c: Contrast, purpose: int
-) -> dict[str, Any] | None:
+) -> Row | None:
     """Of who has both levels; of means over the other conditions."""
     if factor.within:
         first, second = cells.both(factor.name, c.baseline, c.level)

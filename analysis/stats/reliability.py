@@ -16,7 +16,7 @@ LEAST_ITEMS = 3
 LEAST_OWN = 0.005
 """Of an item's variance, what is its own at least, as R's factanal has it."""
 APART = "an item seems to have nothing in common with the others"
-MOST_OWN = 0.999
+MOST_OWN = 0.99
 """Where it is more, the likelihood is flat, and what the others have in common not to be told."""
 HEYWOOD = "an item seems to have no variance of its own"
 
