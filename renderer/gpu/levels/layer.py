@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import moderngl
@@ -36,8 +37,12 @@ OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
-PAINTERS = {PEELS: PeelPainter, REMOVAL: RemovalPainter}
-# The minimum takes no factors: colour stays because a mask's own is made to be larger.
+GHOSTS = "ghosts"  # lines of what was removed, over what is left
+PAINTERS: Mapping[str, Callable[..., PeelPainter | RemovalPainter]] = {
+    PEELS: PeelPainter,
+    REMOVAL: RemovalPainter,
+    GHOSTS: partial(PeelPainter, ghosts=True),
+}
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
@@ -126,9 +131,12 @@ class Layer:
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
         if len(frame.ruled):
             shot = Shot(table.scene, camera, size, scale)
-            self._draw_ruled(table, frame, technique, state, shot, target)
-            if after_level is not None and not self.peeled:
+            rules = technique.technique
+            self._draw_ruled(rules.painter, table, frame, technique, state, shot, target)
+            if after_level is not None and rules.painter == REMOVAL:
                 after_level(frame.ruled)
+            if rules.painter == REMOVAL and rules.edges(technique):
+                self._draw_ruled(GHOSTS, table, frame, technique, state, shot, target)
         if exact is not None:
             passes, draws = self._painter().finish(exact, target.framebuffer)
             self._passes += passes
@@ -148,6 +156,7 @@ class Layer:
 
     def _draw_ruled(
         self,
+        name: str,
         table: SceneTable,
         frame: FramePlan,
         technique: Parameters,
@@ -155,8 +164,7 @@ class Layer:
         shot: Shot,
         target: FrameTarget,
     ) -> None:
-        """What the technique's rule is asked about, by the painter that it names."""
-        name = technique.technique.painter
+        """What the technique's rule is asked about, by a painter."""
         if name not in self._ruled:
             self._ruled[name] = PAINTERS[name](self._context, self._defines)
         painter = self._ruled[name]
