@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from seethrough.analysis.cells import Array, Cells, level_codes, means, people, sums, table_of
-from seethrough.analysis.design import ABSOLUTE, RELATIVE, Design, Factor, Item, Measured
+from seethrough.analysis.design import ABSOLUTE, RELATIVE, Design, Factor, Measured
 
 TASK = "task"
 
@@ -122,17 +122,6 @@ def ratings(asked: pd.DataFrame, names: Sequence[str], factors: Sequence[Factor]
     own = asked[asked["item"].isin(list(names))]
     levels = {"item": levels_present(own, "item", names), **levels_of(own, factors)}
     return means(own, "value", levels)
-
-
-def all_one_way(cells: Cells, items: Sequence[Item]) -> Cells:
-    """The same with items that speak against what the others speak for turned round."""
-    known = {item.name: item for item in items}
-    values = cells.values.copy()
-    for at, name in enumerate(cells.factors["item"]):
-        item = known[name]
-        if item.against and item.points:
-            values[:, at] = 2 * item.low + item.points - 1 - values[:, at]
-    return replace(cells, values=values)
 
 
 def answers(questionnaire: pd.DataFrame, item: str) -> Array:

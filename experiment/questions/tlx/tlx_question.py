@@ -94,6 +94,13 @@ class TlxQuestion:
         """The last scale; the workload."""
         return ("tlx_weighted",) if number else (f"tlx_{TLX[-1]}",)
 
+    def behind(self, p: TlxParameters) -> tuple[str, ...]:
+        """Pairs and weights lead to the weighted workload."""
+        if not p.weighted:
+            return ()
+        pairs = tuple(f"tlx_pair_{n}" for n in range(1, len(PAIRS) + 1))
+        return (*pairs, *(f"tlx_weight_{name}" for name in TLX))
+
     def items(self, p: TlxParameters, name: str) -> Mapping[str, str]:
         """All of it."""
         found = {f"tlx_{name}": f"tlx.{name} (0–{STEPS - 1})" for name in TLX}
@@ -102,7 +109,7 @@ class TlxQuestion:
                 f"tlx_pair_{n}": f"{a} (1) or {b} (0)" for n, (a, b) in enumerate(PAIRS, start=1)
             }
             found |= {f"tlx_weight_{name}": f"how often {name} was chosen, of 5" for name in TLX}
-            found["tlx_weighted"] = "workload, weighted, from 0 to 100"
+            found["tlx_weighted"] = "weighted workload (0–100)"
         return found
 
     def simulate(self, p: TlxParameters, page: Page, person: Respondent) -> Answers:

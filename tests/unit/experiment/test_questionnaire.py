@@ -19,6 +19,7 @@ from seethrough.experiment.questions.tlx.tlx_question import TLX
 from seethrough.experiment.session import questionnaire
 from seethrough.experiment.session.questionnaire import Said
 from seethrough.experiment.study.config import find, load, parse
+from seethrough.experiment.study.described import design_entry
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 PUBLISHED = load("published")
@@ -346,3 +347,11 @@ def test_ranks_belong_to_their_options_however_they_are_shown():
     assert [(r["item"], r["value"], r["text"]) for r in rows] == [
         (f"x_{n}", wanted[o], o) for n, o in enumerate("abcd", start=1)
     ]
+
+
+def test_pairs_and_weights_are_not_what_a_report_compares():
+    study = with_blocks("tlx")
+    table = study.resolved()
+    table["questions"] = [{"name": "tlx", "use": "tlx", "weighted": True}]
+    items = {item["name"]: item["group"] for item in design_entry(parse(table, "s"))["items"]}
+    assert items == {**{f"tlx_{name}": "tlx" for name in TLX}, "tlx_weighted": ""}
