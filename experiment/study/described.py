@@ -65,12 +65,13 @@ def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
     items = []
     scales = {item: re.search(r"\((-?\d+)–(-?\d+)\)$", words) for item, words in known.items()}
     spans = [scale and scale[0] for scale in scales.values()]
+    first = next((span for span in spans if span), None)
     for (item, scale), span in zip(scales.items(), spans, strict=True):
         items.append({
             "name": item,
             "label": item.replace("_", " "),
             "each": each,
-            "group": name if len(known) > 1 and span == spans[0] else "",
+            "group": name if len(known) > 1 and span in (None, first) else "",
             "of": compared if asked.use == "comparison" and item == "preference" else "",
             **({"points": int(scale[2]) - int(scale[1]) + 1, "low": int(scale[1])}
                if scale else {}),
