@@ -20,11 +20,13 @@ BENCHES = {
     "looks": "drawing.looks",
     "ordering": "orderings.ordering",
     "ordering_accuracy": "orderings.ordering_accuracy",
+    "predictions": "sessions.predictions",
     "session": "sessions.session",
     "simulate": "sessions.simulate",
     "speed": "drawing.speed",
     "statistics": "inference.statistics",
     "techniques": "drawing.techniques",
+    "worlds": "drawing.worlds",
 }
 
 

@@ -29,6 +29,7 @@ COMMANDS = {
     "report": "make the statistics report from a data folder",
     "seal": "print one hash over everything that was recorded",
     "keys": "list what a study file may say: keys, types, defaults, limits, meaning",
+    "texts": "write what is to be translated for a study in a language of its own",
     "check": "check a study before anybody is invited",
     "design": "print, write or draw what a study's factors make",
     "migrate": "rewrite a study file of an earlier version",
@@ -45,6 +46,12 @@ COMMANDS = {
     "demo": "play the short study and make its report",
 }
 
+# Commands that read a study, which may bring code along.
+TRUSTING = {
+    "run", "simulate", "calibrate", "power", "replay", "status", "check", "design", "prereg",
+    "render", "texts",
+}  # fmt: skip
+
 ELSEWHERE = {"bench": "seethrough.benchmarks.bench"}  # commands that are not the experiment's
 
 
@@ -58,6 +65,8 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     """A parser that knows every command's name, and the arguments of the one in `argv`."""
+    from seethrough.experiment.files import trust  # a command's matter: this module knows none
+
     parser = _Parser(prog="seethrough", description="User studies of occlusion management.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     chosen = next((a for a in argv if not a.startswith("-")), None)
@@ -68,6 +77,8 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
         if name == chosen:
             module = importlib.import_module(ELSEWHERE.get(name, f"{__package__}.commands.{name}"))
             module.add_arguments(sub)
+            if name in TRUSTING:
+                sub.add_argument("--trust", action="store_true", help=trust.TRUST)
             sub.set_defaults(run=module.run)
     return parser
 
@@ -108,6 +119,10 @@ def _is_interrupt(error: BaseException | None) -> bool:
 def _run(words: Sequence[str]) -> int:
     try:
         arguments = _parser(words).parse_args(words)
+        if getattr(arguments, "trust", False):
+            from seethrough.experiment.files import trust
+
+            trust.trust_everything()
         return int(arguments.run(arguments) or 0)
     except InputError as error:
         return _failed(error.lines, 2)

@@ -53,6 +53,7 @@ class Key:
     choices: tuple[str, ...] = ()
     point: bool = False
     said: str = ""  # what is allowed, where neither limits nor choices say it
+    shown: bool = False  # whether participants read it: a text that a study's language translates
 
 
 def key(
@@ -65,12 +66,13 @@ def key(
     choices: tuple[str, ...] = (),
     point: bool = False,
     said: str = "",
+    shown: bool = False,
 ) -> Value:
     """A field of a frozen dataclass with what is declared of it; default ... for none.
 
     Its type is the value's, as that of `dataclasses.field` is.
     """
-    metadata = {"key": Key(meaning, unit, low, high, choices, point, said)}
+    metadata = {"key": Key(meaning, unit, low, high, choices, point, said, shown)}
     if isinstance(default, EllipsisType):
         return dataclasses.field(metadata=metadata)
     return dataclasses.field(default=default, metadata=metadata)

@@ -20,7 +20,8 @@ class Plan:
     """The analysis as it runs. `frozen` is the study's [analysis] table, None if it has none.
 
     `margins`: what the study declared to be no difference that matters, by measure; what is not in
-    it has no margin. `too_fast`: the limit of that exclusion rule, seconds.
+    it has no margin. `too_fast`: the limit of that exclusion rule, seconds. `pairwise`: factors of
+    which every pair of levels is compared; `aligned_ranks`: whether they were asked for.
     """
 
     alpha: float
@@ -32,6 +33,8 @@ class Plan:
     participants: int | None
     trials: int | None
     too_fast: float = TOO_FAST
+    pairwise: tuple[str, ...] = ()
+    aligned_ranks: bool = False
 
 
 def digest(value: object) -> str:
@@ -41,9 +44,14 @@ def digest(value: object) -> str:
 
 
 def make_plan(
-    study: Study, alpha: float | None = None, exclude: Sequence[str] | None = None
+    study: Study,
+    alpha: float | None = None,
+    exclude: Sequence[str] | None = None,
+    pairwise: Sequence[str] = (),
+    aligned_ranks: bool = False,
 ) -> Plan:
-    """The frozen plan, with what was asked on the command line instead, listed as deviations."""
+    """The frozen plan, with what was asked on the command line instead or beside, listed as
+    deviations. Raises DataError."""
     configs = [config_of(sidecar) for sidecar in study.sidecars.values()]
     frozen = _first(configs, "analysis")
     table = frozen or {}
@@ -53,6 +61,11 @@ def make_plan(
     used_out = planned_out if exclude is None else tuple(exclude)
     if not 0 < used_alpha < 1:
         raise DataError(f"alpha = {used_alpha}: expected a number between 0 and 1")
+    pairs = tuple(dict.fromkeys([*_texts("pairwise", table), *pairwise]))
+    for name in pairs:
+        if name not in study.design.levels:
+            known = ", ".join(study.design.levels) or "no factor"
+            raise DataError(f"analysis.pairwise = {name!r}: expected among {known}")
     tests = _texts("tests", table)
     unknown = [t for t in tests if t not in TESTS]
     if unknown:
@@ -60,6 +73,10 @@ def make_plan(
     design, about = _first(configs, "design") or {}, _first(configs, "study") or {}
     deviations = [
         *_choices(frozen, (planned_alpha, used_alpha), (planned_out, used_out)),
+        *_further(
+            [name for name in pairwise if name not in _texts("pairwise", table)],
+            aligned_ranks and table.get("aligned_ranks") is not True,
+        ),
         *_collection(study, configs, design, about),
     ]
     return Plan(
@@ -72,6 +89,8 @@ def make_plan(
         _whole(about.get("participants")),
         _whole(design.get("trials")),
         _number("too_fast", table.get("too_fast", TOO_FAST), 0),
+        pairs,
+        aligned_ranks or table.get("aligned_ranks") is True,
     )
 
 
@@ -91,6 +110,14 @@ def _texts(name: str, table: Mapping[str, object]) -> tuple[str, ...]:
 def _whole(value: object) -> int | None:
     """A number of people or trials, None where the config says none."""
     return value if isinstance(value, int) else None
+
+
+def _further(new: Sequence[str], aligned: bool) -> list[str]:
+    """Tests that were asked for with the report, not planned."""
+    lines = [f"All pairs of {', '.join(new)} were not planned; they were asked for."] if new else []
+    if aligned:
+        lines.append("Aligned ranks were not planned; they were asked for.")
+    return lines
 
 
 def _number(name: str, value: object, above: float) -> float:

@@ -217,6 +217,9 @@ class _Reader:
                 self.text(t, p, "group"),
                 self.text(t, p, "of"),
                 self.value(t, p, "points", None, _is_whole, "a number"),
+                self.value(t, p, "low", 0, _is_number, "a number"),
+                self.texts(t, p, "parts"),
+                self.texts(t, p, "reverse"),
             )
             for p, t in self.tables(entry, ENTRY, "items")
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeGuard
 
 from seethrough.analysis.page.numbers import show
 from seethrough.analysis.stats.undefined import Undefined
@@ -152,16 +153,27 @@ class Report:
 
 
 def more(table: Table, title: str, shown: str) -> Fold:
-    """Further columns of a table, behind a fold."""
+    """Further columns of a table, behind a fold; what no row has is said once, below."""
+    names = [n for n in shown.split() if not all(_gone(row.get(n)) for row in table.rows)]
+    gone = {
+        str(row[n]).removeprefix("undefined: ")
+        for n in shown.split()
+        if n not in names
+        for row in table.rows
+    }
     view = replace(
         table,
         key=f"{table.key}_more",
         title=title,
-        shown=tuple(shown.split()),
+        shown=tuple(names),
         source=table.key,
-        note="",
+        note=f"Columns that no row has are left out: {'; '.join(sorted(gone))}." if gone else "",
     )
     return Fold(title, (view,))
+
+
+def _gone(value: object) -> TypeGuard[Undefined]:
+    return isinstance(value, Undefined)
 
 
 def row_texts(table: Table, row: Mapping[str, object]) -> list[str]:

@@ -58,7 +58,6 @@ class Measured:
         }
 
 
-@lru_cache
 def measure(technique: Technique) -> Measured:
     """What a technique does with its default parameters."""
     p = technique.Parameters()
@@ -108,8 +107,8 @@ def _shown(case: Case, p: Parameters, targets: list[int]) -> tuple[dict[int, flo
 def _plain(case: Case) -> Floats:
     """(n,) pixels of each object in the standard picture."""
     truth = exact(case.scene, case.camera, Standard(), SIZE)
-    found: Floats = truth.weights.sum(axis=(1, 2))
-    return found
+    pixels: Floats = truth.weights.sum(axis=(1, 2))
+    return pixels
 
 
 @lru_cache

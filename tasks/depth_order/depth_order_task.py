@@ -53,6 +53,7 @@ class DepthOrder(Basics[DepthOrderState, DepthOrderSetting]):
     name, code = "depth_order", "D"
     source = "Elmqvist2009 §VI-G"
     worlds = ANYWHERE
+    least = 2
     Parameters = DepthOrderParameters
     measures: tuple[Measure, ...] = (CORRECT,)
     takes = keys(mark.lower() for mark in MARKS)

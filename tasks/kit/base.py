@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Generic, Protocol
+from typing import TYPE_CHECKING, Generic, Protocol, cast
 
 from numpy.random import Generator
 from typing_extensions import TypeVar
@@ -16,7 +16,7 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
-from seethrough.tasks.kit.hud import Element, FloorPlan
+from seethrough.tasks.kit.hud import Element, FloorPlan, Point
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Place, Texts, World, WorldParameters
 
@@ -27,13 +27,15 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, eq=False)
 class View:
     """What the participant should see now. `captured`: the pointer turns the viewer, unseen.
-    `drawn`: what events have made of the technique's state, which the session keeps."""
+    `drawn`: what events have made of the technique's state, which the session keeps. `aim`: where
+    enter and space point; where there is one, presses are told the thing that they hit."""
 
     scene: Scene
     camera: Camera
     hud: tuple[Element, ...] = ()
     captured: bool = False
     drawn: object = None
+    aim: Point | None = None
 
     def dressed(self, look: Look) -> View:
         """The view of the scene as it looks."""
@@ -85,11 +87,18 @@ State = TypeVar("State", default=object)
 
 @dataclass(frozen=True)
 class Setting(Generic[Where, Own]):
-    """Where and how a task is set: a world, the world's parameters (`place`), the `task`'s own."""
+    """Where and how a task is set: a world, the world's parameters (`place`), the `task`'s own, and
+    which of the `items` that it can ask for, where they are counted."""
 
     world: World
     place: Where
     task: Own
+    item: int | None = None
+
+    @property
+    def controls(self) -> str:
+        """The name of the text that says how one moves."""
+        return str(getattr(self.place, "controls", self.world.controls))
 
 
 Given = TypeVar("Given", bound=Setting, default=Setting)
@@ -106,6 +115,7 @@ class Basics(Generic[State, Given]):
 
     name: str
     version = "1"
+    least = 1  # targets that a scene has to have
     takes = NO_KEYS
     Parameters: type[Declares] = NoParameters
     texts: Texts = NO_TEXTS
@@ -123,6 +133,10 @@ class Basics(Generic[State, Given]):
     def make_scene(self, rng: Generator, setting: Given) -> Place:
         """A place of the world."""
         return setting.world.make(rng, setting.place)
+
+    def controls(self, setting: Given) -> str:
+        """The name of the text that says how one moves: as the world has it."""
+        return setting.controls
 
     @abstractmethod
     def view(self, state: State) -> View:
@@ -155,11 +169,17 @@ class Task(Protocol[WhereTo, OwnTo, Made, State]):
     source: str
     worlds: tuple[str, ...]
     measures: tuple[Measure, ...]
-    title: str
-    instruction: str
     takes: frozenset[str]
     texts: Texts
     simulate: Strategy
+
+    @property
+    def title(self) -> str:
+        """The name of the text above the instruction."""
+
+    @property
+    def instruction(self) -> str:
+        """The name of the text that says what to do."""
 
     @property
     def Parameters(self) -> type[Declares]:
@@ -185,3 +205,9 @@ class Task(Protocol[WhereTo, OwnTo, Made, State]):
 
     def example(self, state: State, aspect: float) -> Example:
         """What the instruction's picture, so wide for its height, may show of a trial's start."""
+
+
+def opaque(task: Task[WhereTo, OwnTo, Made, State]) -> Task:
+    """The same task for who hands its states on and looks into none: no other ever gets to it,
+    which no type can say."""
+    return cast(Task, task)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
-from typing import Protocol
+from typing import Generic, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
@@ -16,7 +18,7 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 
-OWN, SHARED = "own", "shared"
+OWN, SHARED, FILES = "own", "shared", "files"
 ANYWHERE = ("*",)  # the worlds of a task that takes any place with targets
 NO_KEYS: frozenset[str] = frozenset()
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
@@ -31,6 +33,23 @@ class Place(Protocol):
         """Everything that stands there."""
 
 
+# What a world's own parameters and places are; who only hands them on need not know.
+Made = TypeVar("Made", bound=Place, default=Place)
+
+
+@dataclass(frozen=True, eq=False)
+class Asked(Generic[Made]):
+    """An item: a place, and the index of the thing that is asked for in it."""
+
+    place: Made
+    thing: int
+
+    @property
+    def scene(self) -> Scene:
+        """Everything that stands there."""
+        return self.place.scene
+
+
 class Viewer(Protocol):
     """Where a participant looks from. Frozen; events give another one."""
 
@@ -41,19 +60,62 @@ class Viewer(Protocol):
         """What the viewer sees."""
 
 
+class FileFault(NamedTuple):
+    """What is wrong with a file, or with what is said of it: the parameter, its value, and what to
+    say."""
+
+    key: str
+    value: object
+    said: str
+
+
+class FileFaults(ValueError):
+    """All that is wrong with a world's files."""
+
+    def __init__(self, found: Sequence[FileFault]) -> None:
+        self.found = tuple(found)
+        super().__init__("; ".join(f"{f.key} = {f.value}: {f.said}" for f in found))
+
+
+@runtime_checkable
+class FileWorld(Protocol):
+    """What a world says besides whose scenes are made of a study's files."""
+
+    def named(self, parameters: object) -> Mapping[str, str]:
+        """Parameter → file beside the study, of all that it names."""
+
+    def found(self, parameters: WorldParameters, folder: Path) -> WorldParameters:
+        """The parameters with their files read, which lie in the folder. Raises FileFaults."""
+
+    def keeps(self, parameters: object) -> Mapping[str, Callable[[], bytes]]:
+        """Name → content, of the files that a data folder keeps for replays."""
+
+    def kept_in(self, parameters: WorldParameters, folder: Path) -> WorldParameters:
+        """The parameters with their files as a data folder has them. Raises FileFaults."""
+
+    def targets(self, parameters: object) -> Mapping[str, int]:
+        """Parameter → how many targets the scene has that it names."""
+
+
+@runtime_checkable
+class ItemWorld(Protocol):
+    """What a world says besides in which all that can be asked for is counted."""
+
+    def items(self, parameters: object) -> Sequence[Asked[Place]]:
+        """All that can be asked for, in the study's order."""
+
+
 class WorldParameters(Declares, Protocol):
     """The parameters of a world: each has a key `scenes`, of which `scenes` below makes one."""
 
     @property
     def scenes(self) -> str:
-        """OWN or SHARED."""
+        """OWN, SHARED or FILES."""
 
     def __hash__(self) -> int: ...
 
 
-# What a world's own parameters and places are; who only hands them on need not know.
 Where = TypeVar("Where", bound=WorldParameters, contravariant=True, default=WorldParameters)
-Made = TypeVar("Made", bound=Place, default=Place)
 
 
 class World(Protocol[Where, Made]):
@@ -88,6 +150,11 @@ class World(Protocol[Where, Made]):
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:
         """World units to go from the start past what a task asks for, (n, 3) centres."""
+
+
+def moving_of(world: World, parameters: object) -> str:
+    """How one moves in a world with these parameters: as they say themselves, else as it says."""
+    return str(getattr(parameters, "move", world.moving))
 
 
 def keys(names: Iterable[str]) -> frozenset[str]:

@@ -86,6 +86,8 @@ class Primitive(TypedDict, total=False):
 class MeshRow(TypedDict, total=False):
     """A mesh."""
 
+    name: str
+    extras: object
     primitives: list[Primitive]
     weights: list[float]
 
@@ -105,6 +107,9 @@ class NodeExtensions(TypedDict, total=False):
 class NodeRow(TypedDict, total=False):
     """Something in the scene, and where: a matrix, or a turn, a size and a place."""
 
+    name: str
+    extras: object
+    camera: int
     mesh: int
     skin: int
     weights: list[float]
@@ -114,6 +119,20 @@ class NodeRow(TypedDict, total=False):
     scale: list[float]
     translation: list[float]
     extensions: NodeExtensions
+
+
+class Perspective(TypedDict, total=False):
+    """How wide a camera sees."""
+
+    yfov: float
+
+
+class CameraRow(TypedDict, total=False):
+    """A camera."""
+
+    name: str
+    type: str
+    perspective: Perspective
 
 
 class SceneRow(TypedDict, total=False):
@@ -208,6 +227,7 @@ class Sampler(TypedDict, total=False):
 ACCESSORS: Kind[Accessor] = Kind("accessors")
 ANIMATIONS: Kind[Mapping[str, object]] = Kind("animations")
 BUFFERS: Kind[Buffer] = Kind("buffers")
+CAMERAS: Kind[CameraRow] = Kind("cameras")
 IMAGES: Kind[Image] = Kind("images")
 MATERIALS: Kind[MaterialRow] = Kind("materials")
 MESHES: Kind[MeshRow] = Kind("meshes")
