@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from seethrough.benchmarks import dominance
+from seethrough.benchmarks.drawing import dominance
 from seethrough.benchmarks.drawing.dominance import PAIRS, Shown, compared, play
 
 SEEDS = range(24)
