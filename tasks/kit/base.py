@@ -156,11 +156,9 @@ class Basics(Generic[State, Given]):
 class Task(Protocol[WhereTo, OwnTo, Made, State]):
     """One task, without state of its own: states are frozen values that replace each other.
 
-    `code` is how a paper calls it (T1), `worlds` are those it can be set in (or
-    ANYWHERE), `measures` what it
-    measures beside the time, `title` and `instruction` the names of its texts, `takes` the keys
-    that it answers to beside those of its world ("key:enter"), and `simulate` how a simulated
-    person does it.
+    `code` is how a paper calls it (T1), `worlds` are those it can be set in (or ANYWHERE),
+    `measures` what it measures beside the time, `takes` the keys that it answers to beside those of
+    its world ("key:enter"), and `simulate` how a simulated person does it.
     """
 
     name: str
