@@ -47,8 +47,8 @@ def page(
         "Type M: how many times too large significant estimates are. n for 80 % of a test is the "
         "noncentral t's; its interval (95 %) carries the doubt of the people it rests on, and ∞ "
         "says that no number of people may do. Scores that are skewed and spread unequally reject "
-        "more often than α says where people are few: in .09 of studies of 8, .08 of 16, .07 of 32 "
-        "(raw times of equal means); logarithms are what the report decides by.</p>"
+        "more often than α says: where raw values have s.d. of .8 and .3 of equal means, in .11 of "
+        "studies of 8, .10 of 16, .08 of 32. Times are decided by logarithms.</p>"
         f'<p class="note">Made by <code>{escape(command)}</code>. A plan, no evidence.</p>'
         "</body></html>\n"
     )
