@@ -26,6 +26,7 @@ BENCHES = (
     "speed",
     "statistics",
     "techniques",
+    "worlds",
 )
 
 
