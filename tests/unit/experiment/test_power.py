@@ -195,6 +195,18 @@ def test_a_study_without_predictions_is_asked_its_contrasts():
     )
 
 
+def test_groups_are_set_against_each_other():
+    """Two groups and d .5 take 64 each (every table of power); what is not played is said."""
+    effect = effects.effect_of(load("training"), "training=0.5 sd", None, None)
+    (time,) = (p for p in effect.put if p.test.name.startswith("completion time"))
+    assert sorted(time.test.weights) == [-1.0, 1.0]
+    points, tests = curve(effect.planned, effect.source, [128], 4000, 0.05, 1, effect.truth)
+    found = next(t for t in tests if t.name == time.test.name)
+    assert abs(found.power - 0.80) < 4 * sqrt(0.8 * 0.2 / 4000)
+    assert abs(found.exaggerated - 1.12) < 0.05  # M at a power of .8 (Gelman and Carlin 2014)
+    assert points and any("ranks between groups are not played" in line for line in effect.alone)
+
+
 def test_published_effects_are_the_papers():
     effect = effects.effect_of(load("published"), "published", None, None)
     put = {p.test.name: p for p in effect.put}
