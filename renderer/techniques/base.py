@@ -221,7 +221,7 @@ class Technique(Protocol):
     def rule(self, p: Own, state: Own, seen: Surfaces, known: Own) -> Look:
         """How each surface shows."""
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, Own]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, object]:
         """Values of the uniforms that `glsl` declares."""
 
     def pictures(
@@ -245,11 +245,13 @@ class Technique(Protocol):
         """The method (renderer/polygons) in whose order polygons are drawn, right or wrong; None:
         pixel by pixel."""
 
-    def edges(self, p: Own) -> Mapping[str, Own]:
+    def edges(self, p: Own) -> Mapping[str, object]:
         """What shaders/edges.frag draws lines with along the edges of each layer; empty: none."""
 
     def looked_at(self, p: Own) -> Own:
         """The parameters with which `look` finds what is seen."""
+
+    def __hash__(self) -> int: ...
 
     def exactly(self, p: Own) -> Own:
         """The parameters with which what is drawn is the rule at every pixel, however long it
@@ -311,7 +313,7 @@ class Plain:
         """Opaque front faces."""
         return Look(seen.front, np.ones(len(seen.depth)))
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, Own]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, object]:
         """None."""
         return {}
 
@@ -341,7 +343,7 @@ class Plain:
         """Pixel by pixel."""
         return None
 
-    def edges(self, p: Own) -> Mapping[str, Own]:
+    def edges(self, p: Own) -> Mapping[str, object]:
         """No lines."""
         return {}
 

@@ -7,7 +7,6 @@ is worth.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,7 +75,7 @@ class Constant(Layering):
         """Pixel by pixel."""
         return replace(p, order=PIXEL)
 
-    def uniforms(self, p: ConstantParameters, state: Own, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: ConstantParameters, state: Own, shot: Shot) -> dict[str, object]:
         """The opacity."""
         return {**super().uniforms(p, state, shot), "alpha": p.alpha}
 

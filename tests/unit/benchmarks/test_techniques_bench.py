@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from seethrough.benchmarks import techniques as bench
+from seethrough.benchmarks.drawing import techniques as bench
+from seethrough.benchmarks.drawing.technique_figure import draw
+from seethrough.benchmarks.drawing.technique_ways import Way, ways_of
 from seethrough.benchmarks.rows import row
-from seethrough.benchmarks.technique_figure import draw
-from seethrough.benchmarks.technique_ways import Way, ways_of
 from seethrough.experiment.gallery.gallery_failures import CAMERA, failures
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
