@@ -129,6 +129,7 @@ class Renderer:
         n = len(scene.objects)
         scene = _shown(scene, camera, technique, state, size)
         technique = technique.technique.drawn(technique, state)
+        technique = technique.technique.looked_at(technique)
         frame = self._looked(scene, camera, technique, size, state)
         if len(frame.exact):
             # What a frame sorts by pixel is in none of its layers.
