@@ -15,9 +15,21 @@ from seethrough.renderer.techniques.standard.opaque import Standard
 
 # Each key at a value that suits the scene's size: what is as large as a room, a cloud, a car.
 WORLD: dict[str, dict[str, dict[str, float]]] = {
-    "abstract": {"fog": {"fog": 120.0, "fog_start": 90.0}, "floor_grid": {"floor_grid": 10.0}},
-    "walkthrough": {"fog": {"fog": 25.0}, "floor_grid": {"floor_grid": 2.0}},
-    "jeep": {"fog": {"fog": 4.0, "fog_start": 2.0}, "floor_grid": {"floor_grid": 0.5}},
+    "abstract": {
+        "fog": {"fog": 120.0, "fog_start": 90.0},
+        "floor_grid": {"floor_grid": 10.0},
+        "ground_shadows": {"ground_shadows": 0.7, "shadow_reach": 60.0},
+    },
+    "walkthrough": {
+        "fog": {"fog": 25.0},
+        "floor_grid": {"floor_grid": 2.0},
+        "ground_shadows": {"ground_shadows": 0.8},
+    },
+    "jeep": {
+        "fog": {"fog": 4.0, "fog_start": 2.0},
+        "floor_grid": {"floor_grid": 0.5},
+        "ground_shadows": {"ground_shadows": 0.8},
+    },
 }
 
 

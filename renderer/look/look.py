@@ -33,6 +33,21 @@ class Look:
         low=0.0,
         high=1e6,
     )
+    ground_shadows: float = key(
+        0.0,
+        "how dark the soft shadows on the floor are that things cast which stand or float above "
+        "it; 0: none. A thing that turns transparent keeps its shadow; where a world has no floor, "
+        "one lies below all things",
+        low=0.0,
+        high=1.0,
+    )
+    shadow_reach: float = key(
+        0.0,
+        "how high above the floor things cast shadows; 0: a sixth of the floor's shorter side",
+        "world units",
+        low=0.0,
+        high=1e6,
+    )
 
     def __post_init__(self) -> None:
         check(self, "look")
@@ -40,7 +55,7 @@ class Look:
     @property
     def has_floor(self) -> bool:
         """Whether anything is drawn on the floor."""
-        return self.floor_grid > 0
+        return self.floor_grid > 0 or self.ground_shadows > 0
 
     @property
     def on(self) -> tuple[str, ...]:
