@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, Plate, Section
 from seethrough.renderer.look.dressed import dressed
@@ -14,7 +13,9 @@ from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard
 
 # Each key at a value that suits the scene's size: what is as large as a room, a cloud, a car.
-WORLD: dict[str, dict[str, dict[str, float]]] = {
+Values = dict[str, float | str]
+EDGES: dict[str, Values] = {"antialiasing": {"antialiasing": "edges"}}
+WORLD: dict[str, dict[str, Values]] = {
     "abstract": {
         "fog": {"fog": 120.0, "fog_start": 90.0},
         "floor_grid": {"floor_grid": 10.0},
@@ -36,11 +37,15 @@ WORLD: dict[str, dict[str, dict[str, float]]] = {
 def looks(world: str) -> dict[str, Look]:
     """Name → look: "none", each key by its name, "all"."""
     found = {"none": PLAIN}
-    both: dict[str, float] = {}
-    for name, values in WORLD[world].items():
-        found[name] = replace(PLAIN, **values)
+    both: Values = {}
+    for name, values in (WORLD[world] | EDGES).items():
+        found[name] = _look(values)
         both |= values
-    return {**found, "all": replace(PLAIN, **both)}
+    return {**found, "all": _look(both)}
+
+
+def _look(values: Values) -> Look:
+    return Look(**values)
 
 
 def sections(scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[Section]:

@@ -6,6 +6,8 @@ from dataclasses import dataclass, fields
 
 from seethrough.renderer.declared import check, key
 
+ANTIALIASING = ("auto", "none", "edges", "2x", "4x", "8x")
+
 
 @dataclass(frozen=True)
 class Look:
@@ -48,6 +50,13 @@ class Look:
         low=0.0,
         high=1e6,
     )
+    antialiasing: str = key(
+        "auto",
+        "against jagged edges. edges: lines are smoothed where they cross pixels, made for a "
+        "machine without a graphics card; 2x, 4x, 8x: so many samples a pixel, for one with a "
+        "card; auto: as display.samples says, the key of earlier versions",
+        choices=ANTIALIASING,
+    )
 
     def __post_init__(self) -> None:
         check(self, "look")
@@ -56,6 +65,12 @@ class Look:
     def has_floor(self) -> bool:
         """Whether anything is drawn on the floor."""
         return self.floor_grid > 0 or self.ground_shadows > 0
+
+    def samples(self, usual: int) -> int:
+        """Samples a pixel, 0 for no more than the one; `usual` where it says auto."""
+        if self.antialiasing == "auto":
+            return usual
+        return int(self.antialiasing[0]) if self.antialiasing.endswith("x") else 0
 
     @property
     def on(self) -> tuple[str, ...]:

@@ -1,0 +1,233 @@
+"""Edges smoothed where they cross pixels, on the CPU: for each pixel row or column that a line runs
+through, the pixel that it cuts takes as much of the neighbour beyond as lies on that side.
+
+A line counts where it can be seen: one of the two pixels beside it is as far away as the line, or
+farther. What shows through something transparent has no depth of its own in the picture; there the
+colours have to break at the line, and nowhere more beside it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from seethrough.renderer.arrays import Bools, Floats, Floats32, Ints
+
+NEARER = 0.004  # of its depth, by which a pixel may be nearer than a line on its surface
+STEPS = 4096  # of a colour between 0 and 1, when it becomes a 16-bit float again
+LEFT, RIGHT, BELOW, ABOVE = 1, 2, 3, 4
+LEAST = 2.0 / 255.0  # a step of colour that is worth smoothing
+
+
+class Lines(NamedTuple):
+    """Meshes' edges one after the other: ends (e, 2, 3), sides (e, 2), crease (e,), planes (f, 4),
+    and where each mesh's edges and planes begin (m + 1, 2)."""
+
+    ends: Floats
+    sides: NDArray[np.int32]
+    crease: Bools
+    planes: Floats
+    starts: Ints
+
+
+class Poses(NamedTuple):
+    """Of each object drawn (k): its mesh, the eye in mesh space (k, 3), turn (k, 3, 3) and move
+    (k, 3): camera ← mesh; and whether it may show through others."""
+
+    mesh: Ints
+    eye: Floats
+    turn: Floats
+    move: Floats
+    through: Bools
+
+
+class View(NamedTuple):
+    """Pixels for a slope of 1, the picture's middle x, y, the near plane; and what makes a depth of
+    the buffer's number z: a / (b − z)."""
+
+    scale: float
+    x: float
+    y: float
+    near: float
+    a: float
+    b: float
+
+
+class Picture(NamedTuple):
+    """color (h, w, 4), 16-bit floats, and depth (h, w) as the buffers hold them, the lowest row
+    first; and `tables`."""
+
+    color: NDArray[np.uint16]
+    depth: Floats32
+    decoded: Floats32
+    encoded: NDArray[np.uint16]
+
+
+def tables() -> tuple[Floats32, NDArray[np.uint16]]:
+    """What each 16-bit float is (65536,), and the 16-bit float of each step from 0 to 1."""
+    decoded = np.arange(65536, dtype=np.uint16).view(np.float16).astype(np.float32)
+    steps = (np.arange(STEPS + 1) / STEPS).astype(np.float16).view(np.uint16)
+    return np.nan_to_num(decoded), steps
+
+
+class Room(NamedTuple):
+    """What smoothing needs besides, kept from frame to frame: the largest part that a pixel takes
+    (h, w; all 0), from which neighbour (h, w), the pixels that take any and their new colours."""
+
+    best: Floats32
+    taken: NDArray[np.int8]
+    pixels: NDArray[np.int32]
+    colors: NDArray[np.uint16]
+
+
+def room(size: tuple[int, int]) -> Room:
+    """For pictures of (width, height)."""
+    width, height = size
+    return Room(
+        np.zeros((height, width), np.float32), np.zeros((height, width), np.int8),
+        np.zeros(height * width, np.int32), np.zeros((height * width, 3), np.uint16),
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def smoothed(lines: Lines, poses: Poses, view: View, picture: Picture, room: Room) -> int:
+    """Smooth the picture's colours by the lines. Returns how many pixels were changed."""
+    count, most = 0, 0
+    for k in range(len(lines.starts) - 1):
+        most = max(most, lines.starts[k + 1, 1] - lines.starts[k, 1])
+    front = np.zeros(most + 1, np.bool_)
+    for o in range(len(poses.mesh)):
+        m = poses.mesh[o]
+        e0, f0 = lines.starts[m, 0], lines.starts[m, 1]
+        e1, f1 = lines.starts[m + 1, 0], lines.starts[m + 1, 1]
+        ex, ey, ez = poses.eye[o, 0], poses.eye[o, 1], poses.eye[o, 2]
+        planes = lines.planes
+        for f in range(f0, f1):
+            d = planes[f, 0] * ex + planes[f, 1] * ey + planes[f, 2] * ez
+            front[f - f0] = d > planes[f, 3]
+        front[f1 - f0] = False
+        for e in range(e0, e1):
+            a, b = front[lines.sides[e, 0]], front[lines.sides[e, 1]]
+            if (a != b) or (a and lines.crease[e]):
+                count = _walk(lines.ends, e, poses, o, view, picture, room, count)
+    _apply(picture, room, count)
+    return count
+
+
+@njit(cache=True, nogil=True)
+def _apply(picture: Picture, room: Room, count: int) -> None:
+    """Give the pixels that lines run through their new colours, and make the room empty again."""
+    color, decoded, encoded = picture.color, picture.decoded, picture.encoded
+    width = color.shape[1]
+    for i in range(count):
+        r, c = room.pixels[i] // width, room.pixels[i] % width
+        way, part = room.taken[r, c], room.best[r, c]
+        rr, cc = r + (way == ABOVE) - (way == BELOW), c + (way == RIGHT) - (way == LEFT)
+        for n in range(3):
+            own, other = decoded[color[r, c, n]], decoded[color[rr, cc, n]]
+            mixed = own + part * (other - own)
+            room.colors[i, n] = encoded[int(min(max(mixed, 0.0), 1.0) * STEPS + 0.5)]
+    for i in range(count):
+        r, c = room.pixels[i] // width, room.pixels[i] % width
+        room.best[r, c] = 0.0
+        for n in range(3):
+            color[r, c, n] = room.colors[i, n]
+
+
+@njit(cache=True, nogil=True)
+def _camera(ends: Floats, e: int, k: int, turn: Floats, move: Floats) -> tuple[float, float, float]:
+    """An end of an edge: right, up and depth."""
+    x, y, z = ends[e, k, 0], ends[e, k, 1], ends[e, k, 2]
+    return (
+        turn[0, 0] * x + turn[0, 1] * y + turn[0, 2] * z + move[0],
+        turn[1, 0] * x + turn[1, 1] * y + turn[1, 2] * z + move[1],
+        -(turn[2, 0] * x + turn[2, 1] * y + turn[2, 2] * z + move[2]),
+    )
+
+
+@njit(cache=True, nogil=True)
+def _walk(
+    ends: Floats, e: int, poses: Poses, o: int, view: View, picture: Picture, room: Room, count: int
+) -> int:
+    """Take what one edge of one object says of the pixels that it runs through. Returns how many
+    pixels take any by now."""
+    ax, ay, az = _camera(ends, e, 0, poses.turn[o], poses.move[o])
+    bx, by, bz = _camera(ends, e, 1, poses.turn[o], poses.move[o])
+    if az < view.near and bz < view.near:
+        return count
+    if az < view.near:
+        t = (view.near - az) / (bz - az)
+        ax, ay, az = ax + t * (bx - ax), ay + t * (by - ay), view.near
+    elif bz < view.near:
+        t = (view.near - bz) / (az - bz)
+        bx, by, bz = bx + t * (ax - bx), by + t * (ay - by), view.near
+    w0, w1 = 1.0 / az, 1.0 / bz
+    x0, y0 = view.x + view.scale * ax * w0, view.y + view.scale * ay * w0
+    x1, y1 = view.x + view.scale * bx * w1, view.y + view.scale * by * w1
+    height, width = picture.depth.shape
+    flat = abs(x1 - x0) >= abs(y1 - y0)
+    u0, v0, u1, v1 = (x0, y0, x1, y1) if flat else (y0, x0, y1, x1)
+    if u1 < u0:
+        u0, v0, w0, u1, v1, w1 = u1, v1, w1, u0, v0, w0
+    long, wide = (width, height) if flat else (height, width)
+    first, last = max(int(np.ceil(u0 - 0.5)), 0), min(int(np.ceil(u1 - 0.5)), long)
+    if first >= last:
+        return count
+    slope = 1.0 / (u1 - u0)
+    for i in range(first, last):
+        t = (i + 0.5 - u0) * slope
+        v = v0 + t * (v1 - v0)
+        j = int(np.floor(v))
+        if j < 1 or j >= wide - 1:
+            continue
+        part = v - j  # of the pixel, below the line
+        after = part > 0.5
+        other = j + 1 if after else j - 1
+        part = 1.0 - part if after else part
+        r, c, rr, cc = (j, i, other, i) if flat else (i, j, i, other)
+        if part <= room.best[r, c]:
+            continue
+        if poses.through[o]:
+            if not _breaks(picture, r, c, rr, cc):
+                continue
+        else:
+            z = max(picture.depth[r, c], picture.depth[rr, cc])
+            if view.a * (w0 + t * (w1 - w0)) < (1.0 - NEARER) * (view.b - z):
+                continue
+        if room.best[r, c] == 0.0:
+            room.pixels[count] = r * width + c
+            count += 1
+        room.best[r, c] = part
+        if flat:
+            room.taken[r, c] = ABOVE if after else BELOW
+        else:
+            room.taken[r, c] = RIGHT if after else LEFT
+    return count
+
+
+@njit(cache=True, nogil=True)
+def _breaks(picture: Picture, r: int, c: int, rr: int, cc: int) -> bool:
+    """Whether colours break between two pixels, and nowhere more beside them in that direction."""
+    height, width = picture.depth.shape
+    step = _step(picture, r, c, rr, cc)
+    if step < LEAST:
+        return False
+    dr, dc = rr - r, cc - c
+    if _step(picture, r, c, r - dr, c - dc) > step:
+        return False
+    fr, fc = rr + dr, cc + dc
+    inside = 0 <= fr < height and 0 <= fc < width
+    return not (inside and _step(picture, rr, cc, fr, fc) > step)
+
+
+@njit(cache=True, nogil=True)
+def _step(picture: Picture, r: int, c: int, rr: int, cc: int) -> float:
+    """The largest difference of two pixels in a channel."""
+    found = 0.0
+    for n in range(3):
+        own, other = picture.color[r, c, n], picture.color[rr, cc, n]
+        found = max(found, abs(picture.decoded[own] - picture.decoded[other]))
+    return found
