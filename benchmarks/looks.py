@@ -4,8 +4,8 @@
 800 × 600, frames interleaved. "Changed" are the pixels that differ from that frame by more than
 2/255, "by" the mean difference of those. Edges are the pixels in which a picture of 16 samples a
 pixel differs from the plain one by more than 4/255: their mean error, that of the whole picture,
-and that of what changes from a frame to the next as the view turns by .1° ("crawl") are given as parts
-of the plain picture's.
+and that of what changes from a frame to the next as the view turns by .1° ("crawl") are given as
+parts of the plain picture's.
 """
 
 from __future__ import annotations

@@ -91,7 +91,7 @@ def test_a_straight_edge_is_as_dark_as_what_it_covers(renderer, turn):
     # Where a line leaves a pixel through its side, its part there is no trapezium: .125 at most. At
     # the four corners two lines meet.
     assert np.sort(np.abs(found - want)[part])[:-8].max() < 0.13
-    assert np.abs(found - want)[part].mean() < 0.04
+    assert np.abs(found - want)[part].mean() < 0.06  # at 45°, where most pixels are left so
     assert np.abs(np.round(found) - want)[part].mean() > 0.15  # what it was
     assert np.array_equal(found[~part], want[~part])
 
