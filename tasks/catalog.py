@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from seethrough import registry
 from seethrough.tasks.kit.base import Setting, Task
-from seethrough.tasks.kit.world import ANYWHERE, World
+from seethrough.tasks.kit.world import ANYWHERE, NO_KEYS, World
 
 Plugin = TypeVar("Plugin")
 
@@ -41,6 +41,12 @@ def worlds_of(task: Task) -> tuple[str, ...]:
 def world_of(task: Task) -> World:
     """The world that a task is set in where a study does not say it: its first."""
     return WORLDS[worlds_of(task)[0]]
+
+
+def taken(plugin: Task | World) -> frozenset[str]:
+    """The keys that a task or world takes; none where a stranger's does not say."""
+    found: frozenset[str] = getattr(plugin, "takes", NO_KEYS)
+    return found
 
 
 def setting(task: Task, place: object = None, own: object = None) -> Setting:

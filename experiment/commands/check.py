@@ -80,6 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
     _contact_sheet(study, context, arguments, said)
     measured = _measured(study, context)
     _difficulty(study, measured, context, arguments.redraw, said)
+    _techniques(study, measured, context, said)
     if arguments.certificate is not None:
         _write(study, measured, arguments.certificate)
     _machine(study, measured, context, arguments.seconds, said)
@@ -208,6 +209,26 @@ def _difficulty(
             said.say("difficulty", f"{task}, {along}: {_means(match)}, {apart}", FAILS, why)
     if redraw and not all(match.ok for match in found):
         _redraw(study, measured, context, said)
+
+
+def _techniques(study: Study, measured: list[Difficulty], context: Context, said: Verdicts) -> None:
+    """Where the study's own scenes run into what its techniques cannot do."""
+    from seethrough.experiment.session.progress import Progress
+    from seethrough.experiment.study.technique_warnings import Warner
+
+    warner = Warner(study, context)
+    drawn = warner.trials([d.trial for d in measured])
+    with Progress("looking through techniques", len(drawn)) as progress:
+        found = []
+        for name, trials in drawn.items():
+            found.append(warner.met(name, trials))
+            progress.step(name)
+    for met in found:
+        warnings = list(met.warnings())
+        for line in warnings:
+            said.say("technique", line, WARNING, "docs/techniques.md says how each fails")
+        if not warnings:
+            said.say("technique", f"{met.name}: all targets of {met.scenes} scenes come to show")
 
 
 def _names(match: Match) -> str:

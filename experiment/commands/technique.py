@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from itertools import chain
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, short, unknown
@@ -16,6 +17,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     inner.add_parser("list", help="name all techniques, with what participants read about them")
     tried = inner.add_parser("check", help="run the suite that every technique has to pass")
     tried.add_argument("name", metavar="NAME", help="a technique, as `list` names it")
+    tried.add_argument(
+        "--all", action="store_true", help="exactness as well on every scene and option: minutes"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -30,7 +34,8 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(
             f"technique check {short(args.name)}: {unknown(args.name, names, 'technique')}"
         )
-    from seethrough.experiment.suites.technique_suite import check
+    from seethrough.experiment.suites.requirements import asked
+    from seethrough.experiment.suites.technique_suite import check, check_all
     from seethrough.renderer.gpu.device.context import standalone
 
     try:
@@ -38,7 +43,9 @@ def run(args: argparse.Namespace) -> int:
     except RuntimeError as error:
         raise InputError(str(error)) from error
     holds = True
-    for finding in check(registry.get("technique", args.name), context):
+    technique = registry.get("technique", args.name)
+    more = check_all(technique, context) if args.all else ()
+    for finding in chain(check(technique, context), [asked(technique)], more):
         print(finding, flush=True)
         holds &= finding.holds
     return 0 if holds else 1

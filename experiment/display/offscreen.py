@@ -32,6 +32,11 @@ class OffscreenDisplay:
         """Width / height of the view."""
         return self.size[0] / self.size[1]
 
+    @property
+    def technique(self) -> Parameters | None:
+        """What the view shown last is drawn with."""
+        return self.looking.technique
+
     def show(self, view: View, technique: Parameters) -> float:
         """Keep the view; the time now."""
         self._shown = view

@@ -22,7 +22,7 @@ RED, GREY, BLUE, GREEN = (0.9, 0.2, 0.1), (0.7, 0.7, 0.65), (0.2, 0.5, 0.9), (0.
 CAMERA = look_at(np.array([0.0, 0.6, 9.0]), np.zeros(3), fov_y=0.5, near=1, far=60)
 SIZE = (120, 90)
 
-# (the exact picture, that of the targets alone, the standard one) → what is bad about it
+# (the exact picture, that of each target alone, the standard one) → what is bad about it
 Measure = Callable[[ExactPicture, ExactPicture, ExactPicture], float]
 
 
@@ -40,13 +40,22 @@ class Failure:
 
     def measured(self) -> float:
         """The measure, on the exact pictures."""
-        targets = Scene(tuple(o for o in self.scene.objects if o.target), self.scene.background)
         standard = named("standard")
         return self.measure(
             exact(self.scene, self.camera, self.parameters, SIZE),
-            exact(targets, self.camera, standard, SIZE),
+            self._alone(),
             exact(self.scene, self.camera, standard, SIZE),
         )
+
+    def _alone(self) -> ExactPicture:
+        """Each target as if nothing else were there, not even other targets."""
+        targets = [o for o in self.scene.objects if o.target]
+        every = Scene(tuple(targets), self.scene.background)
+        together = exact(every, self.camera, named("standard"), SIZE)
+        for k, target in enumerate(targets):
+            alone = Scene((target,), self.scene.background)
+            together.weights[k] = exact(alone, self.camera, named("standard"), SIZE).weights[0]
+        return together
 
 
 def hidden(k: int) -> Measure:

@@ -70,9 +70,9 @@ class Texts:
 
 
 def _of_plugins(language: str) -> dict[str, str]:
-    """What tasks, worlds and question kinds bring along; in English what they have no other of."""
+    """What plug-ins of every kind bring along; in English what they have no other of."""
     found: dict[str, str] = {}
-    for kind in ("task", "world", "question"):
+    for kind in ("technique", "task", "world", "question"):
         for name in registry.known(kind):
             try:
                 texts = registry.get(kind, name).texts

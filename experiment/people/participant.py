@@ -18,6 +18,7 @@ from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons.person import Person, mood_for
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.renderer.techniques.base import Own
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease
@@ -26,6 +27,7 @@ from seethrough.tasks.kit.skills.glance import Glance
 from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 from seethrough.tasks.kit.skills.strategy import Play
+from seethrough.tasks.kit.skills.sweep import Sweep, sweep_of
 
 
 class SimulatedParticipant:
@@ -42,6 +44,7 @@ class SimulatedParticipant:
         self.opinions = Opinions(self.person)
         self.effects: dict[str, EffectUse] = {}
         self._strategy: Play | None = None
+        self._sweep: Sweep | None = None
         self._task, self._began = "", 0.0
         self._mood: Mood | None = None
 
@@ -60,22 +63,46 @@ class SimulatedParticipant:
             raise ValueError(f"task = {task}, expected one of {', '.join(TASKS)}")
         self._mood = mood_for(self.person, task, now)
         self.effects = self._mood.effects
-        self._strategy = None
+        self._strategy = self._sweep = None
         self._task, self._began = task, now
         self.opinions.begin(task)
 
     def events(
-        self, view: View, look: Callable[[], Visibility], now: float, task: str
+        self,
+        view: View,
+        look: Callable[[], Visibility],
+        now: float,
+        task: str,
+        drawn_with: Own = None,
+        aspect: float = 4 / 3,
     ) -> list[Event]:
-        """What it does next, at times from `now` on. It may think first: the times say so."""
-        glance = Glance(view, look, now)
+        """What it does next, at times from `now` on. It may think first: the times say so.
+
+        `drawn_with` is the technique (its parameters) and `aspect` the width of the view over its
+        height: hands that work the technique search with it first.
+        """
+        if self._strategy is None and self._sweep is None:
+            self._sweep = sweep_of(self._begun(task, now), drawn_with, aspect)
+        sweep = self._sweep
+        if sweep is None:
+            return self._next(Glance(view, look, now), task)
+        events = sweep.events(view, look, now)
+        if not events:
+            glance = Glance(view, sweep.seen(look), now - sweep.spent)
+            events = sweep.later(self._next(glance, task))
+        self.opinions.spent(self._task, events[-1].time - self._began)
+        return events
+
+    def _next(self, glance: Glance, task: str) -> list[Event]:
+        """What its strategy does next."""
         if self._strategy is None:
-            self._strategy = TASKS[task].simulate.play(self._begun(task, now), glance)
+            self._strategy = TASKS[task].simulate.play(self._begun(task, glance.now), glance)
             return next(self._strategy)
         try:
             events = self._strategy.send(glance)
         except StopIteration:
             # The answer did not count (a key lost, a limit changed): press enter again.
+            now = glance.now
             events = [KeyPress(now + 1.0, "enter"), KeyRelease(now + 1.1, "enter")]
         self.opinions.spent(self._task, events[-1].time - self._began)
         return events

@@ -8,12 +8,21 @@ from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.renderer.scene.visibility import Visibility
+from seethrough.renderer.techniques.base import Own
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, Tick
 
 
 class Looks(Protocol):
     """A display that tells what can be seen in the view it shows."""
+
+    @property
+    def aspect(self) -> float:
+        """Width / height of the view."""
+
+    @property
+    def technique(self) -> Own:
+        """What the view shown last is drawn with."""
 
     def look(self) -> Visibility:
         """What can be seen in the view shown last."""
@@ -37,7 +46,10 @@ class SimulatedInput:
 
     def events(self, view: View) -> list[Event]:
         """The participant's next events, and a Tick at the time of the last."""
-        events = self.participant.events(view, self.display.look, self.clock.now(), self._task)
+        display = self.display
+        events = self.participant.events(
+            view, display.look, self.clock.now(), self._task, display.technique, display.aspect
+        )
         end = max([e.time for e in events], default=self.clock.now())
         self.clock.advance(end)
         ticked = bool(events) and isinstance(events[-1], Tick) and events[-1].time == end

@@ -47,7 +47,12 @@ class WatchedInput:
         self.looking.resize(self.window.size)
         if not self._coming:
             planned = self.participant.events(
-                view, lambda: self.looking.look(view), now, self._task
+                view,
+                lambda: self.looking.look(view),
+                now,
+                self._task,
+                self.window.technique,
+                self.window.aspect,
             )
             self._coming.extend(sorted(planned, key=lambda e: e.time))
         due: list[Event] = []

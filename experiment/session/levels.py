@@ -8,6 +8,7 @@ from functools import cache
 
 from seethrough.experiment.pages.pages import Block, Choice, Page, Paragraph, Ranking
 from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.factors import ALONE, Levels
 from seethrough.experiment.study.study import Study
 
@@ -49,6 +50,14 @@ def instructions(study: Study, levels: Levels) -> Iterable[Paragraph]:
             yield Paragraph(key)
         elif label := factor.level(level).label:
             yield Paragraph("level.here", (("level", label),))
+
+
+def hands(study: Study, trial: Trial) -> Iterable[Paragraph]:
+    """What the participant's hands do for the technique, where it depends on them."""
+    technique = study.part(trial.levels).technique
+    if technique.technique.active(technique):
+        walking = ".walking" if study.setting(trial).world.moving == "walk" else ""
+        yield Paragraph(f"{technique.technique.controls}{walking}")
 
 
 def named(study: Study, page: Page, pairs: Iterable[tuple[str, str]]) -> Page:

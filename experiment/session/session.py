@@ -141,6 +141,7 @@ def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
             Paragraph(run.world.tasks[trial.task].instruction),
             Paragraph(study.setting(trial).world.controls),
             *levels.instructions(study, trial.levels),
+            *levels.hands(study, trial),
             Picture(partial(run.preview, trial), run.technique(trial)),
             Paragraph("progress", values),
         ),

@@ -132,10 +132,11 @@ def _unfit(
     cells: Sequence[Cell],
     values: Mapping[str, tuple[tuple[int, ...], dict[Cell, Any]]],
 ) -> list[Fault]:
-    """Tasks that there are not, or not in the cell's world."""
+    """Tasks that there are not, or not in the cell's world, and keys that two things take."""
     faults: dict[tuple[str, str], Fault] = {}
     known = plugins.names("task")
     (at_design, designs), (at_world, worlds) = values["design"], values["world"]
+    at_technique, techniques = values["technique"]
     for cell in cells:
         design = designs[tuple(cell[i] for i in at_design)]
         world = worlds[tuple(cell[i] for i in at_world)]
@@ -146,17 +147,22 @@ def _unfit(
         for number, task in enumerate(design.tasks):
             if world.use not in plugins.worlds_of(task):
                 here = [t for t in known if world.use in plugins.worlds_of(t)]
-                key = _task_key(factors, cell, number)
+                key = _set_at(factors, cell, "design.tasks", f"[{number}]")
                 said = f"a task of the world {world.use}{where}: {', '.join(here) or 'none'}"
                 faults.setdefault((key, task), Fault(key, task, said))
+        technique = techniques[tuple(cell[i] for i in at_technique)]
+        key = _set_at(factors, cell, "technique.use")
+        for said in plugins.clashes(technique.use, world.use, design.tasks):
+            faults.setdefault((key, said), Fault(key, technique.use, f"{said}{where}"))
     return list(faults.values())
 
 
-def _task_key(factors: Sequence[Factor], cell: Cell, number: int) -> str:
+def _set_at(factors: Sequence[Factor], cell: Cell, key: str, which: str = "") -> str:
+    """A key by the factor and level that set it in a cell, where the base does not."""
     for factor, name in zip(factors, cell, strict=True):
-        if _sets(factor, name, "design.tasks"):
-            return where_set(factor, name, f"design.tasks[{number}]", False)
-    return f"design.tasks[{number}]"
+        if _sets(factor, name, key):
+            return where_set(factor, name, f"{key}{which}", False)
+    return f"{key}{which}"
 
 
 def every_combination(factors: Sequence[Factor]) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import is_dataclass
+from functools import cache
 from typing import Any, get_args, get_origin, get_type_hints
 
 from seethrough import registry
@@ -32,6 +33,20 @@ def parameters(kind: str, name: str) -> Any:
 def worlds_of(task: str) -> tuple[str, ...]:
     """The worlds that a task can live in."""
     return catalog.worlds_of(registry.get("task", task))
+
+
+@cache
+def clashes(technique: str, world: str, tasks: tuple[str, ...]) -> tuple[str, ...]:
+    """What is expected instead, for each of these whose keys a technique takes as well."""
+    takes = registry.get("technique", technique).takes
+    others = [("world", world), *(("task", task) for task in tasks)]
+    found = []
+    for kind, name in others:
+        both = sorted(takes & catalog.taken(registry.get(kind, name)))
+        if both:
+            keys = ", ".join(key.removeprefix("key:").upper() for key in both)
+            found.append(f"a technique that leaves the key {keys} to the {kind} {name}")
+    return tuple(found)
 
 
 def further_faults(place: Any) -> list[Fault]:

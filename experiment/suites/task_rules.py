@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.experiment.suites.played import anything, begun, no_clock, played, same
+from seethrough.experiment.suites.played import KEYS, anything, begun, no_clock, played, same
 from seethrough.experiment.suites.suite import (
     Rule,
     describes_itself,
@@ -16,8 +17,9 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
-from seethrough.tasks.catalog import WORLDS, setting, worlds_of
+from seethrough.tasks.catalog import WORLDS, setting, taken, worlds_of
 from seethrough.tasks.kit.base import Outcome, Setting, Task, View
+from seethrough.tasks.kit.events import KeyPress, Tick
 from seethrough.tasks.kit.hud import Button, Entry, FloorPlan, Inset, Label
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.skills.strategy import Strategy
@@ -123,6 +125,33 @@ def takes_any_event(task: Any) -> Iterator[str]:
                     break
 
 
+def says_which_keys_it_takes(task: Task) -> Iterator[str]:
+    """Every key that changes anything, at any moment of a trial, is its own or its world's."""
+    for given in _settings(task):
+        own = taken(task) | taken(given.world)
+        trial = played(task, given, SEEDS[0])
+        now = max((e.time for e in trial.events), default=0.0) + 1.0
+        for state in trial.states[:: max(1, len(trial.states) // 5)]:
+            if task.outcome(state) is not None:
+                continue
+            before = said(task, task.on_event(state, Tick(now)))
+            strange = [
+                k for k in (*ascii_lowercase, *KEYS) if f"key:{k}" not in own
+                and said(task, task.on_event(state, KeyPress(now, k))) != before
+            ]  # fmt: skip
+            if strange:
+                names = ", ".join(sorted(set(strange)))
+                yield f"{given.world.name}: answers to {names}, which `takes` lacks"
+                break
+
+
+def said(task: Task, state: object) -> tuple[object, ...]:
+    """What keys make of a trial: what is drawn over its view, hints left out, and its answer."""
+    view = task.view(state)
+    hud = [e for e in view.hud if not hasattr(e, "look") and getattr(e, "tone", "") != "hint"]
+    return (*hud, task.outcome(state), view.captured, *view.camera.eye, *view.camera.rotation.flat)
+
+
 def fits_the_view(task: Any) -> Iterator[str]:
     """What it draws over the view lies in the view, wide or narrow."""
     for given in _settings(task):
@@ -169,6 +198,7 @@ RULES: tuple[Rule, ...] = (
     is_pure,
     reads_no_clock,
     takes_any_event,
+    says_which_keys_it_takes,
     fits_the_view,
     is_done_by_simulated_people,
     shows_what_it_is_about,

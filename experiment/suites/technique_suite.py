@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -14,12 +15,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.experiment.display.display import MEANT
+from seethrough.experiment.suites import technique_hard as hard
 from seethrough.experiment.suites import technique_scenes as scenes
 from seethrough.experiment.suites.finding import Finding
 from seethrough.experiment.suites.technique_scenes import Case
 from seethrough.experiment.suites.variants import pairwise, refused
 from seethrough.renderer.declared import declared
-from seethrough.renderer.gpu.levels.layer import PAINTERS
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import plan
@@ -27,6 +29,7 @@ from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.techniques import base, named
 from seethrough.tasks.kit import events
+from seethrough.tasks.kit.gestures import after as gestures_done
 
 if TYPE_CHECKING:
     from moderngl import Context
@@ -37,6 +40,7 @@ SIZE = (96, 72)
 STEP = 1.0  # of 255: what a picture may differ, half of it rounding to 8 bits
 LEFT_OUT = 0.02  # share of pixels too near an edge to be compared
 TAKES = ("pointer", "wheel", "second button")
+PAINTERS = (base.MASKS, base.PEELS, base.REMOVAL)
 
 
 def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[Finding]:
@@ -50,6 +54,7 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
         "exact": partial(tried.exact, most),
         "idle": tried.idle,
         "no state between frames": tried.kept,
+        "reaches": tried.reaches,
         "replay": tried.replayed,
         "look": tried.looked,
         "explains": tried.explained,
@@ -60,6 +65,28 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
             yield step()
         except Exception as error:  # a stranger's code may raise anything
             yield Finding(name, False, f"{type(error).__name__}: {error}")
+
+
+def check_all(technique: Technique, context: Context) -> Iterator[Finding]:
+    """Hold a technique's exact path to the reference on every scene there is: SCENES by chance,
+    each with the next combination of options, and the hard ones as it is."""
+    tried, variants = _Tried(technique, context), pairwise(technique.Parameters(), _options())
+    cases = [*hard.twenty()]
+    for k, case in enumerate(cases):
+        yield tried.compared(f"exact, {case.name}", case, technique.Parameters(), SIZE, bool(k % 2))
+    for k, p in enumerate(variants):
+        case = cases[k % len(cases)]
+        yield tried.compared(f"options {k + 1} of {len(variants)}", case, p, SIZE, bool(k % 2))
+    for make in hard.HARD:
+        case = make()
+        yield tried.compared(f"hard, {case.name}", case, technique.Parameters(), SIZE, True, True)
+    for make, size in hard.SIZES:
+        name = f"hard, {size[0]} × {size[1]}"
+        yield tried.compared(name, make(), technique.Parameters(), size, True, True)
+
+
+def _options() -> np.random.Generator:
+    return np.random.default_rng(11)
 
 
 class _Tried:
@@ -76,16 +103,31 @@ class _Tried:
         missing = [n for n in ("name", "version", "title", "source") if not getattr(technique, n)]
         if technique.instruction.count(".") != 1 or not technique.instruction.endswith("."):
             missing.append("instruction, one sentence")
-        if technique.painter not in (*PAINTERS, base.MASKS):
-            missing.append(f"painter, one of {sorted((*PAINTERS, base.MASKS))}")
+        if technique.painter not in PAINTERS:
+            missing.append(f"painter, one of {sorted(PAINTERS)}")
         strange = [t for t in technique.takes if t not in TAKES and not t.startswith("key:")]
         missing += [f"takes {t!r}, expected one of {', '.join(TAKES)} or key:q" for t in strange]
+        missing += list(self.unsaid())
         if p.technique is not technique:
             missing.append("parameters that know their technique (derive them from Parameters)")
         undeclared = {f.name for f in dataclasses.fields(p)} - set(declared(type(p)))
         missing += [f"a declaration of {name}" for name in sorted(undeclared)]
         said = f"{technique.title}, {technique.version}"
         return Finding("described", not missing, "; ".join(f"lacks {m}" for m in missing) or said)
+
+    def unsaid(self) -> Iterator[str]:
+        """What hands do that participants do not read of, in English and for walkers as well."""
+        technique = self.technique
+        yield from (f"takes the session's key {k}" for k in MEANT if f"key:{k}" in technique.takes)
+        for name in (technique.controls, f"{technique.controls}.walking"):
+            text = technique.texts.get("en", {}).get(name, "")
+            words = set(re.findall(r"\w+", text))
+            heard = {t.removeprefix("key:") for t in technique.takes} - {"pointer"}
+            named_ = {t for t in heard if {t, t.upper(), t.capitalize()} & words}
+            if technique.takes and not text:
+                yield f"the text {name}"
+            elif heard - named_:
+                yield f"a word of {', '.join(sorted(heard - named_))} in the text {name}"
 
     def refuses(self) -> Finding:
         """Values beyond what is declared are refused."""
@@ -100,9 +142,11 @@ class _Tried:
         said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
         return Finding("refuses", not taken, said)
 
-    def picture(self, case: Case, p: Any, state: object = None) -> NDArray[np.uint8]:
+    def picture(
+        self, case: Case, p: base.Own, state: object = None, size: tuple[int, int] = SIZE
+    ) -> NDArray[np.uint8]:
         """(h, w, 3) drawn by a fresh renderer."""
-        renderer = Renderer(self.context, SIZE)
+        renderer = Renderer(self.context, size)
         renderer.draw(case.scene, case.camera, p, state=state)
         return renderer.read()
 
@@ -143,9 +187,29 @@ class _Tried:
         said = "the same twice, state frozen" if holds else "differs when asked again"
         return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
 
+    def compared(
+        self,
+        name: str,
+        case: Case,
+        p: base.Own,
+        size: tuple[int, int],
+        played: bool,
+        any_: bool = False,
+    ) -> Finding:
+        """One exact picture against the reference; of a hard scene `any_` share may be left out,
+        since what lies in one plane is nobody's."""
+        drawn = self.technique.exactly(p)
+        state = self.played(case, p)[0] if played else self.technique.begin(p)
+        truth = exact(case.scene, case.camera, drawn, size, state)
+        apart = _apart(self.picture(case, drawn, state, size), truth)
+        left = float(truth.near_edge.mean())
+        said = f"within {apart:.2f} of 255, {100 * left:.2f} % left out"
+        holds = apart <= STEP and (any_ or left <= LEFT_OUT)
+        return Finding(name, holds, said if holds else f"{said}; {p}")
+
     def exact(self, most: int) -> Finding:
         """The exact picture, with every two values of two options, on every scene in turn."""
-        variants = pairwise(self.p, np.random.default_rng(11))[:most]
+        variants = pairwise(self.p, _options())[:most]
         worst, left, where = 0.0, 0.0, ""
         for k in range(max(len(variants), len(self.cases))):
             p, case = variants[k % len(variants)], self.cases[k % len(self.cases)]
@@ -203,6 +267,23 @@ class _Tried:
                 wrong += [] if same else [case.name]
         said = f"differs on {', '.join(wrong)}" if wrong else f"{4 * len(self.cases)} frames"
         return Finding("no state between frames", not wrong, said)
+
+    def reaches(self) -> Finding:
+        """Hands that reach for a point of the world by what it takes change what it shows there."""
+        wrong, changed = [], 0
+        for case in self.cases[:4] if self.technique.active(self.p) else ():
+            shot = base.Shot(case.scene, case.camera, SIZE)
+            point = case.scene.centers[np.nonzero(case.scene.targets)[0][-1]]
+            before = self.technique.begin(self.p)
+            gestures = self.technique.reach(self.p, before, shot, point)
+            strange = {g.event for g in gestures} - self.technique.takes
+            state = gestures_done(self.p, before, shot, gestures)
+            same = np.array_equal(self.picture(case, self.p), self.picture(case, self.p, state))
+            wrong += [f"{case.name}: uses {', '.join(sorted(strange))}"] if strange else []
+            changed += not same
+        if not changed and self.technique.active(self.p):
+            wrong.append("nothing changes in any scene")
+        return Finding("reaches", not wrong, "; ".join(wrong) or f"{changed} scenes changed")
 
     def replayed(self) -> Finding:
         """The same events lead to the same state; only what it takes is used up."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from string import ascii_lowercase
 from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.suites.played import ASPECT, anything, no_clock
+from seethrough.experiment.suites.played import ASPECT, KEYS, anything, no_clock
 from seethrough.experiment.suites.suite import (
     Rule,
     describes_itself,
@@ -16,7 +17,9 @@ from seethrough.experiment.suites.suite import (
     unknown_texts,
 )
 from seethrough.renderer.scene.camera import Camera
-from seethrough.tasks.kit.world import OWN, SHARED
+from seethrough.tasks.catalog import taken
+from seethrough.tasks.kit.events import KeyPress, Tick
+from seethrough.tasks.kit.world import OWN, SHARED, World
 
 MOVING = ("orbit", "walk")
 
@@ -83,6 +86,18 @@ def moves_by_events_alone(world: Any) -> Iterator[str]:
             yield f"event {number}: the camera is nowhere"
 
 
+def says_which_keys_it_takes(world: World) -> Iterator[str]:
+    """Every key that moves the viewer is one that it takes."""
+    p = world.Parameters()
+    start = world.viewer(world.make(np.random.default_rng(1), p), p, ASPECT)
+    for name in sorted({*ascii_lowercase, *KEYS} - {k.removeprefix("key:") for k in taken(world)}):
+        after = start.on_event(KeyPress(0.0, name)).on_event(Tick(1.0)).camera()
+        before = start.on_event(Tick(0.0)).on_event(Tick(1.0)).camera()
+        if not (np.array_equal(after.eye, before.eye)
+                and np.array_equal(after.rotation, before.rotation)):  # fmt: skip
+            yield f"moves by {name}, which `takes` lacks"
+
+
 def can_be_certified(world: Any) -> Iterator[str]:
     """It says from where scenes are judged, and how far there is to go."""
     p = world.Parameters()
@@ -105,5 +120,6 @@ RULES: tuple[Rule, ...] = (
     makes_the_same_place_again,
     has_something_to_look_for,
     moves_by_events_alone,
+    says_which_keys_it_takes,
     can_be_certified,
 )

@@ -45,6 +45,20 @@ class Mesh:
             return self.vertices
 
     @cached_property
+    def closed(self) -> bool:
+        """Whether it has an inside: each edge is run along as often one way as the other, corners
+        at one place being one, as far as a millionth of its size tells."""
+        size = max(float(np.ptp(self.bounds, axis=0).max()), 1e-300)
+        places = np.round((self.vertices - self.bounds[0]) / size * 1e6).astype(np.int64)
+        corner = np.unique(places, axis=0, return_inverse=True)[1].ravel()[self.triangles]
+        edges = np.concatenate([corner[:, [k, (k + 1) % 3]] for k in range(3)])
+        edges = edges[edges[:, 0] != edges[:, 1]]
+        low, high = edges.min(axis=1), edges.max(axis=1)
+        which = np.unique(np.stack([low, high], axis=1), axis=0, return_inverse=True)[1].ravel()
+        turns = np.bincount(which, np.where(edges[:, 0] == low, 1.0, -1.0))
+        return not turns.any()
+
+    @cached_property
     def radius(self) -> float:
         """Radius of the sphere about `center` that holds every vertex."""
         return float(np.linalg.norm(self.vertices - self.center, axis=1).max())

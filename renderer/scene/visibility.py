@@ -44,6 +44,18 @@ class Visibility:
         return self.pixels > 0
 
 
+def better(a: Visibility, b: Visibility) -> Visibility:
+    """Of each object what one of two looks showed more of: what is known after both."""
+    more = b.area > a.area
+    return Visibility(
+        np.where(more, b.pixels, a.pixels),
+        np.where(more, b.weight, a.weight),
+        np.where(more[:, None], b.position, a.position),
+        np.where(more, b.contrast, a.contrast),
+        np.where(more, b.area, a.area),
+    )
+
+
 def shares(
     layers: Sequence[Drawn], pixels: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:

@@ -1,6 +1,7 @@
 // Provides what a technique's rule says of a surface: its lit colour where it is kept, nothing where
 // it is removed. A template: `rule` is the technique's own GLSL. With PEELED, only the nearest
-// surface behind the layer before, and the colour comes times its opacity, which is the alpha.
+// surface behind the layer before, and the colour comes times its opacity, which is the alpha. With
+// GHOSTS, what is removed instead, without any colour: lines go along its edges.
 in vec3 offset;
 in vec3 normal;
 in vec3 color;
@@ -61,8 +62,12 @@ void main() {
     s.front = gl_FrontFacing;
     s.number = channel;
     float shown = opacity(s);
+#ifdef GHOSTS
+    if (shown > 0.0 || !s.front) discard;
+#else
     if (shown <= 0.0) discard;
     if (!s.front && !opened(s)) discard;
+#endif
     vec3 shown_color = lit(color, s.front ? normal : -normal, offset);
     shown_color = hazed(mix(shown_color, tinted.rgb, tinted.a), offset);
 #ifdef PEELED

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, ClassVar, Protocol, TypeAlias
 
 import numpy as np
@@ -22,6 +23,7 @@ from seethrough.renderer.scene.scene import Scene
 Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
+Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
 
 # How a technique is drawn (renderer/gpu): one of ours. What it touches is drawn
 MASKS = "masks"  # by levels and pixels, with a mask about each target
@@ -155,12 +157,25 @@ class Look:
     additive: bool = False
 
 
+@dataclass(frozen=True)
+class Gesture:
+    """What a hand does for a technique: `event` as in `takes`; the pointer goes to the `place`, in
+    view units; a key is pressed so many `times`, the wheel turned by so many steps, towards the
+    user below 0."""
+
+    event: str
+    place: tuple[float, float] = (0.0, 0.0)
+    times: int = 1
+
+
 class Technique(Protocol):
     """How a frame shows a scene. `Plain` has what most of them have in common.
 
-    `source` is a paper's key in REFERENCES.md; `instruction` is the sentence that a participant
-    reads about it. `takes` are the events it may use up: "pointer", "wheel", "second button" or
-    "key:q". `painter` names how it is drawn (above), `glsl` its rule again for that: functions
+    `source` is a paper's key in REFERENCES.md; `instruction` says in a sentence what it does.
+    `takes` are the events it may use up: "pointer", "wheel", "second button" or "key:q". What hands
+    do is read by participants: the text `controls`, and where the pointer turns the viewer
+    `controls` and ".walking", of `texts`. `painter` names how it is drawn (above), `glsl` its rule
+    again for that: functions
 
         float opacity(Surface s)   0 where it is removed
         bool opened(Surface s)     whether it shows from inside as well
@@ -175,6 +190,8 @@ class Technique(Protocol):
     instruction: str
     source: str
     takes: frozenset[str]
+    controls: str
+    texts: Texts
     painter: str
     glsl: str
     needs: frozenset[str]
@@ -185,6 +202,12 @@ class Technique(Protocol):
 
     def on_event(self, p: Own, state: Own, event: Own, shot: Shot) -> tuple[Own, bool]:
         """The state after an event, and whether the event is used up."""
+
+    def active(self, p: Own) -> bool:
+        """Whether what it shows depends on what hands do."""
+
+    def reach(self, p: Own, state: Own, shot: Shot, point: Floats) -> tuple[Gesture, ...]:
+        """What hands do so that it works at a point (3,) of the world; none where they cannot."""
 
     def shown(self, p: Own, state: Own, shot: Shot) -> Shown:
         """What stands there in this frame."""
@@ -234,13 +257,20 @@ class Plain:
 
     version = "1"
     takes: frozenset[str] = frozenset()
+    texts: Texts = MappingProxyType({})
     painter = REMOVAL
     needs: frozenset[str] = frozenset()
     glsl = "float opacity(Surface s) { return 1.0; }\nbool opened(Surface s) { return false; }\n"
     Parameters: Own
+    name: str
 
     def __init__(self) -> None:
         self.Parameters.technique = self
+
+    @property
+    def controls(self) -> str:
+        """By the technique's name."""
+        return f"{self.name}.controls"
 
     def begin(self, p: Own) -> Own:
         """No state."""
@@ -249,6 +279,17 @@ class Plain:
     def on_event(self, p: Own, state: Own, event: Own, shot: Shot) -> tuple[Own, bool]:
         """Nothing is used up."""
         return state, False
+
+    def active(self, p: Own) -> bool:
+        """Where events change a state that there is."""
+        return bool(self.takes) and self.begin(p) is not None
+
+    def reach(self, p: Own, state: Own, shot: Shot, point: Floats) -> tuple[Gesture, ...]:
+        """The pointer goes there, where it is taken."""
+        from seethrough.renderer.techniques.pointing import place_of
+
+        place = place_of(shot, point)
+        return (Gesture("pointer", place),) if place and "pointer" in self.takes else ()
 
     def shown(self, p: Own, state: Own, shot: Shot) -> Shown:
         """The scene as it is."""

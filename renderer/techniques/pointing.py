@@ -7,10 +7,13 @@ Where the pointer has not moved, or is captured to walk, the place is the middle
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import ceil, log
 
 import numpy as np
 
-from seethrough.renderer.techniques.base import Floats, Own, Shot
+from seethrough.renderer.techniques.base import Floats, Gesture, Own, Shot
+
+MOST_STEPS = 60  # of the wheel at once: 1.1 to that power is 300
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,31 @@ class Pointing:
 def lens(shot: Shot) -> float:
     """Pixels for a slope of 1."""
     return float(0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
+
+
+def place_of(shot: Shot, point: Floats) -> tuple[float, float] | None:
+    """Where a point of the world (3,) lies on the view, in view units; None outside of it."""
+    away = point - shot.camera.eye
+    depth = float(away @ shot.camera.forward)
+    if depth <= shot.camera.near:
+        return None
+    right, up, _ = shot.camera.rotation.T
+    scale = lens(shot) / depth / shot.size[1]
+    x, y = shot.aspect / 2 + float(away @ right) * scale, 0.5 - float(away @ up) * scale
+    return (x, y) if 0 <= x <= shot.aspect and 0 <= y <= 1 else None
+
+
+def reaching(state: Pointing, shot: Shot, point: Floats, step: float) -> tuple[Gesture, ...]:
+    """What hands do so that `followed` brings a state to a point of the world or just beyond: the
+    pointer goes there, the wheel does the rest."""
+    place = place_of(shot, point)
+    if place is None:
+        return ()
+    depth = float((point - shot.camera.eye) @ shot.camera.forward)
+    steps = ceil(log(depth / state.depth) / log(1 + step) - 1e-9) if step > 0 else 0
+    steps = min(max(steps, -MOST_STEPS), MOST_STEPS)
+    turn = (Gesture("wheel", place, steps),) if steps else ()
+    return (Gesture("pointer", place), *turn)
 
 
 def followed(state: Pointing, event: Own, step: float) -> tuple[Pointing, bool]:

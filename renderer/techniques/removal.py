@@ -10,16 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Surfaces
+from seethrough.renderer.techniques.lines import LINE, on_edges, unsure
 
 CAPS = ("none", "inside", "flat")
 WALL = (0.36, 0.34, 0.33)
+CREASE = 0.6  # radians between neighbours' normals, from which on there is an edge
 
 # Where a hole is one depth at each pixel, from the eye on: the picture `clip` has it, 0 for none.
 CLIPPED = """
@@ -48,6 +49,10 @@ class Removing(base.Parameters):
     cap: str = key(
         "flat", "where a thing is cut: nothing of it, its inside, or a flat wall", choices=CAPS
     )
+    edges: float = key(
+        0.0, "how strongly lines show along the edges of what is removed nearest to the viewer; "
+        "0: none", low=0, high=1,
+    )  # fmt: skip
 
 
 class Removal(base.Plain):
@@ -61,7 +66,7 @@ class Removal(base.Plain):
         super().__init__()
         self.glsl = self.removes + _GLSL
 
-    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, Own]:
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
 
@@ -69,22 +74,47 @@ class Removal(base.Plain):
         """Where cuts show a wall."""
         return bool(p.cap != "none")
 
+    def edges(self, p: Own) -> Mapping[str, Own]:
+        """The lines of what is removed, as shaders/edges.frag draws them."""
+        return {"line": (*LINE, p.edges), "crease": float(np.cos(CREASE))} if p.edges > 0 else {}
+
 
 def look(
-    p: Removing, seen: Surfaces, signed: Floats, pierced: Bools, doubt: Bools | float = 0.0
+    p: Removing,
+    seen: Surfaces,
+    signed: Floats,
+    pierced: Bools,
+    doubt: Bools | float = 0.0,
+    opened: Bools | bool = True,
 ) -> Look:
     """How surfaces show that are removed where `signed` (m,) is above 0. `pierced` (h·w,) are the
     pixels whose ray meets the hole. In `doubt` (m,) are also surfaces nearer to the hole's border
-    than float32 can tell."""
+    than float32 can tell. `opened` (m,) are those that may show from inside."""
     open_ = seen.penetrable
     removed = open_ & (signed > 0)
-    inside = ~seen.front & open_ & pierced[seen.pixel] & (p.cap != "none")
+    inside = ~seen.front & open_ & opened & pierced[seen.pixel] & (p.cap != "none")
     tint = np.zeros((len(signed), 4))
     if p.cap == "flat":
         tint[inside] = (*WALL, 1.0)
     near = open_ & (np.abs(signed) <= uncertain(seen))
-    kept = (seen.front | inside) & ~removed
-    return Look(kept, np.ones(len(signed)), tint, near | (open_ & (doubt > 0)))
+    kept, opacity = (seen.front | inside) & ~removed, np.ones(len(signed))
+    near |= open_ & (doubt > 0)
+    if p.edges > 0:
+        edge, unclear = _lined(seen, removed & seen.front, kept, near)
+        kept, near = kept | edge, near | unclear
+        opacity[edge], tint[edge] = p.edges, (*LINE, 1.0)
+    return Look(kept, opacity, tint, near)
+
+
+def _lined(seen: Surfaces, removed: Bools, kept: Bools, doubt: Bools) -> tuple[Bools, Bools]:
+    """(m,) the surfaces on the edges of what was removed nearest to the viewer, before anything
+    that is kept, and where that is in doubt."""
+    gone = np.nonzero(removed & (seen.depth < seen.nearest(kept)[seen.pixel]))[0]
+    first = np.unique(seen.pixel[gone], return_index=True)[1]
+    rows = gone[first]
+    open_ = unsure(seen, np.nonzero(kept | removed)[0], False)
+    open_[seen.pixel[doubt]] = True
+    return on_edges(seen, rows, np.zeros(len(rows), np.int64), CREASE, open_)
 
 
 def uncertain(seen: Surfaces) -> Floats:

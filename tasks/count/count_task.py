@@ -10,13 +10,13 @@ from numpy.random import Generator
 from seethrough.tasks.count.simulate import STRATEGY
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.controls import Orbit, of_view, orbit
-from seethrough.tasks.kit.entry import NumberEntry
+from seethrough.tasks.kit.entry import KEYS, NumberEntry
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
 
@@ -38,6 +38,7 @@ class Count:
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (COUNT_ERROR, ABSOLUTE_ERROR, CORRECT)
     title, instruction = "count.title", "count.instruction"
+    takes = keys(KEYS)
     texts: Texts = OwnTexts("seethrough.tasks.count")
     simulate = STRATEGY
 

@@ -10,12 +10,12 @@ from numpy.random import Generator
 from seethrough.tasks.count.count_task import number_outcome
 from seethrough.tasks.count_in_building.simulate import STRATEGY
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
-from seethrough.tasks.kit.entry import NumberEntry
+from seethrough.tasks.kit.entry import KEYS, NumberEntry
 from seethrough.tasks.kit.events import Event, KeyPress
 from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.worlds.building.building import Building, count_building
 from seethrough.tasks.worlds.building.visit import Visit, before, visit
 
@@ -44,6 +44,7 @@ class CountInBuilding:
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (COUNT_ERROR, ABSOLUTE_ERROR, CORRECT)
     title, instruction = "count_in_building.title", "count_in_building.instruction"
+    takes = keys(KEYS)
     texts: Texts = OwnTexts("seethrough.tasks.count_in_building")
     simulate = STRATEGY
 

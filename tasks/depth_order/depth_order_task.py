@@ -16,7 +16,7 @@ from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import Button, Label, Rect
 from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import ANYWHERE, Texts
+from seethrough.tasks.kit.world import ANYWHERE, Texts, keys
 
 MARKS = ("A", "B")
 SIZE, GAP, EDGE = 0.08, 0.015, 0.02
@@ -51,6 +51,7 @@ class DepthOrder(Basics):
     worlds = ANYWHERE
     Parameters = DepthOrderParameters
     measures: tuple[Measure, ...] = (CORRECT,)
+    takes = keys(mark.lower() for mark in MARKS)
     texts: Texts = OwnTexts("seethrough.tasks.depth_order")
     simulate = STRATEGY
 

@@ -15,7 +15,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan
 from seethrough.tasks.kit.measure import Measure
-from seethrough.tasks.kit.world import NO_TEXTS, Texts, World
+from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Texts, World
 
 if TYPE_CHECKING:
     from seethrough.tasks.kit.skills.strategy import Strategy
@@ -83,10 +83,11 @@ class NoParameters:
 
 class Basics:
     """What most tasks have in common, to be inherited: any place of the world will do, the question
-    is about its targets, and there are no parameters."""
+    is about its targets, no keys are taken, and there are no parameters."""
 
     name: str
     version = "1"
+    takes = NO_KEYS
     Parameters: Any = NoParameters
     texts: Texts = NO_TEXTS
 
@@ -120,8 +121,9 @@ class Task(Protocol):
 
     `code` is how a paper calls it (T1), `worlds` are those it can be set in (or
     ANYWHERE), `measures` what it
-    measures beside the time, `title` and `instruction` the names of its texts, and `simulate` how a
-    simulated person does it.
+    measures beside the time, `title` and `instruction` the names of its texts, `takes` the keys
+    that it answers to beside those of its world ("key:enter"), and `simulate` how a simulated
+    person does it.
     """
 
     name: str
@@ -133,6 +135,7 @@ class Task(Protocol):
     measures: tuple[Measure, ...]
     title: str
     instruction: str
+    takes: frozenset[str]
     texts: Texts
     simulate: Strategy
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, Protocol
 
@@ -17,6 +17,7 @@ from seethrough.tasks.kit.events import Event
 
 OWN, SHARED = "own", "shared"
 ANYWHERE = ("*",)  # the worlds of a task that takes any place with targets
+NO_KEYS: frozenset[str] = frozenset()
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
 NO_TEXTS: Texts = MappingProxyType({})
 
@@ -43,7 +44,8 @@ class World(Protocol):
     """A world, without state: parameters go in, places come out.
 
     `scenario` is what tables call it. `moving`: "orbit" turns the world about its middle, "walk"
-    moves through it with the pointer captured. `controls` is the text that says how.
+    moves through it with the pointer captured. `controls` is the text that says how, `takes` are
+    the keys that do it, as techniques name them: "key:up".
     """
 
     name: str
@@ -52,6 +54,7 @@ class World(Protocol):
     scenario: str
     moving: str
     controls: str
+    takes: frozenset[str]
     Parameters: Any
     texts: Texts
 
@@ -66,6 +69,11 @@ class World(Protocol):
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:
         """World units to go from the start past what a task asks for, (n, 3) centres."""
+
+
+def keys(names: Iterable[str]) -> frozenset[str]:
+    """Keys as `takes` names them."""
+    return frozenset(f"key:{name}" for name in names)
 
 
 def scenes(default: str) -> Any:

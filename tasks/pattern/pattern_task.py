@@ -15,7 +15,7 @@ from seethrough.tasks.kit.hud import Button, Element, Label, Rect, hint
 from seethrough.tasks.kit.letters import LETTERS
 from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.pattern.simulate import STRATEGY
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
@@ -46,6 +46,7 @@ class Pattern:
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (CORRECT,)
     title, instruction = "pattern.title", "pattern.instruction"
+    takes = keys((*(letter.lower() for letter in sorted(LETTERS)), "enter"))
     texts: Texts = OwnTexts("seethrough.tasks.pattern")
     simulate = STRATEGY
 

@@ -11,13 +11,13 @@ from numpy.random import Generator
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, View
 from seethrough.tasks.kit.controls import Orbit, of_view, orbit
-from seethrough.tasks.kit.entry import NumberEntry
+from seethrough.tasks.kit.entry import KEYS, NumberEntry
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.read.sign import SignPlace, sign_place
 from seethrough.tasks.read.simulate import STRATEGY
 
@@ -51,6 +51,7 @@ class Read(Basics):
     worlds = ("abstract",)
     Parameters = ReadParameters
     measures: tuple[Measure, ...] = (CORRECT,)
+    takes = keys(KEYS)
     texts: Texts = OwnTexts("seethrough.tasks.read")
     simulate = STRATEGY
 

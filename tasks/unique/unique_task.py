@@ -14,7 +14,7 @@ from seethrough.tasks.kit.events import Event, KeyPress
 from seethrough.tasks.kit.hud import FloorPlan, Label
 from seethrough.tasks.kit.measure import CORRECT, DISTANCE, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.unique.simulate import STRATEGY
 from seethrough.tasks.worlds.building.building import Building, unique_building
 from seethrough.tasks.worlds.building.floor import room_at
@@ -47,6 +47,7 @@ class Unique:
     Parameters = NoParameters
     measures: tuple[Measure, ...] = (DISTANCE, CORRECT)
     title, instruction = "unique.title", "unique.instruction"
+    takes = keys(("space", "enter"))
     texts: Texts = OwnTexts("seethrough.tasks.unique")
     simulate = STRATEGY
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,8 @@ import pytest
 from plugins import installed, seethrough
 
 from seethrough import registry
-from seethrough.experiment.suites.technique_suite import check
+from seethrough.experiment.suites import technique_hard as hard
+from seethrough.experiment.suites.technique_suite import _Tried, check, check_all
 from seethrough.renderer.techniques import removal
 from seethrough.renderer.techniques.cutaway.cutaway import Cutaway, CutawayParameters
 
@@ -23,7 +25,22 @@ def test_a_technique_keeps_to_what_all_must(context, name):
     """As `seethrough technique check` says it."""
     found = list(check(registry.get("technique", name), context, MOST.get(name, 100)))
     assert [str(f) for f in found if not f.holds] == []
-    assert len(found) == 10
+    assert len(found) == 11
+
+
+@pytest.mark.parametrize("name", registry.known("technique"))
+def test_a_part_of_all_scenes_is_exact(context, name):
+    """Of those that `technique check NAME --all` draws; tests/hard has the hard ones."""
+    every = check_all(registry.get("technique", name), context)
+    assert [str(f) for f in islice(every, 0, 20, 5) if not f.holds] == []
+
+
+def test_a_hard_scene_that_is_all_in_doubt_says_so(context):
+    """One pixel is compared, and not left out."""
+    (make, size), *_ = hard.SIZES
+    tried = _Tried(registry.get("technique", "cutaway"), context)
+    found = tried.compared("1 × 1", make(), CutawayParameters(), size, False, True)
+    assert size == (1, 1) and found.holds and "0.00 % left out" in found.said
 
 
 def test_a_stranger_s_technique_is_found_drawn_and_checked(tmp_path):

@@ -4,8 +4,11 @@ import numpy as np
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.driver import describe
+from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import provenance
@@ -65,6 +68,8 @@ class DrawnDisplay:
     SIZE = (320, 240)
     aspect = 4 / 3
 
+    technique = None
+
     def __init__(self, clock):
         self.clock = clock
         self.context = standalone()
@@ -72,6 +77,7 @@ class DrawnDisplay:
         self.target = self.context.framebuffer([self.context.texture(self.SIZE, 4)])
 
     def show(self, view, technique):
+        self.technique = technique
         self.stage.draw_view(view, technique, self.target, FRAME)
         return self.clock.now()
 
@@ -134,6 +140,25 @@ class Handling(Script):
         return [*events[:-1], *more.get(self.frames, []), events[-1]]
 
 
+class Simulated(SimulatedInput):
+    """A simulated person, who looks at what the display draws."""
+
+    def __init__(self, clock, display):
+        self._display, self._looking = display, Looking(display.context, display.SIZE, simple=True)
+        super().__init__(SimulatedParticipant(np.random.default_rng(6)), self, clock)
+
+    technique = property(lambda self: self._display.technique)
+    aspect = property(lambda self: self._display.aspect)
+
+    def events(self, view):
+        self._view = view
+        return super().events(view)
+
+    def look(self):
+        self._looking.technique = self.technique
+        return self._looking.look(self._view)
+
+
 def play_recorded(folder, table=STUDY, script=Script):
     """Play participant P01's session into `folder`."""
     study = parse(table, "test")
@@ -142,5 +167,6 @@ def play_recorded(folder, table=STUDY, script=Script):
     who = Who(
         "t", "P01", "human", 1, provenance(study, display.describe()), design=design_entry(study)
     )
-    world = Surroundings(display, script(clock), clock, FileRecorder(folder, who), TASKS)
+    hands = script(clock, display) if script is Simulated else script(clock)
+    world = Surroundings(display, hands, clock, FileRecorder(folder, who), TASKS)
     assert run_session(study, 1, world) == "complete"

@@ -40,7 +40,7 @@ class TableDisplay:
         self.pool, self.clock = pool, clock
         self._aspect = aspect
         self._shown: View | None = None
-        self._technique: Any = None
+        self.technique: Any = None  # what the view shown last is drawn with
 
     @property
     def aspect(self) -> float:
@@ -50,7 +50,7 @@ class TableDisplay:
     def show(self, view: View, technique: Parameters) -> float:
         """Keep the view; the time now."""
         self._shown = view
-        self._technique = technique
+        self.technique = technique
         return self.clock.now()
 
     def digest(self) -> str:
@@ -68,7 +68,7 @@ class TableDisplay:
         """What is seen in the view shown last. Raises RuntimeError before the first."""
         if self._shown is None:
             raise RuntimeError("nothing has been shown yet")
-        return self.pool.look(self._shown, self._technique)
+        return self.pool.look(self._shown, self.technique)
 
 
 @dataclass

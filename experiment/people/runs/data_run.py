@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 
-from seethrough.experiment.errors import InputError
+from seethrough.experiment.errors import InputError, gathered
 from seethrough.experiment.people.runs import batch as b
 from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Results, Slots
 from seethrough.experiment.people.runs.looks import KeptLooks
@@ -27,6 +27,7 @@ def run(
     """
     assert job.tables is not None
     study = load(job.study)
+    refuse_hands(study, str(find(job.study)))
     if scheduler is not None:
         _check_models(job, study)
     if job.tables.exists():
@@ -47,6 +48,22 @@ def run(
                 results.add(chunk)
                 tables.add(chunk.looks)  # of machines that share no disk with this one
                 progress.step(f"S{chunk.slots[-1]:02d}", len(chunk.slots))
+
+
+def refuse_hands(study: Study, file: str) -> None:
+    """Raises InputError where what is seen depends on the pointer: tables hold what is seen from
+    somewhere, and nobody's hands."""
+    drawn = {part.technique_name: part.technique for part in study.parts.values()}
+    hands = [name for name, p in drawn.items() if p.technique.active(p)]
+    if hands:
+        raise gathered(
+            [
+                f'{file}: technique.use = "{name}": expected a technique that no pointer moves in '
+                "data mode, whose tables know none: simulate it with --mode visual"
+                for name in hands
+            ],
+            0,
+        )
 
 
 def _check_models(job: b.Batch, study: Study) -> None:

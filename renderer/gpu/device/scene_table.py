@@ -20,6 +20,8 @@ from seethrough.renderer.scene.scene import Scene
 Run = tuple[GpuMesh, int, int]  # a mesh, its first row in the sequence, how many instances
 
 SHADOWS = 15  # the texture unit of the floor's shadows: the last that every driver has
+# Of one frame: the driver would have to wait for what is drawn from one before it is written again.
+_SEQUENCES = 4
 
 
 class SceneTable:
@@ -51,7 +53,7 @@ class SceneTable:
         self.table.write(rows.tobytes())
         self._points: dict[tuple[int, ...], tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
         self._context = context
-        self._sequence = kept(_texture(context, (2, max(n, 1))))
+        self._sequences = [kept(_texture(context, (2, max(n, 1)))) for _ in range(_SEQUENCES)]
 
     def set_look(self, shader: Shader, camera: Camera, height: int) -> None:
         """Tell a shader what it has to know for the scene's look, in a picture so high."""
@@ -116,7 +118,8 @@ class SceneTable:
         """Upload the objects of all `parts`, and say which instanced draws make up each part.
 
         Objects of one part are put together by mesh. `numbers` has for each part a number to go
-        with every object of the scene (n,).
+        with every object of the scene (n,). The texture holds them until as many sequences as
+        there are textures were made after it.
         """
         number = np.repeat(np.arange(len(parts)), [len(p) for p in parts])
         objects = np.concatenate([*parts, np.zeros(0, np.int64)])
@@ -125,34 +128,38 @@ class SceneTable:
         extra = np.zeros(len(objects))
         for k, values in enumerate(numbers or []):
             extra[number == k] = values[objects[number == k]]
-        self._upload(objects, camera, extra)
+        sequence = self._upload(objects, camera, extra)
         slots = self.slot[objects]
         starts = np.nonzero(np.diff(number, prepend=-1) | np.diff(slots, prepend=-1))[0]
         ends = np.append(starts[1:], len(objects))[: len(starts)]
         runs: list[list[Run]] = [[] for _ in parts]
         for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
             runs[number[a]].append((self.meshes[slots[a]], a, b - a))
-        return self._sequence, runs
+        return sequence, runs
 
     def _upload(
         self, objects: NDArray[np.int64], camera: Camera, extra: NDArray[np.float64]
-    ) -> None:
-        if len(objects) > self._sequence.height:
-            self._sequence.release()
-            self._sequence = kept(_texture(self._context, (2, 2 * len(objects))))
+    ) -> moderngl.Texture:
+        texture = self._sequences.pop(0)
+        if len(objects) > texture.height:
+            texture.release()
+            texture = kept(_texture(self._context, (2, 2 * len(objects))))
+        self._sequences.append(texture)
         rows = np.zeros((len(objects), 2, 4), dtype="f4")
         rows[:, 0, :3] = self.scene.centers[objects] - camera.eye
         rows[:, 0, 3] = objects
         rows[:, 1, 0] = extra
         if len(objects):
-            self._sequence.write(rows.tobytes(), viewport=(0, 0, 2, len(objects)))
+            texture.write(rows.tobytes(), viewport=(0, 0, 2, len(objects)))
+        return texture
 
     def release(self) -> None:
         """Give the GPU's memory back."""
         self.table.release()
         if "_shadows" in self.__dict__:
             self._shadows[0].release()
-        self._sequence.release()
+        for texture in self._sequences:
+            texture.release()
 
 
 def _texture(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Texture:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import moderngl
@@ -36,8 +37,12 @@ OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
-PAINTERS = {PEELS: PeelPainter, REMOVAL: RemovalPainter}
-# The minimum takes no factors: colour stays because a mask's own is made to be larger.
+GHOSTS = "ghosts"  # lines of what was removed, over what is left
+PAINTERS: Mapping[str, Callable[..., PeelPainter | RemovalPainter]] = {
+    PEELS: PeelPainter,
+    REMOVAL: RemovalPainter,
+    GHOSTS: partial(PeelPainter, ghosts=True),
+}
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
@@ -97,30 +102,45 @@ class Layer:
         self._matrix = clip_from_offset(camera, size)
         runs, rest = self._before(table, frame, camera, technique, scale, size)
         self._set_state()
-        target.clear(table.scene.background)
         for shader in (self._object, self._depth, self._bare):
             if shader is not None:
                 self._use(shader)
                 table.set_look(shader, camera, size[1])
+        counts, exact = None, None
+        if len(frame.exact) and after_level is None:
+            # Before the frame's own picture: on a software rasteriser to leave that half done and
+            # come back to it costs more than all the little cells.
+            exact = self._job(table, frame, camera, technique, scale, size)
+            if frame.levels:
+                counts = self._looked_up(table, frame, camera, technique, rest, size)
+            self._painter().begin(exact, self._masks if frame.levels else None)
+            self._bind(*self._bound)
+            self._set_state()
+        target.clear(table.scene.background)
         if len(frame.wide):
             self._draw_outside(frame, runs[1], size)
         self._draw_opaque(runs[0], table)
         if after_level is not None:
             after_level(None)
         if frame.levels:
-            counts = self._looked_up(table, frame, camera, technique, rest, size)
-            target.framebuffer.use()
+            if exact is None:
+                counts = self._looked_up(table, frame, camera, technique, rest, size)
+                target.framebuffer.use()
             self._set_state()
             self._masks.begin(counts)
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
         if len(frame.ruled):
             shot = Shot(table.scene, camera, size, scale)
-            self._draw_ruled(table, frame, technique, state, shot, target)
-            if after_level is not None and not self.peeled:
+            rules = technique.technique
+            self._draw_ruled(rules.painter, table, frame, technique, state, shot, target)
+            if after_level is not None and rules.painter == REMOVAL:
                 after_level(frame.ruled)
-        if len(frame.exact) and after_level is None:
-            job = self._job(table, frame, camera, technique, scale, size)
-            self._draw_exact(job, target, self._masks if frame.levels else None)
+            if rules.painter == REMOVAL and rules.edges(technique):
+                self._draw_ruled(GHOSTS, table, frame, technique, state, shot, target)
+        if exact is not None:
+            passes, draws = self._painter().finish(exact, target.framebuffer)
+            self._passes += passes
+            self._draws += draws
         return FrameStats(
             self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
         )
@@ -136,6 +156,7 @@ class Layer:
 
     def _draw_ruled(
         self,
+        name: str,
         table: SceneTable,
         frame: FramePlan,
         technique: Parameters,
@@ -143,8 +164,7 @@ class Layer:
         shot: Shot,
         target: FrameTarget,
     ) -> None:
-        """What the technique's rule is asked about, by the painter that it names."""
-        name = technique.technique.painter
+        """What the technique's rule is asked about, by a painter."""
         if name not in self._ruled:
             self._ruled[name] = PAINTERS[name](self._context, self._defines)
         painter = self._ruled[name]
@@ -198,11 +218,6 @@ class Layer:
     ) -> ExactJob:
         width = technique.width * scale
         return ExactJob(table, frame, camera, technique, width, size, self._matrix)
-
-    def _draw_exact(self, job: ExactJob, target: FrameTarget, made: MaskPainter | None) -> None:
-        passes, draws = self._painter().draw(job, target.framebuffer, made)
-        self._passes += passes
-        self._draws += draws
 
     def _set_state(self) -> None:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)

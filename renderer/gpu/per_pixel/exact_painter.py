@@ -53,19 +53,26 @@ class ExactPainter:
         self._slices: Cells | None = None
         self._textures: dict[str, moderngl.Texture] = {}
 
-    def draw(
-        self, job: ExactJob, target: moderngl.Framebuffer, made: MaskPainter | None = None
-    ) -> tuple[int, int]:
-        """Draw the plan's exact parts over the frame, with the masks already `made` for it if
-        there are any. Returns passes and draw calls."""
+    def begin(self, job: ExactJob, made: MaskPainter | None = None) -> None:
+        """Take on the plan's exact parts, with the masks already `made` for the frame if there are
+        any. Fills the cells of what fits into one batch: with the frame's own picture still to
+        come, the rasteriser need not leave that half done and take it up again."""
         self._masks.prepare(job, made)
-        passes = draws = 0
-        whole = job.frame.exact
+        self._draws = 0
         self._set_parts(job, None)
+        whole = job.frame.exact
         if job.technique.granularity != "pixel":
-            draws += self._select(job, whole)
-        for parts in self._batches(job, whole):
-            draws += self._fill(job, parts)
+            self._draws += self._select(job, whole)
+        self._waiting = list(self._batches(job, whole))
+        self._ready = len(self._waiting) == 1
+        if self._ready:
+            self._draws += self._fill(job, self._waiting[0])
+
+    def finish(self, job: ExactJob, target: moderngl.Framebuffer) -> tuple[int, int]:
+        """Draw what was begun over the frame. Returns passes and draw calls."""
+        passes, draws = 0, self._draws
+        for parts in self._waiting:
+            draws += 0 if self._ready else self._fill(job, parts)
             target.use()
             # A point whose middle lies beyond the view is not drawn, whatever of it lies within.
             wide, high = blocks.whole(job.size)

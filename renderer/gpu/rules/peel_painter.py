@@ -72,12 +72,15 @@ class _Buffers:
 
 
 class PeelPainter:
-    """Keeps programs and buffers. `found` are the layers of the last frame drawn with ids."""
+    """Keeps programs and buffers. `found` are the layers of the last frame drawn with ids.
+    `ghosts`: of what is removed the nearest layer alone, for its lines."""
 
-    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
-        self._context, self._ids = context, "WITH_IDS" in defines
+    def __init__(
+        self, context: moderngl.Context, defines: Sequence[str], ghosts: bool = False
+    ) -> None:
+        self._context, self._ids, self._ghosts = context, "WITH_IDS" in defines, ghosts
         shown = [d for d in defines if d != "WITH_IDS"]
-        self._programs = RulePrograms(context, ["PEELED", *shown])
+        self._programs = RulePrograms(context, ["PEELED", *(["GHOSTS"] if ghosts else []), *shown])
         self._put = program(context, "present.vert", "layer.frag")
         self._screen = context.vertex_array(self._put.program, [])
         self._edges = program(context, "present.vert", "edges.frag")
@@ -113,7 +116,8 @@ class PeelPainter:
         buffers.total.clear()
         shader.set(above=ABOVE, below=BELOW, covered=COVERED, lined=bool(lines))
         self.found, draws = [], 0
-        most, sides = technique.technique.layers(technique), technique.technique.sides(technique)
+        most = 1 if self._ghosts else technique.technique.layers(technique)
+        sides = technique.technique.sides(technique) and not self._ghosts
         for k in range(most if most is not None else 10_000):
             layer = buffers.layers[k % 2]
             layer.clear(depth=1.0)

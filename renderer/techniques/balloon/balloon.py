@@ -17,10 +17,26 @@ from seethrough.renderer.declared import key
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import base, pointing
-from seethrough.renderer.techniques.base import Floats, Own, Shot, Shown
+from seethrough.renderer.techniques.base import Floats, Gesture, Own, Shot, Shown, Texts
 from seethrough.renderer.techniques.pointing import Pointing
 
 ROD = (0.25, 0.25, 0.28)
+
+
+TEXTS: Texts = {
+    "en": {
+        "balloon.controls": "Things near the pointer move aside. Q and E, or the wheel, bring "
+        "the place where they do nearer and move it farther away.",
+        "balloon.controls.walking": "Things in the middle of the view move aside. Q and E, or "
+        "the wheel, bring the place where they do nearer and move it farther away.",
+    },
+    "de": {
+        "balloon.controls": "Was nahe beim Zeiger steht, weicht zur Seite. Q und E oder das "
+        "Rad holen die Stelle näher und schieben sie weiter weg.",
+        "balloon.controls.walking": "Was in der Mitte des Bildes steht, weicht zur Seite. Q "
+        "und E oder das Rad holen die Stelle näher und schieben sie weiter weg.",
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -46,6 +62,7 @@ class Balloon(base.Plain):
     instruction = "Things near the pointer move aside: Q and E move it nearer and farther."
     source = "Elmqvist2005"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e"})
+    texts = TEXTS
     Parameters = BalloonParameters
 
     def begin(self, p: BalloonParameters) -> Pointing:
@@ -57,6 +74,12 @@ class Balloon(base.Plain):
     ) -> tuple[Pointing, bool]:
         """The pointer carries the ball, keys and wheel move it away."""
         return pointing.followed(state, event, p.step)
+
+    def reach(
+        self, p: BalloonParameters, state: Pointing, shot: Shot, point: Floats
+    ) -> tuple[Gesture, ...]:
+        """The pointer goes there, the wheel brings it as far."""
+        return pointing.reaching(state, shot, point, p.step)
 
     def shown(self, p: BalloonParameters, state: Pointing, shot: Shot) -> Shown:
         """The scene with things moved, and rods behind the last of its objects."""

@@ -14,11 +14,9 @@ from typing import Any
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Bools, Indices, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
-
-LINE = (0.12, 0.2, 0.45)
-NEIGHBOURS = ((0, 1), (0, -1), (1, 0), (-1, 0))
+from seethrough.renderer.techniques.lines import LINE, on_edges, unsure
 
 
 @dataclass(frozen=True)
@@ -56,7 +54,7 @@ class Blueprint(Layering):
         layer = np.arange(len(rows)) - first
         if p.layers is not None:
             rows, layer = rows[layer < p.layers], layer[layer < p.layers]
-        return _edges(p, seen, rows, layer)
+        return on_edges(seen, rows, layer, p.crease, unsure(seen, rows, p.surfaces == "all"))
 
     def rule(
         self, p: BlueprintParameters, state: Own, seen: Surfaces, known: tuple[Bools, Bools]
@@ -75,49 +73,6 @@ class Blueprint(Layering):
     def edges(self, p: BlueprintParameters) -> dict[str, Any]:
         """The lines, as shaders/edges.frag draws them."""
         return {"line": (*LINE, p.line), "crease": float(np.cos(p.crease))}
-
-
-def _edges(
-    p: BlueprintParameters, seen: Surfaces, rows: Indices, layer: Indices
-) -> tuple[Bools, Bools]:
-    """Whether rows, in these layers, are on an edge, and whether that is in doubt (m,)."""
-    width, height = seen.shot.size
-    shape = (int(layer.max(initial=-1)) + 1, height + 2, width + 2)
-    row, column = np.divmod(seen.pixel[rows], width)
-    here = (layer, row + 1, column + 1)
-    number = np.zeros(shape, np.int64)
-    number[:, 0], number[:, -1], number[:, :, 0], number[:, :, -1] = -1, -1, -1, -1
-    number[here] = seen.object[rows] + 1
-    normal = np.zeros((*shape, 3))
-    length = np.linalg.norm(seen.normal[rows], axis=1, keepdims=True)
-    normal[here] = seen.normal[rows] / np.maximum(length, 1e-300)
-    unsure = np.zeros((height + 2, width + 2), dtype=bool)
-    unsure[1:-1, 1:-1] = _unsure(p, seen, rows).reshape(height, width)
-    edge, sure, maybe = (np.zeros(len(rows), dtype=bool) for _ in range(3))
-    for down, right in NEIGHBOURS:
-        there = (layer, row + 1 + down, column + 1 + right)
-        turned = (normal[here] * normal[there]).sum(axis=1) - np.cos(p.crease)
-        same = number[here] == number[there]
-        within = number[there] >= 0
-        differs = within & (~same | (turned < 0))
-        open_ = within & (unsure[there[1:]] | (same & (np.abs(turned) < 1e-4)))
-        edge |= differs
-        sure |= differs & ~open_
-        maybe |= open_
-    found, doubt = np.zeros(len(seen.depth), dtype=bool), np.zeros(len(seen.depth), dtype=bool)
-    found[rows] = edge
-    # What is in doubt counts only where no other neighbour decides.
-    doubt[rows] = (maybe & ~sure) | unsure[here[1:]]
-    return found, doubt
-
-
-def _unsure(p: BlueprintParameters, seen: Surfaces, rows: Indices) -> Bools:
-    """(h·w,) pixels at which float32 may find other layers."""
-    found = seen.edge.copy() if p.surfaces == "front" else seen.edges.copy()
-    pixel, depth, slack = seen.pixel[rows], seen.depth[rows], seen.slack[rows]
-    close = (np.diff(pixel) == 0) & (np.diff(depth) <= slack[1:] + slack[:-1])
-    found[pixel[1:][close]] = True
-    return found
 
 
 TECHNIQUE = Blueprint()

@@ -15,10 +15,35 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import pointing, removal
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import (
+    Bools,
+    Floats,
+    Gesture,
+    Look,
+    Own,
+    Shot,
+    Surfaces,
+    Texts,
+)
 from seethrough.renderer.techniques.pointing import Pointing
 
 MOST = 16  # holes: one more, and the first is filled
+
+
+TEXTS: Texts = {
+    "en": {
+        "dig.controls": "Q digs a hole under the pointer, through whatever is in the way. E or "
+        "the wheel deepens it, R fills all holes.",
+        "dig.controls.walking": "Q digs a hole in the middle of the view, through whatever is "
+        "in the way. E or the wheel deepens it, R fills all holes.",
+    },
+    "de": {
+        "dig.controls": "Q gräbt unter dem Zeiger ein Loch durch alles, was im Weg steht. E "
+        "oder das Rad vertieft es, R füllt alle Löcher.",
+        "dig.controls.walking": "Q gräbt in der Mitte des Bildes ein Loch durch alles, was im "
+        "Weg steht. E oder das Rad vertieft es, R füllt alle Löcher.",
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -49,6 +74,7 @@ class Dig(removal.Removal):
     )
     source = "Coffin2006"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e", "key:r"})
+    texts = TEXTS
     Parameters = DigParameters
     removes = f"""
 uniform vec3 starts[{MOST}];   // of the holes' axes, from the eye
@@ -89,6 +115,16 @@ bool pierced(Surface s) {{ return holes > 0; }}
         at, used = pointing.followed(state.at, event, p.step)
         return replace(state, at=at), used
 
+    def reach(
+        self, p: DigParameters, state: Digging, shot: Shot, point: Floats
+    ) -> tuple[Gesture, ...]:
+        """A hole is dug there, and deepened up to the point."""
+        place = pointing.place_of(shot, point)
+        if place is None:
+            return ()
+        deeper = pointing.reaching(replace(state.at, depth=p.depth), shot, point, p.step)[1:]
+        return (Gesture("pointer", place), Gesture("key:q"), *deeper)
+
     def touches(self, p: DigParameters, state: Digging, shot: Shot) -> Bools:
         """What is nearer to a hole's axis than its radius and that of the object's sphere."""
         scene = shot.scene
@@ -104,8 +140,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
             signed = np.maximum(signed, p.radius - _apart(seen.offset, start, end))
         touched = self.touches(p, state, seen.shot)[seen.object]
         pierced = np.full(seen.shot.size[0] * seen.shot.size[1], bool(state.holes))
-        found = removal.look(p, seen, signed, pierced)
-        return replace(found, kept=found.kept & (seen.front | touched))
+        return removal.look(p, seen, signed, pierced, opened=touched)
 
     def uniforms(self, p: DigParameters, state: Digging, shot: Shot) -> Mapping[str, Any]:
         """The holes' axes."""

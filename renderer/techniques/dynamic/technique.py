@@ -10,6 +10,18 @@ from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.pointing import Pointing, followed
 
+TEXTS: base.Texts = {
+    "en": {
+        "dynamic.controls": "Near the pointer, things that stand in the way turn transparent.",
+        "dynamic.controls.walking": "In the middle of the view, things that stand in the way "
+        "turn transparent.",
+    },
+    "de": {
+        "dynamic.controls": "Nahe beim Zeiger wird durchsichtig, was im Weg steht.",
+        "dynamic.controls.walking": "In der Mitte des Bildes wird durchsichtig, was im Weg steht.",
+    },
+}
+
 
 class DynamicRendering(base.Plain):
     """What stands before a target turns transparent, by a mask about it."""
@@ -20,6 +32,7 @@ class DynamicRendering(base.Plain):
     source = "Elmqvist2009"
     painter = base.MASKS
     takes = frozenset({"pointer"})
+    texts = TEXTS
     Parameters = DynamicTransparency
 
     def begin(self, p: DynamicTransparency) -> Pointing | None:

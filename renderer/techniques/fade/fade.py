@@ -13,9 +13,20 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import pointing
-from seethrough.renderer.techniques.base import Bools, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Look, Own, Shot, Surfaces, Texts
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.pointing import Pointing
+
+TEXTS: Texts = {
+    "en": {
+        "fade.controls": "Whatever is near the pointer turns transparent.",
+        "fade.controls.walking": "Whatever is in the middle of the view turns transparent.",
+    },
+    "de": {
+        "fade.controls": "Was nahe beim Zeiger ist, wird durchsichtig.",
+        "fade.controls.walking": "Was in der Mitte des Bildes ist, wird durchsichtig.",
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -39,6 +50,7 @@ class Fade(Layering):
     instruction = "Whatever is near the pointer turns transparent."
     source = "Gutwin2003"
     takes = frozenset({"pointer"})
+    texts = TEXTS
     Parameters = FadeParameters
     strength = """
 uniform vec2 pixel;

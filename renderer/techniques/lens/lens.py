@@ -15,10 +15,35 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import pointing, removal
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import (
+    Bools,
+    Floats,
+    Gesture,
+    Look,
+    Own,
+    Shot,
+    Surfaces,
+    Texts,
+)
 from seethrough.renderer.techniques.pointing import Pointing
 
 SHAPES = ("tube", "ball")
+
+
+TEXTS: Texts = {
+    "en": {
+        "lens.controls": "Whatever stands in the lens under the pointer is not shown. Q and "
+        "E, or the wheel, bring the lens nearer and move it farther away.",
+        "lens.controls.walking": "Whatever stands in the lens in the middle of the view is not "
+        "shown. Q and E, or the wheel, bring the lens nearer and move it farther away.",
+    },
+    "de": {
+        "lens.controls": "Was in der Linse unter dem Zeiger steht, wird nicht gezeigt. Q und "
+        "E oder das Rad holen die Linse näher und schieben sie weiter weg.",
+        "lens.controls.walking": "Was in der Linse in der Mitte des Bildes steht, wird nicht "
+        "gezeigt. Q und E oder das Rad holen die Linse näher und schieben sie weiter weg.",
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -45,6 +70,7 @@ class Lens(removal.Removal):
     )
     source = "Ropinski2004"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e"})
+    texts = TEXTS
     Parameters = LensParameters
     removes = """
 uniform bool ball;
@@ -73,6 +99,12 @@ bool pierced(Surface s) {
     ) -> tuple[Pointing, bool]:
         """The pointer carries it, keys and wheel move it away."""
         return pointing.followed(state, event, p.step)
+
+    def reach(
+        self, p: LensParameters, state: Pointing, shot: Shot, point: Floats
+    ) -> tuple[Gesture, ...]:
+        """The pointer goes there, the wheel brings it as far."""
+        return pointing.reaching(state, shot, point, p.step)
 
     def touches(self, p: LensParameters, state: Pointing, shot: Shot) -> Bools:
         """What reaches into the rectangle about the lens, and nearer than its end."""

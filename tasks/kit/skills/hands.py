@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from math import hypot, log2, pi
 
+from seethrough.renderer.techniques.base import Gesture
 from seethrough.tasks.kit.events import (
     Event,
     KeyPress,
@@ -15,6 +16,7 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
     Tick,
 )
+from seethrough.tasks.kit.gestures import events_of
 from seethrough.tasks.kit.hud import Rect
 from seethrough.tasks.kit.skills.mood import Mood
 
@@ -70,6 +72,14 @@ class Hands:
         self._events.append(PointerPress(self.time, x, y))
         self.time += HOLD
         self._events.append(PointerRelease(self.time, x, y))
+
+    def does(self, gesture: Gesture) -> None:
+        """Work a technique: point, press a key, or turn the wheel notch by notch."""
+        p = self.mood.profile
+        self.wait(p.point if gesture.event == "pointer" else p.key)
+        events = events_of(gesture, self.time, 2 * HOLD)
+        self._events += events
+        self.time = events[-1].time if events else self.time
 
     def turn(self, yaw: float, pitch: float = 0.0, drag: bool = False) -> None:
         """Turn by these angles with the mouse; see `turning`."""

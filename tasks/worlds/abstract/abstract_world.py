@@ -7,9 +7,9 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from seethrough.renderer.scene.camera import Camera, look_at
-from seethrough.tasks.kit.controls import Orbit, orbit
+from seethrough.tasks.kit.controls import ARROWS, Orbit, orbit
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
@@ -25,6 +25,7 @@ class Abstract:
     scenario = "abstract"
     moving = "orbit"
     controls = "abstract.controls"
+    takes = keys(ARROWS)
     Parameters = AbstractParameters
     texts: Texts = OwnTexts("seethrough.tasks.worlds.abstract")
 

@@ -9,9 +9,9 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from seethrough.renderer.scene.camera import Camera, look_at
-from seethrough.tasks.kit.controls import Walk, walk
+from seethrough.tasks.kit.controls import ARROWS, Walk, walk
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import Texts
+from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.worlds.building.building import Building, unique_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
@@ -26,6 +26,7 @@ class BuildingWorld:
     scenario = "walkthrough"
     moving = "walk"
     controls = "walkthrough.controls"
+    takes = keys(ARROWS)
     Parameters = BuildingParameters
     texts: Texts = OwnTexts("seethrough.tasks.worlds.building")
 

@@ -9,6 +9,7 @@ from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import CORRECT
 from seethrough.tasks.kit.skills.hands import Hands
 from seethrough.tasks.kit.skills.strategy import Strategy
+from seethrough.tasks.kit.world import keys
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +29,7 @@ class Toy(Basics):
     name, code, source = "toy_task", "TOY", "nobody"
     worlds, measures = ("abstract",), (CORRECT,)
     texts = {"en": {"toy_task.title": "Red?", "toy_task.instruction": "Y or N."}}
+    takes = keys("yn")
     simulate = Strategy(look)
 
     def begin(self, made, setting, aspect):

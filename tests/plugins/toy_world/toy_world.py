@@ -8,8 +8,8 @@ from seethrough.renderer.declared import check, key
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import translation
-from seethrough.tasks.kit.controls import orbit
-from seethrough.tasks.kit.world import scenes
+from seethrough.tasks.kit.controls import ARROWS, orbit
+from seethrough.tasks.kit.world import keys, scenes
 
 BALL = geometry.sphere(0.5)
 
@@ -31,7 +31,7 @@ class Place:
 
 class Toy:
     name, version, source, scenario = "toy_world", "1", "nobody", "toy_world"
-    moving, controls, Parameters = "orbit", "toy_world.controls", Row
+    moving, controls, Parameters, takes = "orbit", "toy_world.controls", Row, keys(ARROWS)
     texts = {"en": {"toy_world.controls": "Drag to turn."}}
 
     def make(self, rng, p):

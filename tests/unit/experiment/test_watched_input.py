@@ -24,13 +24,15 @@ class Standing:
         self.time, self.pressed, self.asked = 0.0, [], []
         self.pointed, self.begun = [], []
         self.clock, self.technique, self.size = SimpleNamespace(now=lambda: self.time), "t", (8, 6)
+        self.aspect = 4 / 3
 
     def begin_trial(self, *what):
         self.begun.append(what)
 
-    def events(self, view, look=None, now=None, task=None):
+    def events(self, view, look=None, now=None, task=None, drawn_with=None, aspect=None):
         if look is None:  # the window's own
             return self.pressed
+        assert (drawn_with, aspect) == ("t", 4 / 3)  # as the window draws it
         self.asked.append((now, task))
         return list(PLAN) if len(self.asked) == 1 else []
 

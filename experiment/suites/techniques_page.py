@@ -1,0 +1,88 @@
+"""The reference of techniques, docs/techniques.md, from what they declare and what was measured.
+
+`python -m seethrough.experiment.suites.techniques_page` writes it anew.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from seethrough import registry
+from seethrough.experiment.gallery.gallery_failures import failures
+from seethrough.experiment.suites.requirements import SHOWS, VIEWS, measure
+from seethrough.renderer.techniques.base import Technique
+
+REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "techniques.md"
+
+# What Elmqvist2009 §IV-A says of the kinds of techniques in its table I, in our words: which of the
+# requirements they miss. Of the table itself the rows alone can be read in our copy.
+PAPER = {
+    "standard": "", "dynamic": "meets all of them",
+    "constant": "misses R2 or R5; R7",
+    "blueprint": "misses R2 or R5; R7",
+    "view_dependent": "misses R2 or R5; R7",
+    "see_through": "misses R2 or R5; R7",
+    "fade": "misses R4 (two dimensions)",
+    "cutaway": "misses R2 (targets in line), R7",
+    "breakaway": "misses R2 (targets in line), R7",
+    "adaptive_cutaway": "",
+    "lens": "misses R2, R6, R7",
+    "dig": "misses R2, R6, R7",
+    "importance": "misses R4 (volumes), R5",
+    "balloon": "",
+}  # fmt: skip
+ABOUT = f"""# Techniques
+
+Written by `python -m seethrough.experiment.suites.techniques_page`; the keys of each are in
+[keys.md](keys.md), pictures in `seethrough gallery`.
+
+## What visualization asks, measured
+
+R1 to R7 are the requirements of Elmqvist2009 §IV: R1 targets show wherever one looks from, R2
+behind any number of layers, R3 nothing but what is before the target changes, R4 polygons, R5 real
+time, R6 nobody has to do anything, R7 context stays. Measured on exact pictures with default
+parameters: R1 how many hidden targets of a room come to show (at least {100 * SHOWS:.0f} % of their
+area), from {VIEWS} sides, and the least share of one; R2 behind how many panes a ball still shows;
+R3 how much of a large wall stays as it was with a small target behind it; R7 how much of the area
+of everything else stays. Where hands work a technique they reach for each target. R5 is a matter of
+the machine: `seethrough bench techniques`, whose last table is in
+[benchmarks/README.md](../benchmarks/README.md). Beside it stands what the paper's text says of the
+kind of technique; it had other implementations, and an empty cell is one that it does not treat.
+"""
+
+
+def page() -> str:
+    """The whole reference."""
+    return "\n".join([ABOUT, *_table(), "", *_each()]) + "\n"
+
+
+def _table() -> Iterator[str]:
+    columns = ("R1", "R2", "R3", "R4", "R6", "R7")
+    yield "| technique | " + " | ".join(columns) + " | Elmqvist2009 |"
+    yield "| --- " * (len(columns) + 2) + "|"
+    for name in _ours():
+        words = measure(registry.get("technique", name)).words()
+        cells = " | ".join(words[c] for c in columns)
+        yield f"| {name} | {cells} | {PAPER[name]} |"
+
+
+def _ours() -> tuple[str, ...]:
+    return tuple(name for name in registry.known("technique") if name in PAPER)
+
+
+def _each() -> Iterator[str]:
+    failing = failures()
+    for name in _ours():
+        technique: Technique = registry.get("technique", name)
+        yield f"## {name}: {technique.title}\n"
+        yield f"{technique.instruction} Source: {technique.source}.\n"
+        if technique.controls in technique.texts.get("en", {}):
+            yield f"Hands: {technique.texts['en'][technique.controls]}\n"
+        yield f"Fails: {failing[name].words[:1].lower()}{failing[name].words[1:]}.\n"
+
+
+if __name__ == "__main__":
+    REFERENCE.write_text(page(), "utf-8")
+    sys.stdout.write(f"{REFERENCE}\n")
