@@ -99,20 +99,35 @@ def smoothed(lines: Lines, poses: Poses, view: View, picture: Picture, room: Roo
     for k in range(len(lines.starts) - 1):
         most = max(most, lines.starts[k + 1, 1] - lines.starts[k, 1])
     front = np.zeros(most + 1, np.bool_)
+    planes, ends, sides, crease = lines.planes, lines.ends, lines.sides, lines.crease
+    turn, move = poses.turn, poses.move
     for o in range(len(poses.mesh)):
         m = poses.mesh[o]
         e0, f0 = lines.starts[m, 0], lines.starts[m, 1]
         e1, f1 = lines.starts[m + 1, 0], lines.starts[m + 1, 1]
         ex, ey, ez = poses.eye[o, 0], poses.eye[o, 1], poses.eye[o, 2]
-        planes = lines.planes
         for f in range(f0, f1):
             d = planes[f, 0] * ex + planes[f, 1] * ey + planes[f, 2] * ez
             front[f - f0] = d > planes[f, 3]
         front[f1 - f0] = False
+        xx, xy, xz, xw = turn[o, 0, 0], turn[o, 0, 1], turn[o, 0, 2], move[o, 0]
+        yx, yy, yz, yw = turn[o, 1, 0], turn[o, 1, 1], turn[o, 1, 2], move[o, 1]
+        zx, zy, zz, zw = -turn[o, 2, 0], -turn[o, 2, 1], -turn[o, 2, 2], -move[o, 2]
+        through = poses.through[o]
         for e in range(e0, e1):
-            a, b = front[lines.sides[e, 0]], front[lines.sides[e, 1]]
-            if (a != b) or (a and lines.crease[e]):
-                count = _walk(lines.ends, e, poses, o, view, picture, room, count)
+            a, b = front[sides[e, 0]], front[sides[e, 1]]
+            if (a != b) or (a and crease[e]):
+                px, py, pz = ends[e, 0, 0], ends[e, 0, 1], ends[e, 0, 2]
+                qx, qy, qz = ends[e, 1, 0], ends[e, 1, 1], ends[e, 1, 2]
+                count = _walk(
+                    xx * px + xy * py + xz * pz + xw,
+                    yx * px + yy * py + yz * pz + yw,
+                    zx * px + zy * py + zz * pz + zw,
+                    xx * qx + xy * qy + xz * qz + xw,
+                    yx * qx + yy * qy + yz * qz + yw,
+                    zx * qx + zy * qy + zz * qz + zw,
+                    through, view, picture, room, count,
+                )  # fmt: skip
     _apply(picture, room, count)
     return count
 
@@ -138,24 +153,12 @@ def _apply(picture: Picture, room: Room, count: int) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _camera(ends: Floats, e: int, k: int, turn: Floats, move: Floats) -> tuple[float, float, float]:
-    """An end of an edge: right, up and depth."""
-    x, y, z = ends[e, k, 0], ends[e, k, 1], ends[e, k, 2]
-    return (
-        turn[0, 0] * x + turn[0, 1] * y + turn[0, 2] * z + move[0],
-        turn[1, 0] * x + turn[1, 1] * y + turn[1, 2] * z + move[1],
-        -(turn[2, 0] * x + turn[2, 1] * y + turn[2, 2] * z + move[2]),
-    )
-
-
-@njit(cache=True, nogil=True)
 def _walk(
-    ends: Floats, e: int, poses: Poses, o: int, view: View, picture: Picture, room: Room, count: int
-) -> int:
-    """Take what one edge of one object says of the pixels that it runs through. Returns how many
-    pixels take any by now."""
-    ax, ay, az = _camera(ends, e, 0, poses.turn[o], poses.move[o])
-    bx, by, bz = _camera(ends, e, 1, poses.turn[o], poses.move[o])
+    ax: float, ay: float, az: float, bx: float, by: float, bz: float,
+    through: bool, view: View, picture: Picture, room: Room, count: int,
+) -> int:  # fmt: skip
+    """Take what a line between two points (right, up, depth) says of the pixels that it runs
+    through. Returns how many pixels take any by now."""
     if az < view.near and bz < view.near:
         return count
     if az < view.near:
@@ -190,7 +193,7 @@ def _walk(
         r, c, rr, cc = (j, i, other, i) if flat else (i, j, i, other)
         if part <= room.best[r, c]:
             continue
-        if poses.through[o]:
+        if through:
             if not _breaks(picture, r, c, rr, cc):
                 continue
         else:

@@ -35,34 +35,32 @@ class EdgePainter:
         objects = np.nonzero(frame.boxes.inside)[0]
         if not len(objects):
             return 0
-        width, height = target.size
-        if len(self._color) != 8 * width * height:
-            self._color, self._depth = bytearray(8 * width * height), bytearray(4 * width * height)
+        left, below, width, height = box = _about(frame.boxes.extents[objects], target.size)
         if self._room.best.shape != (height, width):
-            self._room = edge_walk.room(target.size)
-        target.framebuffer.read_into(self._color, components=4, alignment=1, dtype="f2")
-        target.framebuffer.read_into(
-            self._depth, components=1, alignment=1, attachment=-1, dtype="f4"
-        )
-        color = np.frombuffer(self._color, np.uint16).reshape(height, width, 4)
-        depth = np.frombuffer(self._depth, np.float32).reshape(height, width)
+            self._room = edge_walk.room((width, height))
+            self._color, self._depth = bytearray(8 * width * height), bytearray(4 * width * height)
+        read = target.framebuffer.read_into
+        read(self._color, box, components=4, alignment=1, dtype="f2")
+        read(self._depth, box, components=1, alignment=1, attachment=-1, dtype="f4")
+        picture = edge_walk.Picture(
+            np.frombuffer(self._color, np.uint16).reshape(height, width, 4),
+            np.frombuffer(self._depth, np.float32).reshape(height, width), *self._tables,
+        )  # fmt: skip
         through = np.zeros(len(table.slot), dtype=bool)
         for found in (frame.masked, frame.ruled, frame.held):
             through[found] = True
         poses = edge_walk.Poses(
             table.slot[objects], *self._poses(table, objects, camera), through[objects]
         )
-        lines = self._joined(table)
         lens = tight(camera, frame)
-        near, far = lens.near, lens.far
+        near, deep = lens.near, lens.far - lens.near
         view = edge_walk.View(
-            0.5 * height / np.tan(camera.fov_y / 2), 0.5 * width, 0.5 * height, near,
-            near * far / (far - near), far / (far - near),
+            1 / camera.pixel(target.size[1]), 0.5 * target.size[0] - left,
+            0.5 * target.size[1] - below, near, near * lens.far / deep, lens.far / deep,
         )  # fmt: skip
-        picture = edge_walk.Picture(color, depth, *self._tables)
-        changed = edge_walk.smoothed(lines, poses, view, picture, self._room)
+        changed = edge_walk.smoothed(self._joined(table), poses, view, picture, self._room)
         if changed:
-            target.color.write(self._color)
+            target.color.write(self._color, viewport=box)
         return changed
 
     def _poses(
@@ -90,3 +88,13 @@ class EdgePainter:
                 np.concatenate([np.zeros((1, 2), np.int64), np.cumsum(sizes, axis=0)]),
             )}  # fmt: skip
         return self._lines[key]
+
+
+def _about(extents: Floats, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """Left, lower side, width and height of what is about all extents. Widths are multiples of 64:
+    room of another size has to be made anew."""
+    low = np.clip(np.floor(extents[:, :2].min(axis=0)) - 2, 0, size)
+    high = np.clip(np.ceil(extents[:, 2:].max(axis=0)) + 2, 0, size)
+    left, top = (int(v) // 64 * 64 for v in low)
+    right, bottom = (min(-(-int(v) // 64) * 64, s) for v, s in zip(high, size, strict=True))
+    return left, size[1] - bottom, right - left, bottom - top
