@@ -14,7 +14,10 @@ from seethrough.renderer.techniques.standard.opaque import Standard
 
 # Each key at a value that suits the scene's size: what is as large as a room, a cloud, a car.
 Values = dict[str, float | str]
-EDGES: dict[str, Values] = {"antialiasing": {"antialiasing": "edges"}}
+EDGES: dict[str, Values] = {
+    "antialiasing": {"antialiasing": "edges"},
+    "outlines": {"antialiasing": "edges", "outlines": 1.5},
+}
 WORLD: dict[str, dict[str, Values]] = {
     "abstract": {
         "fog": {"fog": 120.0, "fog_start": 90.0},

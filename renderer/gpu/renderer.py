@@ -112,8 +112,9 @@ class Renderer:
             args = (self._table(shown), self.plan, camera, drawn, self._target)
             stats = self._layer(False, shown).draw(*args, scale, state=state)
             self._target.resolve()
-            if scene.look.antialiasing == "edges":
-                self._edges.smooth(args[0], self.plan, camera, self._target)
+            smooth, width = scene.look.smooths(self._samples), scene.look.outlines * scale
+            if smooth or width > 0:
+                self._edges.draw(args[0], self.plan, camera, self._target, smooth, width)
             self._shown = (scene, camera, technique, state)
         if target_framebuffer is not None:
             self._show(target_framebuffer)

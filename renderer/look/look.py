@@ -58,6 +58,16 @@ class Look:
         choices=ANTIALIASING,
     )
 
+    outlines: float = key(
+        0.0,
+        "width of dark lines along the outlines of things, as they are seen; 0: none. A thing that "
+        "turns transparent keeps its line; edges are smoothed along lines then, whatever "
+        "antialiasing says but none",
+        "pixels of the window",
+        low=0.0,
+        high=20.0,
+    )
+
     def __post_init__(self) -> None:
         check(self, "look")
 
@@ -66,8 +76,15 @@ class Look:
         """Whether anything is drawn on the floor."""
         return self.floor_grid > 0 or self.ground_shadows > 0
 
+    def smooths(self, usual: int) -> bool:
+        """Whether edges are smoothed along lines, where auto stands for `usual` samples."""
+        several = self.antialiasing.endswith("x") or (self.antialiasing == "auto" and usual > 0)
+        return self.antialiasing == "edges" or (self.outlines > 0 and several)
+
     def samples(self, usual: int) -> int:
         """Samples a pixel, 0 for no more than the one; `usual` where it says auto."""
+        if self.outlines > 0:
+            return 0
         if self.antialiasing == "auto":
             return usual
         return int(self.antialiasing[0]) if self.antialiasing.endswith("x") else 0

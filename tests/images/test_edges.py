@@ -18,6 +18,7 @@ from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import named
+from seethrough.tasks.worlds.building.walls import wall_with_doorway
 
 SIZE = (200, 150)
 EDGES = Look(antialiasing="edges")
@@ -150,3 +151,58 @@ def test_samples_are_the_looks_where_it_says_so(context):
     assert tones["four", "auto"] == tones["one", "4x"] == tones["four", "4x"]
     assert tones["one", "edges"] == tones["four", "edges"]
     assert len(set(tones.values())) == 3
+
+
+@pytest.mark.parametrize("turn", [0.03, 0.3, 0.75, 1.2])
+@pytest.mark.parametrize("width", [1.0, 2.5])
+def test_an_outline_is_as_wide_as_it_says(renderer, turn, width):
+    """Down a column (or along a row) a line of width w covers w / cos of its slope."""
+    plate = geometry.box(4.0, 4.0, 0.2)
+    flat = Object(plate, transforms.placed((0, 0, 0), transforms.rotation_z(turn)), (1, 1, 1))
+    scene = Scene((flat,))
+    eye = look_at(np.array([0, 0, 500.0]), np.zeros(3), fov_y=0.016, near=1, far=900)
+    plain = drawn(renderer, scene, camera=eye)
+    look = Look(antialiasing="none", outlines=width)
+    lined = drawn(renderer, dressed(scene, look), camera=eye)
+    ink = ((plain - lined) / (plain - 0.12)).mean(axis=2) / 0.8
+    steep = turn > np.pi / 4
+    along = ink if not steep else ink.T
+    cos = max(abs(np.cos(turn)), abs(np.sin(turn)))
+    middle = along.shape[1] // 2 + 15  # away from its corners
+    sums = along[: along.shape[0] // 2, middle - 5 : middle + 5].sum(axis=0)  # one edge of the four
+    assert sums == pytest.approx(np.full(10, width / cos), abs=0.02 + 4 / 255)
+    assert ink.max() < 1.0 + 2 / 255 and ink.min() > -2 / 255
+
+
+def test_no_outline_lies_within_a_surface(renderer):
+    """A wall is made of blocks that meet without being joined: only its border has a line."""
+    wall = wall_with_doorway(8.0, 4.0, 0.2, (3.0, 5.0), 2.5)
+    scene = Scene((Object(wall, transforms.translation(-4, -2, 0), (0.8, 0.7, 0.6)),))
+    plain, lined = (
+        drawn(renderer, dressed(scene, Look(antialiasing="none", outlines=w))) for w in (0.0, 1.5)
+    )
+    slope = CAMERA.pixel(SIZE[1]) * 11.9
+    x = (np.arange(SIZE[0]) + 0.5 - SIZE[0] / 2) * slope + 4
+    y = (SIZE[1] / 2 - np.arange(SIZE[1]) - 0.5) * slope + 2
+    inside = ((x > 0.2) & (x < 7.8)) & ((y > 0.2) & (y < 3.8))[:, None]
+    door = ((x > 2.8) & (x < 5.2)) & (y < 2.7)[:, None]
+    assert (inside & ~door).sum() > 3000
+    assert np.array_equal(plain[inside & ~door], lined[inside & ~door])
+    assert (plain != lined)[~inside | door].any(axis=-1).sum() > 300
+
+
+def test_what_turns_transparent_keeps_its_line(renderer):
+    """Over the target that shows through it, it is as dark as where the thing is opaque."""
+    box = Object(geometry.box(3, 3, 0.1), transforms.translation(0, 1.5, 2), (0.3, 0.6, 0.9))
+    ball = Object(geometry.sphere(2.0, 3), transforms.translation(0, 0, -3), (0.9, 0.2, 0.1), True)
+    scene = Scene((box, ball))
+    look = Look(antialiasing="none", outlines=2.0)
+    plain, lined = (drawn(renderer, s, "dynamic") for s in (scene, dressed(scene, look)))
+    ink = ((plain - lined) / np.where(np.abs(plain - 0.12) > 0.1, plain - 0.12, np.inf)).max(axis=2)
+    lens = 1 / CAMERA.pixel(SIZE[1])
+    row = round(SIZE[1] / 2 - 0.0 * lens / 9.95)  # of the box's lower side, before the ball
+    columns = slice(SIZE[0] // 2 - 10, SIZE[0] // 2 + 10)
+    assert (np.abs(plain[row + 6, columns] - plain[row - 6, columns]).max(axis=1) > 0.02).all()
+    assert ink[row - 2 : row + 2, columns].max(axis=0).min() > 0.7
+    drawn(renderer, scene, "dynamic")
+    assert len(renderer.plan.masked) == 1  # it does turn transparent

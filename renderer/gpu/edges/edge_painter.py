@@ -1,4 +1,4 @@
-"""Smooths the edges of a finished frame (renderer/look/edge_walk.py)."""
+"""Smooths the edges of a finished frame, and draws outlines (renderer/look/edge_walk.py)."""
 
 from __future__ import annotations
 
@@ -28,23 +28,30 @@ class EdgePainter:
         self._room = edge_walk.room((1, 1))
         self._color = self._depth = bytearray()
 
-    def smooth(
-        self, table: SceneTable, frame: FramePlan, camera: Camera, target: FrameTarget
+    def draw(
+        self,
+        table: SceneTable,
+        frame: FramePlan,
+        camera: Camera,
+        target: FrameTarget,
+        smooth: bool,
+        width: float,
     ) -> int:
-        """Smooth what was drawn into the target. Returns how many pixels were changed."""
+        """Smooth what was drawn into the target, or draw outlines so many pixels wide into it, or
+        both. Returns how many pixels were changed."""
         objects = np.nonzero(frame.boxes.inside)[0]
         if not len(objects):
             return 0
-        left, below, width, height = box = _about(frame.boxes.extents[objects], target.size)
-        if self._room.best.shape != (height, width):
-            self._room = edge_walk.room((width, height))
-            self._color, self._depth = bytearray(8 * width * height), bytearray(4 * width * height)
+        left, below, wide, high = box = _about(frame.boxes.extents[objects], target.size)
+        if self._room.best.shape != (high, wide):
+            self._room = edge_walk.room((wide, high))
+            self._color, self._depth = bytearray(8 * wide * high), bytearray(4 * wide * high)
         read = target.framebuffer.read_into
         read(self._color, box, components=4, alignment=1, dtype="f2")
         read(self._depth, box, components=1, alignment=1, attachment=-1, dtype="f4")
         picture = edge_walk.Picture(
-            np.frombuffer(self._color, np.uint16).reshape(height, width, 4),
-            np.frombuffer(self._depth, np.float32).reshape(height, width), *self._tables,
+            np.frombuffer(self._color, np.uint16).reshape(high, wide, 4),
+            np.frombuffer(self._depth, np.float32).reshape(high, wide), *self._tables,
         )  # fmt: skip
         through = np.zeros(len(table.slot), dtype=bool)
         for found in (frame.masked, frame.ruled, frame.held):
@@ -57,6 +64,7 @@ class EdgePainter:
         view = edge_walk.View(
             1 / camera.pixel(target.size[1]), 0.5 * target.size[0] - left,
             0.5 * target.size[1] - below, near, near * lens.far / deep, lens.far / deep,
+            smooth, width / 2,
         )  # fmt: skip
         changed = edge_walk.smoothed(self._joined(table), poses, view, picture, self._room)
         if changed:
