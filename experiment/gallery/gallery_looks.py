@@ -13,42 +13,34 @@ from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard
 
 # Each key at a value that suits the scene's size: what is as large as a room, a cloud, a car.
-Values = dict[str, float | str]
-EDGES: dict[str, Values] = {
-    "antialiasing": {"antialiasing": "edges"},
-    "outlines": {"antialiasing": "edges", "outlines": 1.5},
+EDGES = {
+    "antialiasing": Look(antialiasing="edges"),
+    "outlines": Look(antialiasing="edges", outlines=1.5),
 }
-WORLD: dict[str, dict[str, Values]] = {
+WORLD = {
     "abstract": {
-        "fog": {"fog": 120.0, "fog_start": 90.0},
-        "floor_grid": {"floor_grid": 10.0},
-        "ground_shadows": {"ground_shadows": 0.7, "shadow_reach": 60.0},
+        "fog": Look(fog=120.0, fog_start=90.0),
+        "floor_grid": Look(floor_grid=10.0),
+        "ground_shadows": Look(ground_shadows=0.7, shadow_reach=60.0),
     },
     "walkthrough": {
-        "fog": {"fog": 25.0},
-        "floor_grid": {"floor_grid": 2.0},
-        "ground_shadows": {"ground_shadows": 0.8},
+        "fog": Look(fog=25.0),
+        "floor_grid": Look(floor_grid=2.0),
+        "ground_shadows": Look(ground_shadows=0.8),
     },
     "jeep": {
-        "fog": {"fog": 4.0, "fog_start": 2.0},
-        "floor_grid": {"floor_grid": 0.5},
-        "ground_shadows": {"ground_shadows": 0.8},
+        "fog": Look(fog=4.0, fog_start=2.0),
+        "floor_grid": Look(floor_grid=0.5),
+        "ground_shadows": Look(ground_shadows=0.8),
     },
 }
 
 
 def looks(world: str) -> dict[str, Look]:
     """Name → look: "none", each key by its name, "all"."""
-    found = {"none": PLAIN}
-    both: Values = {}
-    for name, values in (WORLD[world] | EDGES).items():
-        found[name] = _look(values)
-        both |= values
-    return {**found, "all": _look(both)}
-
-
-def _look(values: Values) -> Look:
-    return Look(**values)
+    alone = WORLD[world] | EDGES
+    every = {key: getattr(look, key) for look in alone.values() for key in look.on}
+    return {"none": PLAIN, **alone, "all": replace(PLAIN, **every)}
 
 
 def sections(scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[Section]:

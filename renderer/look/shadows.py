@@ -62,7 +62,8 @@ def floor_map(scene: Scene) -> FloorMap:
     texel = sides.max() / TEXELS
     wide, deep = (max(int(np.ceil(side / texel)), 2) for side in sides)
     reach = scene.look.shadow_reach or REACH * float(sides.min())
-    bounds = reach * (2.0 ** np.arange(LAYERS + 1) - 1) / (2.0**LAYERS - 1)
+    steps = 2.0 ** np.arange(LAYERS + 1) - 1
+    bounds: Floats = np.asarray(reach * steps / steps[-1], np.float64)
     there = np.zeros((LAYERS, deep, wide))
     for thing in np.array(scene.objects, dtype=object)[~is_floor].tolist():
         _lay(thing, there, np.array([low[0], high[1], low[2]]), texel, bounds)

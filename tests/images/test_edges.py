@@ -168,7 +168,7 @@ def test_an_outline_is_as_wide_as_it_says(renderer, turn, width):
     steep = turn > np.pi / 4
     along = ink if not steep else ink.T
     cos = max(abs(np.cos(turn)), abs(np.sin(turn)))
-    middle = along.shape[1] // 2 + 15  # away from its corners
+    middle = along.shape[1] // 2 - 15  # away from its corners
     sums = along[: along.shape[0] // 2, middle - 5 : middle + 5].sum(axis=0)  # one edge of the four
     assert sums == pytest.approx(np.full(10, width / cos), abs=0.02 + 4 / 255)
     assert ink.max() < 1.0 + 2 / 255 and ink.min() > -2 / 255
