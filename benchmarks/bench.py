@@ -20,11 +20,13 @@ BENCHES = (
     "looks",
     "ordering",
     "ordering_accuracy",
+    "predictions",
     "session",
     "simulate",
     "speed",
     "statistics",
     "techniques",
+    "worlds",
 )
 
 

@@ -155,11 +155,13 @@ def replay(recorded: Recorded) -> Iterator[Frame]:
     state = StudyScenes(recorded.study).begin(task, recorded.trial, aspect)
     *shown, last = _frames(recorded.camera)
     rest = iter(shown)
-    hand = Hand(recorded.technique, aspect, recorded.look)
+    part = recorded.study.part(recorded.trial.levels)
+    hand = Hand(recorded.technique, aspect, recorded.look, part.display.height)
     view = hand.shown(task.view(state))
     time, digest, camera = next(rest)
     yield Frame(time, view, digest, camera)
     for event in _events(recorded.events):
+        event = hand.pointed(event, view)
         if not hand.on_event(event, view):
             state = task.on_event(state, event)
         if isinstance(event, ev.Tick) and task.outcome(state) is None:

@@ -19,6 +19,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, Trial, session_for
+from seethrough.tasks.kit.base import Basics, Task
 from seethrough.tasks.worlds.building.building_parameters import METRES
 
 
@@ -139,7 +140,7 @@ def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
         run.world.tasks[trial.task].title,
         (
             Paragraph(run.world.tasks[trial.task].instruction),
-            Paragraph(study.setting(trial).world.controls),
+            Paragraph(_controls(study, trial, run.world.tasks[trial.task])),
             *levels.instructions(study, trial.levels),
             *levels.hands(study, trial),
             Picture(partial(run.preview, trial), run.technique(trial)),
@@ -148,6 +149,12 @@ def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
         ("begin",),
         about=levels.of_blocks(study, trial.levels),
     )
+
+
+def _controls(study: Study, trial: Trial, task: Task) -> str:
+    """How one moves, as the task says it, or as its world does."""
+    setting = study.setting(trial)
+    return task.controls(setting) if isinstance(task, Basics) else setting.controls
 
 
 def _feedback(record: TrialRecord) -> Page:

@@ -162,10 +162,11 @@ class Running:
     def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
         self._world, self._task = run.world, run.world.tasks[trial.task]
         self._technique = run.technique(trial)
-        self._hand = Hand(self._technique, run.world.display.aspect, run.look(trial))
+        display = run.study.part(trial.levels).display
+        look, aspect = run.look(trial), run.world.display.aspect
+        self._hand = Hand(self._technique, aspect, look, display.height)
         self._trial, self._state, self._limit = trial, state, limit
-        refresh = run.study.part(trial.levels).display.refresh
-        self._watch = _Watch(run.world.period or 1.0 / refresh)
+        self._watch = _Watch(run.world.period or 1.0 / display.refresh)
         self.first = self._confirmed = self._since = 0.0
         self._first_within = self._within = 0.0
         self._down: set[str] = set()  # pressed in this trial and not released
@@ -239,6 +240,7 @@ class Running:
             return False
         if not isinstance(event, Tick):
             self._within = event.within
+        event = self._hand.pointed(event, self.view)
         used = self._hand.on_event(event, self.view)
         state = self._state if used else self._task.on_event(self._state, event)
         if state is not self._state:

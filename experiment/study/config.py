@@ -18,6 +18,7 @@ from seethrough.experiment.study.parser import Parser
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_errors import study_error
 from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
+from seethrough.experiment.study.study_items import lacking_items
 from seethrough.experiment.study.toml_file import read_toml
 
 __all__ = ["Study", "find", "load", "parse", "shipped"]
@@ -74,7 +75,11 @@ def load(name: str) -> Study:
     if faults or study is None:
         raise gathered(faults, more)
     study = dataclasses.replace(study, texts={**study.texts, **texts})
-    return study.with_places(lambda place: beside(place, path))
+    study = study.with_places(lambda place: beside(place, path))
+    lacking = lacking_items(study)
+    if lacking:
+        raise gathered([f"{path}: {line}" for line in lacking])
+    return study
 
 
 def _files(table: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -47,6 +47,11 @@ ABOUT = {
     "task.NAME": "What holds for one task.",
     "questions.NAME": "A named table each, asked in this order.",
     "world.building.models": "A model of the study's own, `[[world.building.models]]` each.",
+    "world.scene.tags": "What things of a scene are, `[[world.scene.tags]]` each: entries for all "
+    "things whose names fit, the last one holds, beside what the file's extras say.",
+    "world.scene.items": "An item: a scene and what is asked in it, `[[world.scene.items]]` each.",
+    "world.abstract.tags": "What things of a kind are, `[[world.abstract.tags]]` each.",
+    "world.building.tags": "What things of a kind are, `[[world.building.tags]]` each.",
 }
 
 

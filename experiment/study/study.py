@@ -154,6 +154,7 @@ def _factor_table(factor: Factor) -> dict[str, Any]:
 def _plain(value: Any) -> Any:
     """Parameters as JSON has them; where a file lies differs between stations of one study."""
     table = json.loads(json.dumps(dataclasses.asdict(value)))
+    table.pop("folder", None)
     for model in table.get("models", ()):
         model.pop("folder", None)
     return table

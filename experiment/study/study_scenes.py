@@ -7,6 +7,7 @@ from typing import Any
 
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
+from seethrough.experiment.study.study_items import StudyItems
 from seethrough.tasks.kit.base import Setting, Task
 from seethrough.tasks.kit.world import OWN
 
@@ -16,11 +17,16 @@ class StudyScenes:
 
     def __init__(self, study: Study) -> None:
         self.study = study
+        self._items = StudyItems(study)
         self._shared: dict[tuple[Any, str, tuple[int, ...]], Any] = {}
+
+    def setting(self, trial: Trial) -> Setting:
+        """Where and how a trial's task is set, and which item it asks for, if they are counted."""
+        return replace(self.study.setting(trial), item=self._items.of(trial))
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""
-        setting = self.study.setting(trial)
+        setting = self.setting(trial)
         return task.begin(self._made(task, trial, setting), setting, aspect)
 
     def _made(self, task: Task, trial: Trial, setting: Setting) -> Any:

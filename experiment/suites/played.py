@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -28,6 +28,7 @@ from seethrough.tasks.kit.events import (
 
 ASPECT = 4 / 3
 MOST_EVENTS = 20_000
+NEAR = 0.05  # view heights from a thing's middle that still hit it
 CLOCKS = ("time", "monotonic", "perf_counter", "process_time", "time_ns", "monotonic_ns")
 KEYS = (*"0123456789ackrxyz", "left", "right", "up", "down", "enter", "space", "backspace", "tab")
 
@@ -76,12 +77,25 @@ def played(task: Task, setting: Setting, seed: int) -> Played:
     while outcome is None and len(events) < MOST_EVENTS:
         view = task.view(states[-1])
         batch = person.events(view, partial(plain_look, view, ASPECT), now, task.name)
-        for event in batch:
+        for event in (plainly_pointed(view, event) for event in batch):
             events.append(event)
             states.append(task.on_event(states[-1], event))
         now = max(now, *(event.time for event in batch))
         outcome = task.outcome(states[-1])
     return Played(states, events, outcome)
+
+
+def plainly_pointed(view: View, event: Event) -> Event:
+    """The event, told what it hits where the view wants to know: the thing whose middle is nearest,
+    as `plain_look` has it."""
+    if view.aim is None or not isinstance(event, KeyPress | PointerPress):
+        return event
+    if isinstance(event, KeyPress) and event.key not in ("enter", "space"):
+        return event
+    place = view.aim if isinstance(event, KeyPress) else (event.x, event.y)
+    away = np.hypot(*(plain_look(view, ASPECT).position - np.array(place)).T)
+    found = int(np.argmin(np.where(np.isfinite(away), away, np.inf)))
+    return replace(event, thing=found if away[found] < NEAR else -1)
 
 
 def anything(rng: Generator, count: int) -> list[Event]:

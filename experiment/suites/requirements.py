@@ -58,7 +58,6 @@ class Measured:
         }
 
 
-@lru_cache
 def measure(technique: Technique) -> Measured:
     """What a technique does with its default parameters."""
     p = technique.Parameters()
@@ -108,7 +107,8 @@ def _shown(case: Case, p: Own, targets: list[int]) -> tuple[dict[int, float], fl
 def _plain(case: Case) -> Floats:
     """(n,) pixels of each object in the standard picture."""
     truth = exact(case.scene, case.camera, named("standard"), SIZE)
-    return truth.weights.sum(axis=(1, 2))
+    pixels: Floats = truth.weights.sum(axis=(1, 2))
+    return pixels
 
 
 @lru_cache

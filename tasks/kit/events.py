@@ -35,8 +35,11 @@ class _AtPointer:
     within: float = 0.0
 
 
+@dataclass(frozen=True)
 class PointerPress(_AtPointer):
-    """The left button went down."""
+    """The left button went down. `thing` as in `KeyPress`."""
+
+    thing: int | None = None
 
 
 class PointerRelease(_AtPointer):
@@ -65,11 +68,16 @@ class Wheel:
 
 @dataclass(frozen=True)
 class KeyPress:
-    """A key went down."""
+    """A key went down.
+
+    `thing`, of enter and space: the index of the object that shows where the view's aim is, −1 for
+    none. None where the view tells nobody (tasks/kit/base.py).
+    """
 
     time: float
     key: str
     within: float = 0.0
+    thing: int | None = None
 
 
 @dataclass(frozen=True)

@@ -55,3 +55,5 @@ ABSOLUTE_ERROR = Measure(
     column="count_error", pool=True, price=True,
 )  # fmt: skip
 DISTANCE = Measure("distance", "units", "less", "ratio", label="distance", price=True)
+WRONG_CLICKS = Measure("wrong_clicks", "", "less", "count", label="wrong clicks", price=True)
+MISSES = Measure("misses", "", "less", "count", label="misses", price=True)

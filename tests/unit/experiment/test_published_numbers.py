@@ -5,7 +5,6 @@ from importlib import resources
 
 import pytest
 
-from seethrough.experiment.people.fitted import calibration
 from seethrough.experiment.power import power
 
 FILE = resources.files("seethrough.analysis.published").joinpath("published.toml")
@@ -37,10 +36,3 @@ def test_power_plans_with_what_was_printed(row):
 
 def test_power_plans_for_every_measure():
     assert [row[0] for row in power.PUBLISHED] == list(OF_POWER)
-
-
-def test_people_are_fitted_to_what_was_printed():
-    names = {"count": "T1", "pattern": "T2", "unique": "T3", "count_in_building": "T4"}
-    assert {
-        task: numbers(f"time_{number}") for task, number in names.items()
-    } == calibration.PUBLISHED
