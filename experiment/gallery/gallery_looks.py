@@ -40,7 +40,7 @@ def looks(world: str) -> dict[str, Look]:
     """Name → look: "none", each key by its name, "all"."""
     alone = WORLD[world] | EDGES
     every = {key: getattr(look, key) for look in alone.values() for key in look.on}
-    return {"none": PLAIN, **alone, "all": replace(PLAIN, **every)}
+    return {"none": PLAIN, **alone, "all": Look(**every)}
 
 
 def sections(scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[Section]:
