@@ -14,6 +14,7 @@ from seethrough.renderer.techniques.standard.opaque import Standard
 
 # Each key at a value that suits the scene's size: what is as large as a room, a cloud, a car.
 EDGES = {
+    "occlusion": Look(occlusion=0.8),
     "antialiasing": Look(antialiasing="edges"),
     "outlines": Look(antialiasing="edges", outlines=1.5),
 }

@@ -8,6 +8,7 @@ import numpy as np
 
 from seethrough.renderer.look.floor import KIND
 from seethrough.renderer.look.look import Look
+from seethrough.renderer.look.occlusion import occluded
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import placed
@@ -28,6 +29,10 @@ def dressed(scene: Scene, look: Look) -> Scene:
         return bare
     if look not in bare.dresses:
         things = bare.objects
+        if look.occlusion > 0:
+            things = tuple(
+                replace(thing, mesh=occluded(thing.mesh, look.occlusion)) for thing in things
+            )
         if look.has_floor and not any(thing.kind == KIND for thing in things):
             things = (*things, below(bare))
         bare.dresses[look] = replace(bare, objects=things, look=look, bare=bare)

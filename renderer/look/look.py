@@ -50,6 +50,13 @@ class Look:
         low=0.0,
         high=1e6,
     )
+    occlusion: float = key(
+        0.0,
+        "how dark the hollows of models are, where little light gets in; 0: as light as the rest. "
+        "It is baked into the models: convex things and those of few vertices, as walls, have none",
+        low=0.0,
+        high=1.0,
+    )
     antialiasing: str = key(
         "auto",
         "against jagged edges. edges: lines are smoothed where they cross pixels, made for a "
