@@ -8,7 +8,6 @@ import numpy as np
 
 from seethrough.renderer.look.floor import KIND
 from seethrough.renderer.look.look import Look
-from seethrough.renderer.look.occlusion import occluded
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import placed
@@ -30,6 +29,9 @@ def dressed(scene: Scene, look: Look) -> Scene:
     if look not in bare.dresses:
         things = bare.objects
         if look.occlusion > 0:
+            # Its kernels take a moment to load, and few pictures need them.
+            from seethrough.renderer.look.occlusion import occluded
+
             things = tuple(
                 replace(thing, mesh=occluded(thing.mesh, look.occlusion)) for thing in things
             )
