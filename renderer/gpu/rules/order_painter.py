@@ -9,12 +9,14 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
+from seethrough.renderer.arrays import Ints
 from seethrough.renderer.errors import CannotDraw
+from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw
-from seethrough.renderer.plan.clusters import Indices, polygons_of
+from seethrough.renderer.plan.clusters import polygons_of
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.polygons.fragments import TooManyPieces
 from seethrough.renderer.polygons.methods import prepare
@@ -77,13 +79,14 @@ class OrderPainter:
         context.enable_only(
             moderngl.DEPTH_TEST | moderngl.BLEND | (0 if sides else moderngl.CULL_FACE)
         )
-        context.depth_func, context.blend_func = "<=", OVER
+        context.depth_func = "<="
+        pipeline.blend(context, OVER)
         draw(context, shader, made.table, sequence, runs[0], shot.camera, matrix)
         target.framebuffer.depth_mask = True
         target.framebuffer.use()
         return len(runs[0])
 
-    def _ordered(self, scene: Scene, members: Indices, method: str) -> _Ordered:
+    def _ordered(self, scene: Scene, members: Ints, method: str) -> _Ordered:
         things = [scene.objects[i] for i in members.tolist()]
         key = method.encode() + b"".join(
             np.array([id(t.mesh), *t.transform.ravel(), *t.color], float).tobytes() for t in things
@@ -95,7 +98,7 @@ class OrderPainter:
             self._kept = {key: self._made(scene, members, method, things)}
         return self._kept[key]
 
-    def _made(self, scene: Scene, members: Indices, method: str, things: list[Object]) -> _Ordered:
+    def _made(self, scene: Scene, members: Ints, method: str, things: list[Object]) -> _Ordered:
         count = sum(len(thing.mesh.triangles) for thing in things)
         said = f'order = "{method}", expected "pixel" where'
         if count > MOST:
