@@ -20,12 +20,14 @@ BENCHES = (
     "looks",
     "ordering",
     "ordering_accuracy",
+    "predictions",
     "session",
     "simulate",
     "speed",
     "statistics",
     "studies",
     "techniques",
+    "worlds",
 )
 
 

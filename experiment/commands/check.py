@@ -19,7 +19,9 @@ from seethrough.experiment.study.design import TaskSet, session_for
 from seethrough.experiment.study.design_table import minutes
 from seethrough.experiment.study.factors import ALONE, WITHIN
 from seethrough.experiment.study.own_model_files import models_of
+from seethrough.experiment.study.translations import languages_of, texts_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
+from seethrough.tasks.kit.world import FILES
 
 if TYPE_CHECKING:
     from moderngl import Context
@@ -53,6 +55,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--models", type=Path, metavar="FILE.png", help="where a picture of its own models goes"
     )
+    parser.add_argument(
+        "--scenes", type=Path, metavar="FILE.png", help="where a picture of its own scenes goes"
+    )
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of the hardest scene")
 
 
@@ -61,7 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.certificate is not None and arguments.certificate.exists():
         raise InputError(f"{arguments.certificate}: exists already; expected a new file")
     study = load(arguments.study)
-    Texts(study.study.language, study.texts)
+    for language in languages_of(study):
+        texts_of(study, language)
     said = Verdicts()
     said.say("config", f"{study.study.name}, {study.digest()[:12]}")
     _models(study, said)
@@ -78,6 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
         software = name == "renderer" and on_the_processor(context)
         said.say("machine", f"{name}: {value}", *([WARNING, NO_CARD] if software else []))
     _contact_sheet(study, context, arguments, said)
+    _scenes(study, context, arguments, said)
     measured = _measured(study, context)
     _difficulty(study, measured, context, arguments.redraw, said)
     _techniques(study, measured, context, said)
@@ -109,6 +116,26 @@ def _contact_sheet(
         path = arguments.models or contact_sheet.default_path(arguments.study)
         contact_sheet.write(study, context, path)
         said.say("models", f"a picture of each from several sides, in {path}", OK, "look at it")
+
+
+def _scenes(study: Study, context: Context, arguments: argparse.Namespace, said: Verdicts) -> None:
+    """The study's own scenes: how large they are, what is seen of them from where, a picture."""
+    if all(place.scenes != FILES for place in study.places()):
+        return
+    from seethrough.experiment.study import scene_sheet
+
+    found = []
+    for p, file in scene_sheet.scenes_of(study):
+        seen = scene_sheet.looked_at(study, context, p, file)
+        found.append(seen)
+        text, odd = scene_sheet.described(p, seen.place)
+        said.say("scene", text, *([WARNING, odd] if odd else []))
+        for line in scene_sheet.seen_lines(seen):
+            print(f"{'':<11} {line}")
+    if found:
+        path = arguments.scenes or scene_sheet.default_path(arguments.study)
+        scene_sheet.write(found, context, path)
+        said.say("scenes", f"a picture of each from every view, in {path}", OK, "look at it")
 
 
 def _design(study: Study, said: Verdicts) -> None:

@@ -8,7 +8,16 @@ from imgui_bundle import imgui
 
 from seethrough.experiment.pages.interface import Interface
 from seethrough.experiment.pages.texts import Texts
-from seethrough.tasks.kit.hud import Button, Element, Entry, FloorPlan, Inset, Label, Rect
+from seethrough.tasks.kit.hud import (
+    Button,
+    Element,
+    Entry,
+    FloorPlan,
+    Inset,
+    Label,
+    Mark,
+    Rect,
+)
 
 
 def rgba(red: float, green: float, blue: float, alpha: float = 1.0) -> int:
@@ -56,6 +65,8 @@ class HudDrawing:
                     self._entry(element)
                 case FloorPlan():
                     self._plan(element)
+                case Mark():
+                    self._mark(element)
                 case Inset():
                     self._inset(insets, element)
                     insets += 1
@@ -125,6 +136,18 @@ class HudDrawing:
         low, high = imgui.ImVec2(0, 1), imgui.ImVec2(1, 0)
         self.list.add_image(reference, *self._corners(inset.rect), low, high)
         self.list.add_rect(*self._corners(inset.rect), rgba(*GREY), thickness=2.0)
+
+    def _mark(self, mark: Mark) -> None:
+        """On dark and on light alike: red, with white about it."""
+        s = self.scale
+        (x, y), r = mark.at, mark.radius * s
+        for color, thick in ((rgba(*PAPER), 5.0), (rgba(*MARK), 2.5)):
+            if mark.form == "ring":
+                self.list.add_circle(imgui.ImVec2(x * s, y * s), r, color, 0, thick)
+                continue
+            for dx, dy in ((r, 0.0), (0.0, r)):
+                start, end = (imgui.ImVec2(x * s + k * dx, y * s + k * dy) for k in (-1, 1))
+                self.list.add_line(start, end, color, thick)
 
     def _plan(self, plan: FloorPlan) -> None:
         draw_plan(self.list, plan, self.scale)

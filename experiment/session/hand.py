@@ -10,17 +10,31 @@ from dataclasses import replace
 from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Own, Shot
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Wheel
+from seethrough.tasks.kit.events import (
+    Event,
+    KeyPress,
+    KeyRelease,
+    PointerMove,
+    PointerPress,
+    Wheel,
+)
 
 HEIGHT = 1000  # of the shot that events are told in: positions are in view units
+PICKED = 600  # of the picture in which is looked what a click hits,
+COARSE = 300  # and where a technique's rule has to see all targets for it
+AIMING = ("enter", "space")  # keys that click where the view aims
 
 
 class Hand:
     """Keeps the state of a trial's technique (its parameters), from the first event on, and has the
     trial's look."""
 
-    def __init__(self, technique: Own, aspect: float, look: Look = PLAIN) -> None:
+    def __init__(
+        self, technique: Own, aspect: float, look: Look = PLAIN, window: int = HEIGHT
+    ) -> None:
+        """`window`: how many pixels high the window is that the study is made for."""
         self._technique, self._rules, self._look = technique, technique.technique, look
+        self._window = window
         self._size = (round(aspect * HEIGHT), HEIGHT)
         self.state = self._rules.begin(technique)
 
@@ -32,6 +46,25 @@ class Hand:
         """A task's view as it looks, with the technique's state."""
         view = view.dressed(self._look)
         return view if self.state is None else replace(view, drawn=self.state)
+
+    def pointed(self, event: Event, view: View) -> Event:
+        """The event, told what it hits in the frame, where the view wants to know: a press where it
+        is, enter and space where the view aims."""
+        if view.aim is None:
+            return event
+        if isinstance(event, PointerPress):
+            return replace(event, thing=self._thing(view, (event.x, event.y)))
+        if isinstance(event, KeyPress) and event.key in AIMING:
+            return replace(event, thing=self._thing(view, view.aim))
+        return event
+
+    def _thing(self, view: View, place: tuple[float, float]) -> int:
+        from seethrough.renderer.reference.pointed import is_local, pointed  # only for clicks
+
+        (width, height), high = self._size, PICKED if is_local(self._technique) else COARSE
+        size = (round(width * high / height), high)
+        shot = Shot(view.scene, view.camera, size, high / self._window)
+        return pointed(shot, self._technique, self.state, place)
 
     def on_event(self, event: Event, view: View) -> bool:
         """Let the technique see an event, with what the frame shows. Whether it used it up."""

@@ -31,6 +31,9 @@ UNCOVERED = DynamicTransparency(alpha_target=0.5, alpha_edge=1.0, width=0.0)
 LOST = 0.4  # pixels; a distractor hides part of a target if it gives up half of one or more
 
 
+Looked = tuple[NDArray[np.float64], int, int]
+
+
 @dataclass(frozen=True)
 class Difficulty:
     """One scene's difficulty; means over the fixed views.
@@ -93,6 +96,7 @@ class Certifier:
         self._scenes = StudyScenes(study)
         self._looking = Looking(context, (study.display.width, study.display.height))
         self._known: dict[Any, Difficulty] = {}
+        self._looks: dict[tuple[int, bytes, bytes], tuple[Scene, Looked]] = {}
 
     def measure(self, trial: Trial) -> Difficulty:
         """The difficulty of a trial's scene."""
@@ -109,7 +113,7 @@ class Certifier:
         scene = first.scene
         cameras = setting.world.views(setting.place, first.camera)
         asked = list(task.example(state, self.aspect).asked)
-        looks = [self._both(scene, camera) for camera in cameras]
+        looks = [self._looked(scene, camera) for camera in cameras]
         fractions = np.array([fraction for fraction, _, _ in looks])
         in_view = np.isfinite(fractions)
         seen = np.where(in_view, fractions, 0).sum() / max(in_view.sum(), 1)
@@ -124,7 +128,14 @@ class Certifier:
             setting.world.path(first.camera, scene.centers[asked]),
         )
 
-    def _both(self, scene: Scene, camera: Camera) -> tuple[NDArray[np.float64], int, int]:
+    def _looked(self, scene: Scene, camera: Camera) -> Looked:
+        """As `_both`; a scene that several trials share is looked at once from each place."""
+        key = (id(scene), camera.eye.tobytes(), camera.rotation.tobytes())
+        if key not in self._looks:
+            self._looks[key] = (scene, self._both(scene, camera))
+        return self._looks[key][1]
+
+    def _both(self, scene: Scene, camera: Camera) -> Looked:
         """(targets,) visible fractions, NaN out of view; occluders; visible objects."""
         view = View(scene, camera)
         self._looking.technique = Standard()

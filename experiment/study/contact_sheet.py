@@ -94,7 +94,7 @@ def write(study: Study, context: Any, path: Path) -> None:
     """
     from PIL import Image, ImageDraw, ImageFont, PngImagePlugin
 
-    if path.exists() and not _is_sheet(path):
+    if path.exists() and not is_sheet(path):
         raise InputError(f"{path}: exists already and is no contact sheet; expected a new file")
     models = models_of(study)
     width = MARGIN + (len(VIEWS) + 1) * (TILE + MARGIN) + TEXT + MARGIN
@@ -121,7 +121,8 @@ def write(study: Study, context: Any, path: Path) -> None:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
-def _is_sheet(path: Path) -> bool:
+def is_sheet(path: Path) -> bool:
+    """Whether it is a sheet that `check` drew: such a file may be replaced."""
     from PIL import Image
 
     try:

@@ -18,11 +18,11 @@ from seethrough import registry
 from seethrough.experiment.errors import shown
 from seethrough.experiment.study import plugins
 from seethrough.experiment.study.factor_tables import FACTOR_KEYS
+from seethrough.experiment.study.question_table import QuestionTable
 from seethrough.experiment.study.study_tables import (
     TABLES,
     MarginsTable,
     PredictionTable,
-    QuestionTable,
     TaskTable,
 )
 from seethrough.renderer.declared import Key, allowed, declared
@@ -47,6 +47,11 @@ ABOUT = {
     "task.NAME": "What holds for one task.",
     "questions.NAME": "A named table each, asked in this order.",
     "world.building.models": "A model of the study's own, `[[world.building.models]]` each.",
+    "world.scene.tags": "What things of a scene are, `[[world.scene.tags]]` each: entries for all "
+    "things whose names fit, the last one holds, beside what the file's extras say.",
+    "world.scene.items": "An item: a scene and what is asked in it, `[[world.scene.items]]` each.",
+    "world.abstract.tags": "What things of a kind are, `[[world.abstract.tags]]` each.",
+    "world.building.tags": "What things of a kind are, `[[world.building.tags]]` each.",
 }
 
 

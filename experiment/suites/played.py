@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import datetime
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -28,7 +30,9 @@ from seethrough.tasks.kit.events import (
 
 ASPECT = 4 / 3
 MOST_EVENTS = 20_000
+NEAR = 0.05  # view heights from a thing's middle that still hit it
 CLOCKS = ("time", "monotonic", "perf_counter", "process_time", "time_ns", "monotonic_ns")
+DATES = ("now", "utcnow", "today")
 KEYS = (*"0123456789ackrxyz", "left", "right", "up", "down", "enter", "space", "backspace", "tab")
 
 
@@ -46,20 +50,37 @@ class ReadsTheClock(Exception):
 
 
 @contextmanager
-def no_clock() -> Iterator[None]:
-    """Whoever asks what time it is, is found out."""
+def no_clock(plugin: object = None) -> Iterator[None]:
+    """Whoever asks what time it is, is found out; in the module of a `plugin` also where it has
+    taken a clock by another name, or a date."""
 
     def refuse(*_: Any) -> float:
         raise ReadsTheClock("expected the times of events, not the clock's")
 
-    kept = {name: getattr(time, name) for name in CLOCKS}
-    for name in CLOCKS:
-        setattr(time, name, refuse)
+    no_date = type("datetime", (datetime.datetime,), dict.fromkeys(DATES, refuse))
+    kept: list[tuple[object, str, object]] = [(time, n, getattr(time, n)) for n in CLOCKS]
+    clocks = {clock for _, _, clock in kept}
+    module = sys.modules.get(type(plugin).__module__)
+    for name, value in list(vars(module).items()) if module else ():
+        if value is datetime.datetime or (callable(value) and _among(value, clocks)):
+            kept.append((module, name, value))
+        elif value is datetime:
+            kept.append((datetime, "datetime", datetime.datetime))
+    for where, name, value in kept:
+        setattr(where, name, no_date if isinstance(value, type) else refuse)
     try:
         yield
     finally:
-        for name, clock in kept.items():
-            setattr(time, name, clock)
+        for where, name, value in kept:
+            setattr(where, name, value)
+
+
+def _among(value: object, clocks: set[object]) -> bool:
+    """Whether it is one of the clocks; what cannot be hashed is none."""
+    try:
+        return value in clocks
+    except TypeError:
+        return False
 
 
 def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> Any:
@@ -76,12 +97,25 @@ def played(task: Task, setting: Setting, seed: int) -> Played:
     while outcome is None and len(events) < MOST_EVENTS:
         view = task.view(states[-1])
         batch = person.events(view, partial(plain_look, view, ASPECT), now, task.name)
-        for event in batch:
+        for event in (plainly_pointed(view, event) for event in batch):
             events.append(event)
             states.append(task.on_event(states[-1], event))
         now = max(now, *(event.time for event in batch))
         outcome = task.outcome(states[-1])
     return Played(states, events, outcome)
+
+
+def plainly_pointed(view: View, event: Event) -> Event:
+    """The event, told what it hits where the view wants to know: the thing whose middle is nearest,
+    as `plain_look` has it."""
+    if view.aim is None or not isinstance(event, KeyPress | PointerPress):
+        return event
+    if isinstance(event, KeyPress) and event.key not in ("enter", "space"):
+        return event
+    place = view.aim if isinstance(event, KeyPress) else (event.x, event.y)
+    away = np.hypot(*(plain_look(view, ASPECT).position - np.array(place)).T)
+    found = int(np.argmin(np.where(np.isfinite(away), away, np.inf)))
+    return replace(event, thing=found if away[found] < NEAR else -1)
 
 
 def anything(rng: Generator, count: int) -> list[Event]:

@@ -6,15 +6,23 @@ Every way in which a file can be unusable ends in a ValueError of one line that 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Bools
-from seethrough.renderer.models.files.part import GREY, MOST_TRIANGLES, Array, Found, to_shown
+from seethrough.renderer.models.files.part import (
+    GREY,
+    MOST_TRIANGLES,
+    Array,
+    Found,
+    Part,
+    to_shown,
+)
 from seethrough.renderer.models.files.refine import Carried, refined
 from seethrough.renderer.models.files.source import Refused, Source
 from seethrough.renderer.models.files.surface import (
@@ -24,13 +32,14 @@ from seethrough.renderer.models.files.surface import (
     joined,
     shown_from_outside,
 )
-from seethrough.renderer.models.forms.shapes import assemble, shade, shape
+from seethrough.renderer.models.forms.shapes import Shape, assemble, shade, shape
 from seethrough.renderer.scene.geometry import Mesh
 
 READERS = {".glb": "gltf", ".gltf": "gltf", ".obj": "obj", ".ply": "ply", ".stl": "stl"}
 KINDS = tuple(READERS)
 DETAIL = 30_000
 """Triangles that textures may add: a logo of 64 texels on each side of a box takes as many."""
+Read = TypeVar("Read")
 LARGEST = 1e30
 """Coordinates beyond this overflow in the cubic terms of a volume."""
 
@@ -79,7 +88,7 @@ def read_model(
     try:
         _check(size, up, turn)
         source = Source(path)
-        found = _found(source)
+        found = found_in(source)
         return _made(found, source, size, up, turn, detail)
     except Refused as error:
         raise ValueError(f"{path}: {error}") from None
@@ -94,29 +103,37 @@ def _check(size: float, up: str, turn: float) -> None:
         raise Refused(f"turn = {turn}: expected an angle in degrees")
 
 
-def _found(source: Source) -> Found:
+def found_in(source: Source) -> Found:
     """What the reader for the file's kind makes of it, checked. Raises Refused."""
     suffix = source.path.suffix.lower()
     if suffix not in KINDS:
         raise Refused(f"expected a model file, one of {', '.join(KINDS)}")
-    read: Callable[[Source], Found] = import_module(
-        f"seethrough.renderer.models.files.{READERS[suffix]}"
-    ).read
+    module = import_module(f"seethrough.renderer.models.files.{READERS[suffix]}")
+    found: Found = told(source, module.read)
+    check_parts(found.parts)
+    return found
+
+
+def told(source: Source, read: Callable[[Source], Read]) -> Read:
+    """What a reader makes of a file; whatever else it raises becomes Refused."""
     try:
-        found = read(source)
+        return read(source)
     except (Refused, OSError):
         raise
     except Exception as error:  # a broken file may lack or mistake anything that its format has
         reason = " ".join(str(error).split())[:100]
         kind = type(error).__name__
         raise Refused(
-            f"expected a {suffix[1:].upper()} file, it cannot be read: {kind}: {reason}"
+            f"expected a {source.path.suffix[1:].upper()} file, it cannot be read: {kind}: {reason}"
         ) from error
-    for part in found.parts:
+
+
+def check_parts(parts: list[Part]) -> None:
+    """Raises Refused for coordinates that are no numbers, or too large."""
+    for part in parts:
         _check_numbers(part.vertices, "vertex", "coordinates", LARGEST)
         if part.uv is not None:
             _check_numbers(part.uv.reshape(-1, 2), "corner", "texture coordinates", 1e6)
-    return found
 
 
 def _check_numbers(values: Array, what: str, expected: str, most: float) -> None:
@@ -130,48 +147,60 @@ def _check_numbers(values: Array, what: str, expected: str, most: float) -> None
 def _made(
     found: Found, source: Source, size: float, up: str, turn: float, detail: int
 ) -> tuple[Mesh, Facts]:
-    surface = _without_hidden(joined(found.parts), found)
+    def stand(solid: Shape) -> Shape:
+        standing = solid.turned("x", -90) if up == "z" else solid
+        if source.path.suffix.lower() in (".glb", ".gltf"):
+            standing = standing.turned("y", 180)
+        return assemble(standing.turned("y", turn), size=size)
+
+    made = meshed(found.parts, found, detail, stand)
+    extent = np.ptp(made.mesh.vertices, axis=0)
+    solid = made.solid
+    facts = Facts(
+        sum(len(p.triangles) for p in found.parts),
+        (float(extent[0]), float(extent[1]), float(extent[2])), ", ".join(sorted(found.colors)),
+        made.sides, made.carried,
+        {axis: _standing(solid.vertices, solid.triangles, axis) for axis in ("y", "z")},
+        tuple(found.notes), source.digest(),
+    )  # fmt: skip
+    return made.mesh, facts
+
+
+@dataclass(frozen=True, eq=False)
+class Made:
+    """A mesh of a file's parts, what was done to their sides and textures, and the solid as it
+    stood in the file."""
+
+    mesh: Mesh
+    sides: Sides
+    carried: Carried | None
+    solid: Shape
+
+
+def meshed(
+    parts: list[Part], found: Found, detail: int, stand: Callable[[Shape], Shape] = lambda s: s
+) -> Made:
+    """Parts as one mesh that shows from every side, where `stand` puts it. Raises Refused."""
+    surface = _without_hidden(joined(parts), found)
     if not len(surface.triangles):
         raise Refused("0 triangles with an area: expected a mesh")
     surface, is_open, turned = shown_from_outside(surface)
     is_open |= _with_holes(surface)
     solid = shape(surface.vertices, surface.triangles, (1.0, 1.0, 1.0))
-    standing = solid.turned("x", -90) if up == "z" else solid
-    if source.path.suffix.lower() in (".glb", ".gltf"):
-        standing = standing.turned("y", 180)
-    standing = assemble(standing.turned("y", turn), size=size)
+    standing = stand(solid)
     plain = shade(standing)
     normals = _true_normals(plain, standing.vertices[standing.triangles])
-    surface = Surface(
-        standing.vertices, surface.triangles, surface.colors, surface.uv, surface.texture,
-        surface.cutoff, surface.textures,
-    )  # fmt: skip
+    surface = replace(surface, vertices=standing.vertices)
     surface, copied = doubled(surface, is_open)
     normals = np.concatenate([normals, -normals[copied][:, ::-1]])
-    in_file = sum(len(p.triangles) for p in found.parts)
     sides = Sides(int((~is_open).sum()), turned, len(copied))
     if surface.textures:
         surface, normals, carried = refined(surface, normals, detail)
     else:
-        shown = to_shown(surface.colors)
-        surface, carried = _recolored(surface, shown), None
+        surface, carried = replace(surface, colors=to_shown(surface.colors), textures=()), None
     if not len(surface.triangles):
         raise Refused("0 triangles that can be seen, all are transparent: expected a mesh")
-    mesh = _mesh(surface, normals)
-    extent = np.ptp(mesh.vertices, axis=0)
-    colors = ", ".join(sorted(found.colors))
-    stands = {axis: _standing(solid.vertices, solid.triangles, axis) for axis in ("y", "z")}
-    facts = Facts(
-        in_file, (float(extent[0]), float(extent[1]), float(extent[2])), colors, sides, carried,
-        stands, tuple(found.notes), source.digest(),
-    )  # fmt: skip
-    return mesh, facts
-
-
-def _recolored(surface: Surface, colors: Array) -> Surface:
-    return Surface(
-        surface.vertices, surface.triangles, colors, surface.uv, surface.texture, surface.cutoff, ()
-    )
+    return Made(_mesh(surface, normals), sides, carried, solid)
 
 
 def _without_hidden(surface: Surface, found: Found) -> Surface:

@@ -86,6 +86,18 @@ def _composed(seen: Surfaces, look: Look, edges: Bools) -> ExactPicture:
     )
 
 
+def exact_shares(
+    seen: Surfaces, look: Look, pixel: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Object and share of each surface that shows at a pixel, from the front."""
+    here = np.arange(seen.starts[pixel], seen.starts[pixel + 1])
+    rows = here[look.kept[here] & (look.opacity[here] > 0)]
+    alpha = look.opacity[rows]
+    before = _left(seen.pixel[rows], alpha, look.additive)
+    share = np.minimum(before, alpha) if look.additive else before * alpha
+    return seen.object[rows], share
+
+
 def _doubtful(seen: Surfaces, doubt: Bools, rows: NDArray[np.int64], after: Floats) -> Bools:
     """(h·w,) pixels with a surface in doubt that nothing opaque hides."""
     last = np.full(len(seen.starts) - 1, np.inf)  # depth behind which no light goes

@@ -6,23 +6,30 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Bools, Floats
+from seethrough.renderer.arrays import Bools, Floats, Ints
 from seethrough.renderer.reference.pixel_fragments import to_edges, triangles
 from seethrough.renderer.techniques.base import Shot, Surfaces
 
 NEAR = 1.0 / 256.0  # pixels: closer to an edge, float32 may fall to its other side
 
 
-def surfaces(shot: Shot) -> tuple[Surfaces, NDArray[np.bool_]]:
+def surfaces(
+    shot: Shot, parts: NDArray[np.int64] | None = None
+) -> tuple[Surfaces, NDArray[np.bool_]]:
     """The surfaces, and the pixels (2, h, w) whose middle lies within 1/256 pixel of the edge of a
-    triangle that faces the eye, and of one that does not: there they may be others."""
+    triangle that faces the eye, and of one that does not: there they may be others.
+
+    `parts` (n, 4): the first and last row and column between which each object is looked at; else
+    all of it is.
+    """
     width, height = shot.size
     near_edge = np.zeros((2, height, width), dtype=np.bool_)
     found, outlines = [], []
     for i, thing in enumerate(shot.scene.objects):
         pieces, owners, front = triangles(thing, shot.camera, shot.size, back=True)
         outlines.append(np.ascontiguousarray(pieces[front][:, :, :2]))
-        rows = _converted(pieces, front, width, near_edge)
+        part = np.array([0, height - 1, 0, width - 1]) if parts is None else parts[i]
+        rows = _converted(pieces, front, width, near_edge, part)
         found.append((np.full(len(rows), i), owners[rows[:, 1].astype(int)], rows))
     objects = np.concatenate([np.zeros(0, np.int64), *(f[0] for f in found)])
     owners = np.concatenate([np.zeros(0, np.int64), *(f[1] for f in found)])
@@ -49,19 +56,23 @@ def surfaces(shot: Shot) -> tuple[Surfaces, NDArray[np.bool_]]:
     ), near_edge
 
 
-def _converted(pieces: Floats, front: Bools, width: int, near_edge: Bools) -> Floats:
+def _converted(
+    pieces: Floats, front: Bools, width: int, near_edge: Bools, part: NDArray[np.int64]
+) -> Floats:
     """(m, 14) pixel, piece, whether it faces the eye, depth, slack, then normal, point and colour
     in camera coordinates, of one object's surfaces."""
-    count = _scan(pieces, front, width, near_edge, np.zeros((0, 14)))
+    count = _scan(pieces, front, width, near_edge, part, np.zeros((0, 14)))
     rows = np.empty((count, 14))
-    _scan(pieces, front, width, near_edge, rows)
+    _scan(pieces, front, width, near_edge, part, rows)
     return rows
 
 
 @njit(cache=True)
-def _scan(pieces: Floats, front: Bools, width: int, near_edge: Bools, rows: Floats) -> int:
-    """Put a row for each piece and pixel whose middle it covers, where there is room for rows.
-    Returns how many there are."""
+def _scan(
+    pieces: Floats, front: Bools, width: int, near_edge: Bools, part: Ints, rows: Floats
+) -> int:
+    """Put a row for each piece and pixel of a part whose middle it covers, where there is room for
+    rows. Returns how many there are."""
     height = near_edge.shape[1]
     k = 0
     for t in range(len(pieces)):
@@ -72,8 +83,9 @@ def _scan(pieces: Floats, front: Bools, width: int, near_edge: Bools, rows: Floa
         area = ax * by - ay * bx
         x0, x1 = min(p[0, 0], p[1, 0], p[2, 0]), max(p[0, 0], p[1, 0], p[2, 0])
         y0, y1 = min(p[0, 1], p[1, 1], p[2, 1]), max(p[0, 1], p[1, 1], p[2, 1])
-        for r in range(max(0, int(y0) - 1), min(height, int(min(y1, height)) + 2)):
-            for c in range(max(0, int(x0) - 1), min(width, int(min(x1, width)) + 2)):
+        top, left = max(part[0], int(y0) - 1), max(part[2], int(x0) - 1)
+        for r in range(top, min(part[1] + 1, int(min(y1, height)) + 2)):
+            for c in range(left, min(part[3] + 1, int(min(x1, width)) + 2)):
                 x, y = c + 0.5, r + 0.5
                 if to_edges(p, x, y) < NEAR:
                     near_edge[side, r, c] = True

@@ -31,7 +31,8 @@ class Object:
     occluder wherever it lies in front of a target (Elmqvist2009 §III-A). An `impenetrable` object
     never turns transparent (§III-C.3). Objects with the same `group` are drawn, where no plane
     separates them, in their order in the scene, targets before others (§V-B, nested dolls); `None`
-    makes the object its own group.
+    makes the object its own group. `importance`, 0 to 1, is what a study says of it, for techniques
+    that ask.
     """
 
     mesh: Mesh
@@ -41,6 +42,7 @@ class Object:
     impenetrable: bool = False
     group: int | None = None
     kind: str = ""
+    importance: float = 0.0
 
     def __post_init__(self) -> None:
         if self.transform.shape != (4, 4):

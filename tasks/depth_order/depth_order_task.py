@@ -49,6 +49,7 @@ class DepthOrder(Basics):
     name, code = "depth_order", "D"
     source = "Elmqvist2009 §VI-G"
     worlds = ANYWHERE
+    least = 2
     Parameters = DepthOrderParameters
     measures: tuple[Measure, ...] = (CORRECT,)
     takes = keys(mark.lower() for mark in MARKS)

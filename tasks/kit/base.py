@@ -13,7 +13,7 @@ from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
-from seethrough.tasks.kit.hud import Element, FloorPlan
+from seethrough.tasks.kit.hud import Element, FloorPlan, Point
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Texts, World
 
@@ -24,13 +24,15 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, eq=False)
 class View:
     """What the participant should see now. `captured`: the pointer turns the viewer, unseen.
-    `drawn`: what events have made of the technique's state, which the session keeps."""
+    `drawn`: what events have made of the technique's state, which the session keeps. `aim`: where
+    enter and space point; where there is one, presses are told the thing that they hit."""
 
     scene: Scene
     camera: Camera
     hud: tuple[Element, ...] = ()
     captured: bool = False
     drawn: Any = None
+    aim: Point | None = None
 
     def dressed(self, look: Look) -> View:
         """The view of the scene as it looks."""
@@ -69,11 +71,18 @@ class Example:
 
 @dataclass(frozen=True)
 class Setting:
-    """Where and how a task is set: a world, the world's parameters (`place`), the `task`'s own."""
+    """Where and how a task is set: a world, the world's parameters (`place`), the `task`'s own, and
+    which of the `items` that it can ask for, where they are counted."""
 
     world: World
     place: Any
     task: Any
+    item: int | None = None
+
+    @property
+    def controls(self) -> str:
+        """The name of the text that says how one moves."""
+        return str(getattr(self.place, "controls", self.world.controls))
 
 
 @dataclass(frozen=True)
@@ -87,6 +96,7 @@ class Basics:
 
     name: str
     version = "1"
+    least = 1  # targets that a scene has to have
     takes = NO_KEYS
     Parameters: Any = NoParameters
     texts: Texts = NO_TEXTS
@@ -104,6 +114,10 @@ class Basics:
     def make_scene(self, rng: Generator, setting: Setting) -> Any:
         """A place of the world."""
         return setting.world.make(rng, setting.place)
+
+    def controls(self, setting: Setting) -> str:
+        """The name of the text that says how one moves: as the world has it."""
+        return setting.controls
 
     def solution(self, state: Any) -> FloorPlan | None:
         """No plan."""

@@ -4,7 +4,7 @@ An event happened at `time`, or up to `within` seconds later where that cannot b
 Positions are in view units: the origin is the upper left corner of the view, y points down and
 runs from 0 to 1, x from 0 to the aspect ratio. Times are seconds on the session's clock.
 Keys are lower-case names: "a"…"z", "0"…"9", "left", "right", "up", "down", "enter", "space",
-"backspace", "escape", "tab", "f1".
+"backspace", "escape", "tab", "f1", "f2".
 """
 
 from __future__ import annotations
@@ -35,8 +35,11 @@ class _AtPointer:
     within: float = 0.0
 
 
+@dataclass(frozen=True)
 class PointerPress(_AtPointer):
-    """The left button went down."""
+    """The left button went down. `thing` as in `KeyPress`."""
+
+    thing: int | None = None
 
 
 class PointerRelease(_AtPointer):
@@ -65,11 +68,16 @@ class Wheel:
 
 @dataclass(frozen=True)
 class KeyPress:
-    """A key went down."""
+    """A key went down.
+
+    `thing`, of enter and space: the index of the object that shows where the view's aim is, −1 for
+    none. None where the view tells nobody (tasks/kit/base.py).
+    """
 
     time: float
     key: str
     within: float = 0.0
+    thing: int | None = None
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,25 @@ class FloorPlan:
     place: Point | None = None
 
 
-Element = Label | Button | Entry | Inset | FloorPlan
+@dataclass(frozen=True)
+class Mark:
+    """A ring about a place of the view, or a cross where one aims."""
+
+    at: Point
+    radius: float = 0.02
+    form: str = "ring"  # or "cross"
+
+
+@dataclass(frozen=True)
+class Sought(Label):
+    """The label that says what to look for: the indices of the `things` that are it, and how one
+    moves. A simulated person reads in it what others read in its text."""
+
+    things: tuple[int, ...] = ()
+    moving: str = "orbit"
+
+
+Element = Label | Button | Entry | Inset | FloorPlan | Mark
 MARGIN = 0.02  # from the view's border
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
@@ -15,7 +17,7 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 
-OWN, SHARED = "own", "shared"
+OWN, SHARED, FILES = "own", "shared", "files"
 ANYWHERE = ("*",)  # the worlds of a task that takes any place with targets
 NO_KEYS: frozenset[str] = frozenset()
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
@@ -30,6 +32,22 @@ class Place(Protocol):
         """Everything that stands there."""
 
 
+Where = TypeVar("Where", bound=Place)
+
+
+@dataclass(frozen=True, eq=False)
+class Asked(Generic[Where]):
+    """An item: a place, and the index of the thing that is asked for in it."""
+
+    place: Where
+    thing: int
+
+    @property
+    def scene(self) -> Scene:
+        """Everything that stands there."""
+        return self.place.scene
+
+
 class Viewer(Protocol):
     """Where a participant looks from. Frozen; events give another one."""
 
@@ -38,6 +56,51 @@ class Viewer(Protocol):
 
     def camera(self) -> Camera:
         """What the viewer sees."""
+
+
+class FileFault(NamedTuple):
+    """What is wrong with a file, or with what is said of it: the parameter, its value, and what to
+    say."""
+
+    key: str
+    value: object
+    said: str
+
+
+class FileFaults(ValueError):
+    """All that is wrong with a world's files."""
+
+    def __init__(self, found: Sequence[FileFault]) -> None:
+        self.found = tuple(found)
+        super().__init__("; ".join(f"{f.key} = {f.value}: {f.said}" for f in found))
+
+
+@runtime_checkable
+class FileWorld(Protocol):
+    """What a world says besides whose scenes are made of a study's files."""
+
+    def named(self, parameters: object) -> Mapping[str, str]:
+        """Parameter → file beside the study, of all that it names."""
+
+    def found(self, parameters: object, folder: Path) -> object:
+        """The parameters with their files read, which lie in the folder. Raises FileFaults."""
+
+    def keeps(self, parameters: object) -> Mapping[str, Callable[[], bytes]]:
+        """Name → content, of the files that a data folder keeps for replays."""
+
+    def kept_in(self, parameters: object, folder: Path) -> object:
+        """The parameters with their files as a data folder has them. Raises FileFaults."""
+
+    def targets(self, parameters: object) -> Mapping[str, int]:
+        """Parameter → how many targets the scene has that it names."""
+
+
+@runtime_checkable
+class ItemWorld(Protocol):
+    """What a world says besides in which all that can be asked for is counted."""
+
+    def items(self, parameters: object) -> Sequence[Asked[Place]]:
+        """All that can be asked for, in the study's order."""
 
 
 class World(Protocol):
@@ -69,6 +132,11 @@ class World(Protocol):
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:
         """World units to go from the start past what a task asks for, (n, 3) centres."""
+
+
+def moving_of(world: World, parameters: object) -> str:
+    """How one moves in a world with these parameters: as they say themselves, else as it says."""
+    return str(getattr(parameters, "move", world.moving))
 
 
 def keys(names: Iterable[str]) -> frozenset[str]:

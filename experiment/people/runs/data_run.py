@@ -13,7 +13,7 @@ from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Results,
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, find, load
-from seethrough.experiment.study.own_model_files import models_of
+from seethrough.experiment.study.own_model_files import models_of, own_scenes
 from seethrough.experiment.workers import ordered_map
 
 
@@ -39,7 +39,9 @@ def run(
         if not chunks:
             print(f"{out}: all {count} participants are there", file=sys.stderr)
             return
-        make_tables(job, min(count, CHUNK))
+        # Few people look from few places: what they need is drawn as they come.
+        if count > CHUNK or count >= job.pool:
+            make_tables(job, min(count, CHUNK))
         with (
             Progress("simulating", sum(map(len, chunks))) as progress,
             closing(KeptLooks(job.tables)) as tables,
@@ -68,12 +70,13 @@ def refuse_hands(study: Study, file: str) -> None:
 
 def _check_models(job: b.Batch, study: Study) -> None:
     """Workers of a cluster share no disk with this machine, where a study's own models lie."""
-    own = [model.name for model in models_of(study)]
-    if own:
-        raise InputError(
-            f"{find(job.study)}: world.building.models = {own}: expected none with --scheduler, "
-            "whose workers have no files of this machine: use --workers"
-        )
+    own = {"building.models": [m.name for m in models_of(study)], "scene.files": own_scenes(study)}
+    for key, names in own.items():
+        if names:
+            raise InputError(
+                f"{find(job.study)}: world.{key} = {list(names)}: expected none with --scheduler, "
+                "whose workers have no files of this machine: use --workers"
+            )
 
 
 def make_tables(job: b.Batch, walkers: int) -> bool:

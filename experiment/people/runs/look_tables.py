@@ -23,6 +23,8 @@ from seethrough.tasks.kit.skills.places import AHEAD, CELL, DIRECTIONS, STRIDES
 YAWS = 12  # of the orbit's lattice: every 30°
 PITCHES = (-1.25, -0.8, -0.35, 0.0, 0.35, 0.8, 1.25)
 
+POSES, HEADINGS = 4, 24  # of a scene's lattice: poses a unit, and to how many sides
+
 # Of each heading, the viewpoints from one cell to the next: the third word of their keys, and how
 # far in x and z they lie from the first cell's middle, in cells.
 PASSED = [
@@ -88,6 +90,31 @@ def walk_camera(camera: Camera, key: Key) -> Camera:
     return Camera(eye, rotation, camera.fov_y, camera.near, camera.far)
 
 
+def pose_key(camera: Camera) -> Key:
+    """The nearest pose of a scene that one walks in or steps through: place in quarters of a unit,
+    heading in 24ths of a turn, pitch in 24ths of half a turn."""
+    r = camera.rotation
+    yaw, pitch = atan2(-r[2, 0], r[0, 0]), asin(min(1.0, max(-1.0, r[1, 2])))
+    x, y, z = (round(v * POSES) for v in camera.eye.tolist())
+    step = 2 * pi / HEADINGS
+    return (x, y, z, round(yaw / step) % HEADINGS, round(pitch / step))
+
+
+def pose_camera(camera: Camera, key: Key) -> Camera:
+    """The lattice's camera at `key`, with the lens of `camera`."""
+    step = 2 * pi / HEADINGS
+    eye = np.array(key[:3]) / POSES
+    rotation = turned(key[3] * step, -key[4] * step)
+    return Camera(eye, rotation, camera.fov_y, camera.near, camera.far)
+
+
+LATTICES: dict[str, tuple[Callable[[Camera], Key], Callable[[Camera, Key], Camera]]] = {
+    "orbit": (orbit_key, orbit_camera),
+    "walk": (walk_key, walk_camera),
+    "poses": (pose_key, pose_camera),
+}
+
+
 class TableEyes:
     """Looks up, or draws and keeps, what is seen of a scene of so many objects.
 
@@ -99,9 +126,7 @@ class TableEyes:
     ) -> None:
         self.looks, self.name, self.objects = looks, name, objects
         self.draw = draw
-        orbits = moving == "orbit"
-        self._key = orbit_key if orbits else walk_key
-        self._camera = orbit_camera if orbits else walk_camera
+        self._key, self._camera = LATTICES[moving]
 
     def look(self, scene: Scene, camera: Camera) -> Visibility:
         """What is visible from the lattice viewpoint nearest to `camera`."""

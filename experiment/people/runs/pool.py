@@ -24,7 +24,7 @@ from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Task, View
-from seethrough.tasks.kit.world import OWN
+from seethrough.tasks.kit.world import FILES, OWN
 
 if TYPE_CHECKING:
     from seethrough.experiment.display.looking import Looking
@@ -85,12 +85,15 @@ class Pool(StudyScenes):
         return (STUDY_SCENES, POOL, sorted(self.study.tasks()).index(task), which)
 
     def _begun(self, task: Task, trial: Trial, aspect: float, stream: tuple[int, ...]) -> object:
-        setting = self.study.setting(trial)
+        setting = self.setting(trial)
         name = f"{trial.task}-" + "-".join(map(str, stream))
         if (name, setting.place) not in self._scenes:
             made = task.make_scene(generator(self.study.study.seed, stream), setting)
             self._scenes[name, setting.place] = made
-            self._names[id(made.scene)] = (name, setting.world.moving)
+            lattice = getattr(setting.place, "lattice", setting.world.moving)
+            # A file's scene is the same in many trials: what it is, its fingerprint says.
+            called = name if setting.place.scenes != FILES else setting.world.name
+            self._names[id(made.scene)] = (called, lattice)
         return task.begin(self._scenes[name, setting.place], setting, aspect)
 
     def _open(self, scene: Scene, technique: Any) -> TableEyes:
@@ -120,7 +123,12 @@ def fingerprint(scene: Scene, technique: object, window: tuple[int, int]) -> str
         digest.update(repr(scene.look).encode())
     digest.update((np.round(scene.transforms, 6) + 0.0).astype("<f8").tobytes())
     for thing in scene.objects:
-        digest.update(f"{thing.kind},{thing.color},{len(thing.mesh.triangles)};".encode())
+        about = f"{thing.kind},{thing.color},{len(thing.mesh.triangles)}"
+        if thing.group is not None or thing.importance or thing.impenetrable:
+            about += f",{thing.group},{thing.importance},{thing.impenetrable}"
+        digest.update(f"{about},{thing.target};".encode())
+        if thing.mesh.colors.size:
+            digest.update(np.round(thing.mesh.colors.mean(axis=0), 6).astype("<f8").tobytes())
     return digest.hexdigest()[:12]
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.models.files.gltf_file import COMPRESSED, GltfFile, compressed
 from seethrough.renderer.models.files.gltf_material import Material, Materials
-from seethrough.renderer.models.files.gltf_nodes import Nodes
+from seethrough.renderer.models.files.gltf_nodes import Node, Nodes
 from seethrough.renderer.models.files.part import (
     WHITE,
     Array,
@@ -29,38 +29,57 @@ _DRAWN_BY = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
 
 def read(source: Source) -> Found:
     """The triangles of a glTF or GLB file. Raises Refused."""
+    file, found, materials = opened(source)
+    total = 0
+    for mesh, node, matrix in Nodes(file, found).meshes():
+        found.parts += primitives(file, mesh, node, matrix, materials, found)
+        total = sum(len(part.triangles) for part in found.parts)
+        too_many(total)
+    check_drawn(total, found)
+    return found
+
+
+def opened(source: Source) -> tuple[GltfFile, Found, Materials]:
+    """The file, with what it needs known here. Raises Refused."""
     file, found = GltfFile(source), Found()
     for name in file.json.get("extensionsRequired", []):
         if name not in _KNOWN and not name.startswith("KHR_materials_"):
             raise Refused(f"needs {str(name)[:60]}, which is not known here: save it without")
     if file.rows("animations"):
         found.note("it is animated: shown as it stands before any animation")
-    materials, total, left_out = Materials(file, found), 0, set()
-    for mesh, node, matrix in Nodes(file, found).meshes():
-        for number, primitive in enumerate(file.row("meshes", mesh).get("primitives", [])):
-            mode = primitive.get("mode", 4)
-            if mode in _DRAWN_BY:
-                left_out.add(_DRAWN_BY[mode])
-                continue
-            if mode not in (4, 5, 6):
-                raise Refused(f"meshes[{mesh}]: mode = {str(mode)[:20]}: expected 0 to 6")
-            what = f"meshes[{mesh}].primitives[{number}]"
-            part = _part(file, primitive, node, matrix, materials, found, what)
-            total += len(part.triangles)
-            too_many(total)
-            found.parts.append(part)
+    return file, found, Materials(file, found)
+
+
+def primitives(
+    file: GltfFile, mesh: object, node: Node, matrix: Array, materials: Materials, found: Found
+) -> list[Part]:
+    """What a mesh is made of that has triangles, moved by the matrix. Raises Refused."""
+    parts = []
+    for number, primitive in enumerate(file.row("meshes", mesh).get("primitives", [])):
+        mode = primitive.get("mode", 4)
+        if mode in _DRAWN_BY:
+            found.left_out.add(_DRAWN_BY[mode])
+            continue
+        if mode not in (4, 5, 6):
+            raise Refused(f"meshes[{mesh}]: mode = {str(mode)[:20]}: expected 0 to 6")
+        what = f"meshes[{mesh}].primitives[{number}]"
+        parts.append(_part(file, primitive, node, matrix, materials, found, what))
+    return parts
+
+
+def check_drawn(total: int, found: Found) -> None:
+    """Raises Refused where there are no triangles; notes what else is left out."""
+    said = " and ".join(sorted(found.left_out))
     if not total:
-        only = f", only {' and '.join(sorted(left_out))}" if left_out else ""
-        raise Refused(f"0 triangles{only}: expected a mesh")
-    if left_out:
-        found.note(f"its {' and '.join(sorted(left_out))} are not shown")
-    return found
+        raise Refused(f"0 triangles{f', only {said}' if said else ''}: expected a mesh")
+    if said:
+        found.note(f"its {said} are not shown")
 
 
 def _part(
     file: GltfFile,
     primitive: dict[str, Any],
-    node: Any,
+    node: Node,
     matrix: Array,
     materials: Materials,
     found: Found,
@@ -78,7 +97,9 @@ def _part(
     if node.joints is not None and "JOINTS_0" in attributes:
         points = node.skinned(points, attributes)
     else:
-        points = points @ matrix[:3, :3].T + matrix[:3, 3]
+        with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is refused later
+            plain = np.array_equal(matrix, np.eye(4))
+            points = points if plain else points @ matrix[:3, :3].T + matrix[:3, 3]
     triangles = _triangles(file, primitive, len(points), what)
     if node.joints is None and np.linalg.det(matrix[:3, :3]) < 0:
         triangles = triangles[:, ::-1]

@@ -12,14 +12,17 @@ from seethrough.renderer.models.files.part import Array, Found
 from seethrough.renderer.models.files.source import Refused
 
 _INSTANCED = "EXT_mesh_gpu_instancing"
+_COUNTS = {"matrix": 16, "rotation": 4, "scale": 3, "translation": 3}
 _MOST_INSTANCES = 10_000
 
 
 class Node:
-    """A node with a mesh: `joints` (k, 4, 4) of its skin, world ← mesh, None without one."""
+    """A node with a mesh: `joints` (k, 4, 4) of its skin, world ← mesh, None without one.
+    `plain`: the mesh as the file has it, in no pose."""
 
     def __init__(self, file: GltfFile, weights: list[float], joints: Array | None) -> None:
         self._file, self._weights, self.joints = file, weights, joints
+        self.plain = joints is None and not any(weights)
 
     def posed(self, points: Array, primitive: dict[str, Any]) -> Array:
         """Points (n, 3) moved by the morph targets as the file weights them."""
@@ -51,15 +54,23 @@ class Node:
 
 
 class Nodes:
-    """Every node of the scene, with the matrix that leads from it into the world."""
+    """Every node of the scene: its matrix (`world` ← node), and the `parents` of those that have
+    one."""
 
     def __init__(self, file: GltfFile, found: Found) -> None:
         self._file, self._found = file, found
-        self._world = self._walked()
+        self.parents: dict[int, int] = {}
+        self.world = self._walked()
 
     def meshes(self) -> Iterator[tuple[int, Node, Array]]:
         """Mesh number, node and matrix (world ← mesh), as often as the scene has a mesh."""
-        for index, world in self._world.items():
+        for index, node in self.with_meshes():
+            for matrix in self.places(index):
+                yield self._file.row("nodes", index)["mesh"], node, matrix
+
+    def with_meshes(self) -> Iterator[tuple[int, Node]]:
+        """Number and node, of every node with a mesh."""
+        for index in self.world:
             raw = self._file.row("nodes", index)
             if "mesh" not in raw:
                 continue
@@ -71,8 +82,12 @@ class Nodes:
                 self._found.note("it has joints: shown in the pose of the file")
             if any(weights):
                 self._found.note("it has shapes to blend: shown as the file weights them")
-            for own in self._instances(raw):
-                yield raw["mesh"], Node(self._file, weights, joints), world @ own
+            yield index, Node(self._file, weights, joints)
+
+    def places(self, index: int) -> Iterator[Array]:
+        """World ← mesh of every instance of a node."""
+        for own in self._instances(self._file.row("nodes", index)):
+            yield self.world[index] @ own
 
     def _walked(self) -> dict[int, Array]:
         """World ← node for every node of the scene that is shown."""
@@ -81,8 +96,8 @@ class Nodes:
         if scenes:
             roots = self._file.row("scenes", self._file.json.get("scene", 0)).get("nodes", [])
         else:
-            children = {c for row in rows for c in row.get("children", [])}
-            roots = [i for i in range(len(rows)) if i not in children]
+            below = {c for row in rows for c in row.get("children", [])}
+            roots = [i for i in range(len(rows)) if i not in below]
         if len(scenes) > 1:
             self._found.note(f"1 of its {len(scenes)} scenes is shown")
         world: dict[int, Array] = {}
@@ -93,16 +108,18 @@ class Nodes:
             if index in world:
                 raise Refused(f"nodes[{index}]: is part of the scene twice: expected a tree")
             world[index] = parent @ _matrix(raw, f"nodes[{index}]")
-            waiting += [(child, world[index]) for child in reversed(raw.get("children", []))]
+            children = raw.get("children", [])
+            self.parents |= dict.fromkeys(children, index)
+            waiting += [(child, world[index]) for child in reversed(children)]
         return world
 
     def _joints(self, index: object) -> Array:
         skin = self._file.row("skins", index)
         names = skin["joints"]
-        missing = [j for j in names if j not in self._world]
+        missing = [j for j in names if j not in self.world]
         if missing:
             raise Refused(f"nodes[{missing[0]}]: a joint that is not in the scene")
-        world = np.array([self._world[j] for j in names]).reshape(-1, 4, 4)
+        world = np.array([self.world[j] for j in names]).reshape(-1, 4, 4)
         if "inverseBindMatrices" not in skin:
             return world
         inverse = self._file.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4)
@@ -128,7 +145,10 @@ class Nodes:
 
 
 def _matrix(raw: dict[str, Any], what: str) -> Array:
-    """(4, 4) parent ← node."""
+    """(4, 4) parent ← node. Raises Refused."""
+    for name, count in _COUNTS.items():
+        if name in raw and np.shape(raw[name]) != (count,):
+            raise Refused(f"{what}.{name} = {str(raw[name])[:40]}: expected {count} numbers")
     if "matrix" in raw:
         matrix = np.array(raw["matrix"], float).reshape(4, 4).T
     else:

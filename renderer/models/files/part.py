@@ -41,11 +41,13 @@ class Part:
 
 @dataclass(eq=False)
 class Found:
-    """The parts of a file, where their colours come from, and what is not shown as it is there."""
+    """The parts of a file, where their colours come from, what is not shown as it is there, and
+    what is `left_out` since it has no triangles."""
 
     parts: list[Part] = field(default_factory=list)
     colors: set[str] = field(default_factory=set)
     notes: list[str] = field(default_factory=list)
+    left_out: set[str] = field(default_factory=set)
 
     def note(self, text: str) -> None:
         """Something to tell the reader, once."""

@@ -65,7 +65,7 @@ def jeep() -> tuple[tuple[str, Mesh], ...]:
 
     The wheels share one mesh's triangles but stand in their own places, so they are own meshes.
     """
-    pieces = _pieces()
+    pieces = pieces_in_metres()
     whole = assemble(*pieces.values(), size=LENGTH)
     starts = np.cumsum([0, *(len(p.vertices) for p in pieces.values())])
     placed = zip(pieces.items(), starts[:-1], starts[1:], strict=True)
@@ -75,7 +75,7 @@ def jeep() -> tuple[tuple[str, Mesh], ...]:
     )
 
 
-def _pieces() -> dict[str, Shape]:
+def pieces_in_metres() -> dict[str, Shape]:
     """Every piece by name, in metres."""
     wheel = off_road_wheel()
     left = wheel.mirrored()

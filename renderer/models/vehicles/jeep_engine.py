@@ -38,17 +38,16 @@ def _bolts(places: np.ndarray, radius: float, axis: str = "") -> Shape:
 
 def engine() -> Shape:
     """Four cylinders in line under the bonnet, with fan, belt, manifolds and leads."""
+    return join(*engine_parts().values())
+
+
+def engine_parts() -> dict[str, Shape]:
+    """The engine's parts by name, in place."""
     block = box((0.30, 0.30, 0.62), BLUE, 0.03, 4).at(0, 0.70, -0.98)
     ribs = copies(
         box((0.33, 0.22, 0.02), BLUE, 0.008), [(0, 0.70, z) for z in np.linspace(-1.2, -0.76, 8)]
     )
-    head = box((0.28, 0.09, 0.62), IRON, 0.02, 3).at(0, 0.89, -0.98)
-    cover = box((0.17, 0.08, 0.54), RUST, 0.035, 5).at(0.02, 0.96, -0.98)
-    cap = disc(0.03, 0.04, DARK, 24, 0.008).at(0.02, 1.01, -1.16)
-    pan = pillow((0.27, 0.22, 0.60), DARK, 0.3, 36).at(0, 0.53, -0.98)
     z = np.linspace(-1.24, -0.72, 8)
-    bolts = _bolts(np.array([(x, 0.935, v) for x in (-0.12, 0.125) for v in z]), 0.011)
-    parts = [block, ribs, head, cover, cap, pan, bolts, _fan(), _manifolds(), _ignition()]
     filter_ = join(
         disc(0.12, 0.1, DARK, 40, 0.02).at(y=0.05),
         disc(0.125, 0.02, STEEL, 40, 0.006).at(y=0.11),
@@ -57,8 +56,21 @@ def engine() -> Shape:
     horn = sweep(
         curve([(-0.30, 0.98, -0.86), (-0.25, 0.94, -0.86), (-0.2, 0.87, -0.9)], 12), 0.04, DARK, 20
     )
-    dynamo = disc(0.075, 0.2, IRON, 32, 0.015).turned("x", 90).at(0.24, 0.80, -1.14)
-    return join(*parts, filter_.at(-0.30, 0.94, -0.86), horn, dynamo)
+    return {
+        "engine block": join(block, ribs),
+        "cylinder head": box((0.28, 0.09, 0.62), IRON, 0.02, 3).at(0, 0.89, -0.98),
+        "valve cover": box((0.17, 0.08, 0.54), RUST, 0.035, 5).at(0.02, 0.96, -0.98),
+        "oil cap": disc(0.03, 0.04, DARK, 24, 0.008).at(0.02, 1.01, -1.16),
+        "oil pan": pillow((0.27, 0.22, 0.60), DARK, 0.3, 36).at(0, 0.53, -0.98),
+        "head bolts": _bolts(np.array([(x, 0.935, v) for x in (-0.12, 0.125) for v in z]), 0.011),
+        "fan": _fan(),
+        "exhaust manifold": _exhaust_ports(),
+        "intake pipe": _intake(),
+        "distributor": _ignition(),
+        "air filter": filter_.at(-0.30, 0.94, -0.86),
+        "air hose": horn,
+        "dynamo": disc(0.075, 0.2, IRON, 32, 0.015).turned("x", 90).at(0.24, 0.80, -1.14),
+    }
 
 
 def _fan() -> Shape:
@@ -82,8 +94,8 @@ def _fan() -> Shape:
     return join(blades.at(0, 0.84, -1.37), hub.at(0, 0.84, -1.36), copies(pulley, places), loop)
 
 
-def _manifolds() -> Shape:
-    """Exhaust ports on the right, gathered into one pipe; intake on the left."""
+def _exhaust_ports() -> Shape:
+    """Exhaust ports on the right, gathered into one pipe."""
     ports = []
     for z in np.linspace(-1.2, -0.78, 4):
         path = curve(
@@ -92,9 +104,13 @@ def _manifolds() -> Shape:
         )
         ports.append(sweep(path, 0.028, RUST, 18))
         ports.append(disc(0.042, 0.016, RUST, 20).turned("z", 90).at(0.155, 0.86, z))
-    intake = sweep(curve([(-0.13, 0.86, -1.16), (-0.2, 0.87, -1.1), (-0.21, 0.87, -0.9),
-                          (-0.13, 0.86, -0.8)], 24), 0.03, IRON, 18)  # fmt: skip
-    return join(*ports, intake)
+    return join(*ports)
+
+
+def _intake() -> Shape:
+    """The intake on the left."""
+    return sweep(curve([(-0.13, 0.86, -1.16), (-0.2, 0.87, -1.1), (-0.21, 0.87, -0.9),
+                        (-0.13, 0.86, -0.8)], 24), 0.03, IRON, 18)  # fmt: skip
 
 
 def _ignition() -> Shape:

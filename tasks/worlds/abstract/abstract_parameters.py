@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import ceil, floor, pi
 
 from seethrough.renderer.declared import Of, check, key
+from seethrough.tasks.kit.tags import KindTag
 from seethrough.tasks.kit.world import scenes
 
 SHAPES = ("sphere", "cone", "box", "torus")
@@ -46,6 +47,7 @@ class AbstractParameters:
         "published", "colours of targets and distractors: as published, or such that people who do "
         "not tell red from green can do the tasks", choices=PALETTES,
     )  # fmt: skip
+    tags: tuple[KindTag, ...] = key((), "what things of a kind are; kinds are the `shapes`")
     scenes: str = scenes("own")
     fov_y: float = key(pi / 3, "angle of view, from bottom to top", "radians", low=0.1, high=2.5)
     start_pitch: float = key(

@@ -15,6 +15,7 @@ from seethrough.renderer.scene.scene import Color, Object, Scene
 from seethrough.renderer.scene.transforms import placed, random_rotation
 from seethrough.tasks.kit.enclosure import enclosing_pairs, farthest
 from seethrough.tasks.kit.letters import grid_reach, letter_points
+from seethrough.tasks.kit.tags import with_kind_tags
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 
 RED = (1.0, 0.0, 0.0)
@@ -90,7 +91,7 @@ def abstract_scene(
         _random_object(rng, p, p.shapes, distractor_color(p, *rng.uniform(DARKEST, 1, 2)))
         for _ in range(p.others(targets))
     ]
-    return Scene(tuple(_disclosed(rng, p, objects, len(places))))
+    return with_kind_tags(Scene(tuple(_disclosed(rng, p, objects, len(places)))), p.tags)
 
 
 def _number_of_targets(rng: Generator, p: AbstractParameters, least: int) -> int:

@@ -15,6 +15,7 @@ from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import placed, rotation_y
 from seethrough.tasks.kit.own_models import mesh_of
+from seethrough.tasks.kit.tags import with_kind_tags
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import Floor, random_floor
 from seethrough.tasks.worlds.building.walls import inner_walls, shell
@@ -124,7 +125,7 @@ def _furnished(
         mesh, scale = library[kind](), sizes[kind][0]
         matrix = placed((x, 0.0, z), rotation_y(rng.uniform(0, 2 * np.pi)), scale)
         things.append(Object(mesh, matrix, target=True, kind=kind))
-    scene = Scene((*things, *inner_walls(floor, p), *shell(p)))
+    scene = with_kind_tags(Scene((*things, *inner_walls(floor, p), *shell(p))), p.tags)
     return Building(scene, floor, p, asked, start)
 
 

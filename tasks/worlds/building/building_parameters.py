@@ -8,6 +8,7 @@ from math import pi
 
 from seethrough.renderer.declared import Of, check, key
 from seethrough.tasks.kit.own_models import OwnModel
+from seethrough.tasks.kit.tags import KindTag
 from seethrough.tasks.kit.world import scenes
 
 METRES = 0.5  # in a world unit of the building; the abstract world has no size of its own
@@ -61,6 +62,9 @@ class BuildingParameters:
     )  # fmt: skip
     models: tuple[OwnModel, ...] = key(
         (), "models of the study's own, a table `[[walkthrough.models]]` each"
+    )
+    tags: tuple[KindTag, ...] = key(
+        (), "what things of a kind are; kinds are the models' names, `wall`, `outer wall`, `floor`"
     )
     scenes: str = scenes("shared")
     eye_height: float = key(

@@ -11,14 +11,14 @@ from math import atan2, pi
 import numpy as np
 
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.controls import Walk, changed, walk
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element
+from seethrough.tasks.kit.turning import inset
 from seethrough.tasks.worlds.building.building import Building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
-from seethrough.tasks.worlds.building.current_target import inset, target_picture
 
 AWAY, DIRECTIONS = (7.5, 10.0), 6  # world units from a thing, and sides of it
 MOST_THINGS = 2  # of those asked for, to stand before for an instruction's picture
@@ -48,6 +48,12 @@ class Visit:
 def visit(building: Building, parameters: BuildingParameters) -> Visit:
     """The walker at the building's start."""
     return Visit(building, walk(parameters, building.start), target_picture(building))
+
+
+def target_picture(building: Building) -> Scene:
+    """A scene of the asked thing alone; made once a trial, so that the display can keep it."""
+    mesh = building.scene.objects[building.asked_objects[0]].mesh
+    return Scene((Object(mesh, kind=building.asked),))
 
 
 def before(visit: Visit) -> tuple[Camera, ...]:

@@ -1,4 +1,4 @@
-"""The current target, turning in the upper left corner of the view (Elmqvist2009 §VI)."""
+"""A thing alone, turning in the upper left corner of the view (Elmqvist2009 §VI)."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ from functools import partial
 from math import sin
 
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.controls import turned
 from seethrough.tasks.kit.hud import Inset, Rect
-from seethrough.tasks.worlds.building.building import Building
 
 PLACE = Rect(0.02, 0.02, 0.22, 0.22)
 FOV_Y = 0.7
@@ -17,21 +16,14 @@ PITCH = -0.35
 TURN_RATE = 0.8  # radians a second: once round in eight seconds
 
 
-def target_picture(building: Building) -> Scene:
-    """A scene of the asked thing alone; made once a trial, so that the display can keep it."""
-    mesh = building.scene.objects[building.asked_objects[0]].mesh
-    return Scene((Object(mesh, kind=building.asked),))
-
-
 def inset(picture: Scene, time: float) -> Inset:
-    """The picture at `time`."""
+    """A scene of one thing, at `time`."""
     return Inset(picture, partial(_camera, picture, time), PLACE)
 
 
 def _camera(picture: Scene, time: float) -> Camera:
     """Turned by then; the thing fits the frame whichever way it is turned."""
-    mesh = picture.objects[0].mesh
     rotation = turned(TURN_RATE * time, PITCH)
-    distance = 1.1 * mesh.radius / sin(FOV_Y / 2)
-    eye = mesh.center + rotation[:, 2] * distance
+    distance = 1.1 * float(picture.radii[0]) / sin(FOV_Y / 2)
+    eye = picture.centers[0] + rotation[:, 2] * distance
     return Camera(eye, rotation, FOV_Y, 0.05 * distance, 2 * distance)

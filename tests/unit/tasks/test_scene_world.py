@@ -1,0 +1,240 @@
+"""The world `scene`: tags, places to stand, moving; and the task `locate` in it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scene_files import file_of
+
+from seethrough.tasks.catalog import TASKS, WORLDS, setting
+from seethrough.tasks.kit.events import KeyPress, PointerPress, PointerRelease
+from seethrough.tasks.kit.hud import Inset, Mark, Sought
+from seethrough.tasks.kit.tags import KindTag, Tag
+from seethrough.tasks.kit.world import FileFaults
+from seethrough.tasks.locate.locate_task import LocateParameters
+from seethrough.tasks.select.select_task import MARKED, SelectParameters
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+from seethrough.tasks.worlds.scene.scene_parameters import Item, SceneParameters
+from seethrough.tasks.worlds.scene.scene_place import opened
+
+SCENE, LOCATE, SELECT = WORLDS["scene"], TASKS["locate"], TASKS["select"]
+NODES = [
+    {"name": "hull left", "mesh": 0, "translation": [-5, 0, 0]},
+    {"name": "hull right", "mesh": 0, "translation": [5, 0, 0]},
+    {"name": "pump.001", "mesh": 0, "extras": {"target": 1, "label": "pump"}},
+    {"name": "pump.002", "mesh": 0, "translation": [0, 4, 0],
+     "extras": {"target": True, "label": "pump"}},
+    {"name": "valve", "mesh": 0, "translation": [0, 0, 6], "extras": {"importance": 0.5}},
+    {"name": "stand", "camera": 0, "translation": [0, 3, 20]},
+]  # fmt: skip
+CAMERAS = [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1}}]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "engine.glb").write_bytes(file_of(NODES, range(6), cameras=CAMERAS))
+    return tmp_path
+
+
+def read(folder, **more):
+    return SCENE.found(SceneParameters(("engine.glb",), **more), folder)
+
+
+def test_tags_come_from_the_file_then_from_the_table_and_the_last_one_holds(folder):
+    p = read(
+        folder,
+        tags=(
+            Tag("hull*", group="body", wall=True),
+            Tag("hull right", wall=False, impenetrable=True),
+            Tag("valve", target=True),
+            Tag("pump.002", occluder=True),
+        ),
+    )
+    place = opened(p, "engine.glb")
+    left, right, one, two, valve = place.scene.objects
+    assert [o.target for o in place.scene.objects] == [False, False, True, False, True]
+    assert (left.kind, right.kind) == ("wall", "hull right")
+    assert left.group == right.group is not None
+    assert one.group is None
+    assert [o.impenetrable for o in (left, right)] == [False, True]
+    assert (valve.importance, one.importance) == (0.5, 0.0)
+    assert place.labels == ("hull left", "hull right", "pump", "pump", "valve")
+    assert place.alike(2) == (2, 3)
+    assert two.kind == "pump.002"
+
+
+def test_units_and_the_axis_upwards_are_the_studys(folder):
+    """A millimetre is a thousandth; where z points up, what was up lies towards the viewer."""
+    plain, small = read(folder), read(folder, unit=0.001, up="z")
+    a, b = (opened(p, "engine.glb").scene.centers for p in (plain, small))
+    a, b = a - a[0], b - b[0]
+    assert np.allclose(b, 0.001 * np.stack([a[:, 0], a[:, 2], -a[:, 1]], axis=1), atol=1e-12)
+
+
+def test_an_orbit_is_about_the_middle_or_about_what_the_study_names(folder):
+    for about, name in (("", None), ("valve", "valve")):
+        place = opened(read(folder, about=about), "engine.glb")
+        corners = place.scene.corners.reshape(-1, 3)
+        middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+        if name is not None:
+            middle = place.scene.centers[place.names.index(name)]
+        assert np.allclose(middle, 0, atol=1e-9)
+        far = np.linalg.norm(place.scene.centers, axis=1) + place.scene.radii
+        assert place.radius >= far.max() - 1e-9
+
+
+def test_a_camera_of_the_file_is_where_one_begins(folder):
+    """Standing there, walking from there, or on that side of an orbit."""
+    for move in ("fixed", "walk"):
+        p = read(folder, move=move, start="stand")
+        camera = SCENE.viewer(opened(p, "engine.glb"), p, 4 / 3).camera()
+        assert np.allclose(camera.eye[[0, 2]], (0, 20))
+        assert np.allclose(camera.forward, (0, 0, -1))
+    p = read(folder, start="stand")
+    eye = SCENE.viewer(opened(p, "engine.glb"), p, 4 / 3).camera().eye
+    (stand,) = opened(p, "engine.glb").cameras.values()
+    assert np.allclose(eye / np.linalg.norm(eye), stand.eye / np.linalg.norm(stand.eye))
+
+
+def test_fixed_views_step_round():
+    """The office has four cameras: once round is where one began."""
+    p = SceneParameters(("office",), move="fixed")
+    viewer = SCENE.viewer(opened(p, "office"), p, 4 / 3)
+    seen = [viewer.camera()]
+    for time in range(4):
+        viewer = viewer.on_event(KeyPress(float(time), "right"))
+        seen.append(viewer.camera())
+    assert len({tuple(c.eye.tolist()) for c in seen}) == 4
+    assert seen[0] is seen[4]
+    assert viewer.on_event(KeyPress(9.0, "left")).camera() is seen[3]
+
+
+def test_what_a_data_folder_keeps_is_the_scene(folder, tmp_path):
+    """Array for array, though the file is gone."""
+    p = read(folder, tags=(Tag("valve", target=True),))
+    kept = tmp_path / "models"
+    kept.mkdir()
+    for name, content in SCENE.keeps(p).items():
+        (kept / name).write_bytes(content())
+    before = opened(p, "engine.glb")
+    (folder / "engine.glb").unlink()
+    after = opened(SCENE.kept_in(p, kept), "engine.glb")
+    assert after.names == before.names and after.labels == before.labels
+    assert np.array_equal(after.scene.transforms, before.scene.transforms)
+    for a, b in zip(after.scene.objects, before.scene.objects, strict=True):
+        assert np.array_equal(a.mesh.vertices, b.mesh.vertices)
+        assert (a.target, a.kind, a.group) == (b.target, b.kind, b.group)
+    with pytest.raises(FileFaults, match="expected the scene as it was shown"):
+        SCENE.kept_in(replace(p, detail=7), kept)
+
+
+def test_items_are_every_target_of_every_file_or_those_that_the_study_lists(folder):
+    p = read(folder)
+    assert [a.place.names[a.thing] for a in SCENE.items(p)] == ["pump.001", "pump.002"]
+    p = read(folder, items=(Item("pump.002", start="stand"), Item("pump.001")))
+    first, second = SCENE.items(p)
+    assert (first.place.start, second.place.start) == ("stand", "")
+    assert [a.place.names[a.thing] for a in (first, second)] == ["pump.002", "pump.001"]
+    assert first.place.scene is second.place.scene
+
+
+def located(folder, **own):
+    p = read(folder, tags=(Tag("valve", target=True),))
+    at = setting(LOCATE, p, LocateParameters(**own))
+    made = LOCATE.make_scene(np.random.default_rng(1), replace(at, item=2))  # the valve
+    return LOCATE.begin(made, at, 4 / 3)
+
+
+def clicked(state, *things):
+    for k, thing in enumerate(things):
+        for event in (
+            PointerPress(k + 0.5, 0.5, 0.5, thing=thing),
+            PointerRelease(k + 0.6, 0.5, 0.5),
+        ):
+            state = LOCATE.on_event(state, event)
+    return state
+
+
+def test_a_trial_of_locate_ends_with_the_right_click_and_counts_the_wrong_ones(folder):
+    state = located(folder)
+    said = next(e for e in LOCATE.view(state).hud if isinstance(e, Sought))
+    assert said.values == (("what", "valve"),) and said.things == (4,)
+    state = clicked(state, 0, -1)
+    assert LOCATE.outcome(state) is None
+    done = LOCATE.outcome(clicked(state, 4))
+    assert (done.answer, done.truth, done.correct) == ("valve", "valve", True)
+    assert done.value("wrong_clicks") == 2
+
+
+def test_tries_end_a_trial_with_what_was_clicked_last(folder):
+    done = LOCATE.outcome(clicked(located(folder, tries=2), 0, 1))
+    assert (done.answer, done.correct, done.value("wrong_clicks")) == ("hull right", False, 2)
+    assert LOCATE.outcome(clicked(located(folder, tries=1), -1)).answer == "nothing"
+
+
+def test_either_thing_of_one_name_is_right(folder):
+    p = read(folder)
+    at = setting(LOCATE, p, LocateParameters())
+    state = LOCATE.begin(
+        LOCATE.make_scene(None or np.random.default_rng(1), replace(at, item=0)), at, 1.5
+    )
+    assert LOCATE.outcome(clicked(state, 3)).correct
+
+
+def test_a_picture_says_what_to_look_for(folder):
+    hud = LOCATE.view(located(folder, show="picture")).hud
+    said = next(e for e in hud if isinstance(e, Sought))
+    assert said.text == "locate.pictured" and not said.values
+    assert any(isinstance(e, Inset) for e in hud)
+
+
+@pytest.mark.parametrize(
+    ("mark", "rings", "colored"), [("under", 0, 1), ("over", 1, 0), ("both", 1, 1)]
+)
+def test_select_marks_its_only_target_under_the_technique_or_over_it(mark, rings, colored):
+    at = setting(SELECT, AbstractParameters(objects=40), SelectParameters(mark=mark))
+    made = SELECT.make_scene(np.random.default_rng(3), at)
+    view = SELECT.view(SELECT.begin(made, at, 4 / 3))
+    assert view.scene.targets.sum() == 1 and view.scene.targets[made.thing]
+    assert sum(o.color == MARKED for o in view.scene.objects) == colored
+    found = [e for e in view.hud if isinstance(e, Mark)]
+    assert len(found) == rings
+    if rings:  # about the thing's middle as the camera sees it
+        x, y, z = (view.scene.centers[made.thing] - view.camera.eye) @ view.camera.rotation
+        half = 2 * -z * np.tan(view.camera.fov_y / 2)
+        assert found[0].at == pytest.approx((2 / 3 + x / half, 0.5 - y / half))
+
+
+def test_select_counts_misses():
+    at = setting(SELECT, AbstractParameters(objects=40), SelectParameters())
+    made = SELECT.make_scene(np.random.default_rng(3), at)
+    state = SELECT.begin(made, at, 4 / 3)
+    for k, thing in enumerate((-1, (made.thing + 1) % 40, made.thing)):
+        assert SELECT.outcome(state) is None
+        for event in (
+            PointerPress(k + 0.5, 0.5, 0.5, thing=thing),
+            PointerRelease(k + 0.6, 0.5, 0.5),
+        ):
+            state = SELECT.on_event(state, event)
+    assert SELECT.outcome(state).value("misses") == 2
+
+
+def test_generated_worlds_take_tags_by_kind():
+    """Groups and what is impenetrable, of shapes and of walls; nothing else changes."""
+    tags = (KindTag("s*", impenetrable=True), KindTag("torus", group="rings"))
+    plain, told = (
+        WORLDS["abstract"]
+        .make(np.random.default_rng(1), AbstractParameters(objects=60, tags=t))
+        .scene
+        for t in ((), tags)
+    )
+    assert np.array_equal(plain.transforms, told.transforms)
+    assert not plain.impenetrable.any()
+    kinds = np.array([o.kind for o in told.objects])
+    assert np.array_equal(told.impenetrable, kinds == "sphere")
+    assert {o.group for o in told.objects if o.kind == "torus"} == {0}
+    assert {o.group for o in told.objects if o.kind != "torus"} == {None}
+    p = BuildingParameters(grid=6, objects=14, tags=(KindTag("*wall", impenetrable=False),))
+    walls = WORLDS["building"].make(np.random.default_rng(1), p).scene.objects
+    assert {o.kind for o in walls if o.impenetrable} == {"floor"}
