@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, Plate, Section
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard
@@ -33,11 +33,17 @@ def looks(world: str) -> dict[str, Look]:
 
 def sections(scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[Section]:
     """Scenes by the name of the world, and from where they are seen."""
-    ways: tuple[tuple[str, Parameters], ...] = (("standard", Standard()), ("dynamic", DYNAMIC))
+    ways: tuple[Parameters, ...] = (Standard(), DYNAMIC)
     plates = tuple(
-        Plate(f"look-{world}-{way}-{name}", f"{name}; {way}", dressed(scene, look), camera, p)
+        Plate(
+            f"look-{world}-{p.technique.name}-{name}",
+            f"{name}; {p.technique.name}",
+            dressed(scene, look),
+            camera,
+            p,
+        )
         for world, (scene, camera) in scenes.items()
-        for way, p in ways
+        for p in ways
         for name, look in looks(world).items()
     )
     yield Section(

@@ -62,7 +62,7 @@ def _views(aspect: float, seed: int) -> dict[str, tuple[Scene, Camera]]:
 
 def _scenes(aspect: float, scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[Plate]:
     """The scenes, each drawn both ways, and the contact sheet of the models."""
-    from seethrough.renderer.models.forms.sheet import contact_sheet_scene
+    from seethrough.renderer.models.sheet import contact_sheet_scene
 
     captions = {
         "abstract": "The abstract world: 200 shapes, the red ones are targets",

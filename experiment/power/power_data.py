@@ -13,8 +13,8 @@ from seethrough.analysis.cells import people as people_of
 from seethrough.analysis.design import Design
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.exclude import apply_rules
+from seethrough.analysis.load.plan import make_plan
 from seethrough.analysis.load.study import load_study
-from seethrough.analysis.plan import make_plan
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.measured import OVERALL, pair_key, pairs_of
 from seethrough.experiment.errors import InputError

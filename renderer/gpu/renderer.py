@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from typing import Any
 
 import moderngl
 import numpy as np
@@ -156,7 +155,7 @@ class Renderer:
         return plan(scene, camera, technique, size, self.without, size[1] / self.size[1], state)
 
     def shares(
-        self, scene: Scene, camera: Camera, technique: Any, size: tuple[int, int]
+        self, scene: Scene, camera: Camera, technique: Parameters, size: tuple[int, int]
     ) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
         """What each pixel shows when it is sorted by itself: from the front, objects + 1 (h, w),
         0 for none, and their shares of the pixel (h, w)."""

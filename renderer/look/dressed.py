@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from seethrough.renderer.look.floor import KIND
-from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene import geometry
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import placed
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from seethrough.renderer.arrays import Bools, Floats
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 
 KIND = "floor"
 STEEP = 0.5  # the least cosine between a floor's surface and the vertical

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seethrough.renderer.look import floor, fog
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Color
 
 GLSL = floor.GLSL + fog.GLSL

@@ -22,7 +22,7 @@ from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene import lighting
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Parameters, Shot, Surfaces
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ class ExactPicture:
 
 
 def exact(
-    scene: Scene, camera: Camera, technique: Own, size: tuple[int, int], state: object = None
+    scene: Scene, camera: Camera, technique: Parameters, size: tuple[int, int], state: object = None
 ) -> ExactPicture:
     """The picture of `size` (width, height) as a technique with these parameters defines it,
     without approximation. Without a `state` it is the one before the first event."""

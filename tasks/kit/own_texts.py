@@ -6,7 +6,6 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import resources
-from typing import Any
 
 
 class OwnTexts(Mapping[str, Mapping[str, str]]):
@@ -39,12 +38,12 @@ def _read(package: str, language: str) -> Mapping[str, str]:
     return flat(tomllib.loads(file.read_text(encoding="utf-8")))
 
 
-def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
+def flat(table: Mapping[str, object], prefix: str = "") -> dict[str, str]:
     """Texts in tables as one table, by the names `table.key`."""
     found: dict[str, str] = {}
     for key, value in table.items():
         if isinstance(value, Mapping):
             found |= flat(value, f"{prefix}{key}.")
         else:
-            found[prefix + key] = value
+            found[prefix + key] = str(value)
     return found

@@ -11,10 +11,10 @@ import pytest
 from seethrough.experiment.suites import technique_scenes
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import named
 

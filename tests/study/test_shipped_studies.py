@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from seethrough.benchmarks import studies
+from seethrough.benchmarks.sessions import studies
 from seethrough.experiment.study.config import load, shipped
 
 

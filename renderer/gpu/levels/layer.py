@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
@@ -28,7 +28,10 @@ from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
 from seethrough.renderer.techniques.base import PEELS, REMOVAL, Parameters, Shot
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
+    DynamicTransparency,
+    by_masks,
+)
 
 if TYPE_CHECKING:
     from seethrough.renderer.gpu.levels.cluster_painter import ClusterPainter
@@ -68,7 +71,7 @@ class Layer:
         self._context, self._store = context, store
         self._look = tuple(look)
         defines = [*(["WITH_IDS"] if ids else []), *look]
-        self._defines, self._ruled = defines, dict[str, Any]()
+        self._defines, self._ruled = defines, dict[str, PeelPainter | RemovalPainter]()
         self.peeled: list[Drawn] = []  # layers of the last frame with ids, from the back
         self._object = program(context, "object.vert", "object.frag", defines)
         bare = [d for d in defines if not d.startswith("FLOOR")]
@@ -86,7 +89,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: Any,
+        technique: Parameters,
         target: FrameTarget,
         scale: float = 1.0,
         after_level: AfterLevel | None = None,
@@ -191,7 +194,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: DynamicTransparency,
+        technique: Parameters,
         size: tuple[int, int],
         scale: float,
     ) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
@@ -208,16 +211,11 @@ class Layer:
         return self._exact
 
     def _job(
-        self,
-        table: SceneTable,
-        frame: FramePlan,
-        camera: Camera,
-        technique: DynamicTransparency,
-        scale: float,
-        size: tuple[int, int],
-    ) -> ExactJob:
-        width = technique.width * scale
-        return ExactJob(table, frame, camera, technique, width, size, self._matrix)
+        self, table: SceneTable, frame: FramePlan, camera: Camera, technique: Parameters,
+        scale: float, size: tuple[int, int],
+    ) -> ExactJob:  # fmt: skip
+        own = by_masks(technique)
+        return ExactJob(table, frame, camera, own, own.width * scale, size, self._matrix)
 
     def _set_state(self) -> None:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
@@ -228,7 +226,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: DynamicTransparency,
+        technique: Parameters,
         scale: float,
         size: tuple[int, int],
     ) -> tuple[list[list[Run]], list[list[Run]]]:
@@ -245,9 +243,9 @@ class Layer:
             parts += [alone[~wide[alone]], alone[wide[alone]]]
         extra = []
         if frame.levels:
-            width = technique.width * scale
-            extra = self._masks.prepare(table, frame, camera, technique, width, size)
-            counted = _counted(frame, technique)
+            own = by_masks(technique)
+            extra = self._masks.prepare(table, frame, camera, own, own.width * scale, size)
+            counted = _counted(frame, own)
             if len(counted):
                 occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
                 extra = [*extra, counted, occluders]
@@ -260,7 +258,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: DynamicTransparency,
+        technique: Parameters,
         runs: list[list[Run]],
         size: tuple[int, int],
     ) -> moderngl.Texture | None:
@@ -270,7 +268,7 @@ class Layer:
         draws = self._masks.draw_distances(table, runs[:whole], camera)
         self._passes += draws > 0
         self._draws += draws
-        if not len(_counted(frame, technique)):
+        if not len(_counted(frame, by_masks(technique))):
             return None
         return self._count(size, runs[-2], runs[-1])
 
@@ -356,11 +354,11 @@ class Layer:
         camera: Camera,
         frame: FramePlan,
         runs: list[list[Run]],
-        technique: DynamicTransparency,
+        technique: Parameters,
         target: FrameTarget,
         after_level: AfterLevel | None,
     ) -> None:
-        every = "prepass" in frame.without
+        every, least = "prepass" in frame.without, by_masks(technique).combine == "min"
         for k, level in enumerate(frame.levels):
             for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
                 if wide and part:
@@ -373,7 +371,7 @@ class Layer:
             if after_level is not None and len(level.objects):
                 after_level(level.objects)
             if len(level.masks):
-                self._draw_masks(level.masks, technique.combine == "min")
+                self._draw_masks(level.masks, least)
 
     def _draw_masks(self, targets: NDArray[np.int64], least: bool) -> None:
         context = self._context

@@ -7,7 +7,6 @@ is worth.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,7 +47,7 @@ class Constant(Layering):
         """The same for each surface."""
         return self.look(p, seen, np.full(len(seen.depth), p.alpha))
 
-    def uniforms(self, p: ConstantParameters, state: Own, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: ConstantParameters, state: Own, shot: Shot) -> dict[str, object]:
         """The opacity."""
         return {**super().uniforms(p, state, shot), "alpha": p.alpha}
 

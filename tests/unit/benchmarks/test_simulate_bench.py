@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seethrough.benchmarks import simulate
+from seethrough.benchmarks.sessions import simulate
 from seethrough.experiment import cli
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, Tick
 
