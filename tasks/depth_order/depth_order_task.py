@@ -56,6 +56,10 @@ class DepthOrder(Basics):
     texts: Texts = OwnTexts("seethrough.tasks.depth_order")
     simulate = STRATEGY
 
+    def controls(self, setting: Setting) -> str:
+        """Nothing moves."""
+        return "depth_order.still"
+
     def make_scene(self, rng: Generator, setting: Setting) -> Marked:
         """A place, a view and a pair."""
         return marked(rng, setting, setting.task.ratio)
