@@ -15,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
+import broken_scenes
 import numpy as np
 
 from seethrough.experiment.study.config import find
@@ -325,6 +326,14 @@ def _is_table(data: bytes) -> bool:
     return True
 
 
+def _scene(kind: str, rng: np.random.Generator) -> Case:
+    """A table of a scene, its tags or its items."""
+    what, scene = broken_scenes.broken(rng)
+    study = copy.deepcopy(BASE)
+    study["world"]["scene"] = scene
+    return _done(kind, what, study)
+
+
 KINDS: dict[str, Callable[[str, np.random.Generator], Case]] = {
     "unknown key": _unknown_key,
     "wrong type": _wrong_type,
@@ -341,6 +350,7 @@ KINDS: dict[str, Callable[[str, np.random.Generator], Case]] = {
     "factor": _factor,
     "as saved": _as_saved,
     "twice": _twice,
+    "scene": _scene,
 }
 
 
