@@ -137,6 +137,8 @@ class Item:
 
     `each`: the factors that it is asked for each level of, none where it is asked once. `scale` of
     one group (`group`) are averaged. `of`: a factor that a preference is between two levels of.
+    `parts`: the items that a sum is made of; `reverse`: which of them, or of the group, count the
+    other way round. `points` of a scale, the lowest counting `low`.
     """
 
     name: str
@@ -146,6 +148,8 @@ class Item:
     of: str = ""
     points: int | None = None
     low: float = 0.0
+    parts: tuple[str, ...] = ()
+    reverse: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

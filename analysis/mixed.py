@@ -63,7 +63,7 @@ class MixedEffect:
 
 
 @dataclass(frozen=True, slots=True)
-class _Layout:
+class Layout:
     """The fixed columns, the factor's columns among them, and who and where each row is."""
 
     fixed: NDArray[np.float64]
@@ -95,6 +95,44 @@ def _none(n: int, trials: int, why: str, level: str) -> MixedEffect:
     )
 
 
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """Log times in units of `unit` (n,), less the first; what they are fitted on, and the levels of
+    the main factor that are set against its baseline."""
+
+    y: NDArray[np.float64]
+    unit: float
+    layout: Layout
+    factor: Factor
+    others: tuple[str, ...]
+
+
+def rows_of(trials: pd.DataFrame, design: Design, factor: Factor) -> Rows | str:
+    """The trials as a model takes them, or why there is nothing to fit."""
+    met = trials.groupby("participant", observed=True)[factor.name].nunique()
+    n = int((met == len(factor.levels)).sum())
+    if levels_of(trials, [factor])[factor.name] != factor.levels:
+        return f"not every level of {factor.name} was met"
+    if n < 3:
+        return "fewer than three participants with every level"
+    if len(met) > MOST_PARTICIPANTS:
+        return (
+            f"left out for more than {MOST_PARTICIPANTS} participants, where it takes minutes and "
+            "agrees with the contrast scores"
+        )
+    others = tuple(level for level in factor.levels if level != factor.baseline)
+    layout = _layout(trials, design, factor, others, n)
+    if np.linalg.matrix_rank(layout.fixed) < layout.fixed.shape[1]:
+        return "not every task was met under every level"
+    y = np.log(trials["time"].to_numpy())
+    if is_constant(y):
+        return "all times are equal"
+    # no offset and a spread of one: sums of squares of logs near 20.7 that differ by 10⁻⁸ cancel
+    apart = y - y[0]
+    unit = float(np.std(apart))
+    return Rows(apart / unit, unit, layout, factor, others)
+
+
 def mixed_model(trials: pd.DataFrame, design: Design) -> list[MixedEffect]:
     """log time ~ main factor × task × the other factors with the fullest random terms, by REML.
 
@@ -103,37 +141,17 @@ def mixed_model(trials: pd.DataFrame, design: Design) -> list[MixedEffect]:
     factor = design.main
     if factor is None:
         return []
-    others = [level for level in factor.levels if level != factor.baseline]
+    rows = rows_of(trials, design, factor)
+    if isinstance(rows, Rows):
+        return _fullest(rows)
     met = trials.groupby("participant", observed=True)[factor.name].nunique()
-    n, count = int((met == len(factor.levels)).sum()), len(trials)
-
-    def nothing(why: str) -> list[MixedEffect]:
-        return [_none(n, count, why, level) for level in others]
-
-    if levels_of(trials, [factor])[factor.name] != factor.levels:
-        return nothing(f"not every level of {factor.name} was met")
-    if n < 3:
-        return nothing("fewer than three participants with every level")
-    if len(met) > MOST_PARTICIPANTS:
-        return nothing(
-            f"left out for more than {MOST_PARTICIPANTS} participants, where it takes minutes and "
-            "agrees with the contrast scores"
-        )
-    layout = _layout(trials, design, factor, others, n)
-    if np.linalg.matrix_rank(layout.fixed) < layout.fixed.shape[1]:
-        return nothing("not every task was met under every level")
-    y = np.log(trials["time"].to_numpy())
-    if is_constant(y):
-        return nothing("all times are equal")
-    # no offset and a spread of one: sums of squares of logs near 20.7 that differ by 10⁻⁸ cancel
-    apart = y - y[0]
-    unit = float(np.std(apart))
-    return _fullest(apart / unit, layout, factor, others, unit)
+    n = int((met == len(factor.levels)).sum())
+    return [_none(n, len(trials), rows, c.level) for c in factor.contrasts()]
 
 
 def _layout(
     trials: pd.DataFrame, design: Design, factor: Factor, others: Sequence[str], n: int
-) -> _Layout:
+) -> Layout:
     """Each level's column is its indicator less 1/k, so that its coefficient is level − baseline at
     the mean of all else, which is sum-coded and crossed with it.
 
@@ -154,13 +172,13 @@ def _layout(
             else:
                 rest = np.column_stack([rest, coded[:, 1:]])
     if not crossed:
-        return _Layout(np.column_stack([rest[:, :1], level, rest[:, 1:]]), *_who(trials, level),
+        return Layout(np.column_stack([rest[:, :1], level, rest[:, 1:]]), *_who(trials, level),
                        len(levels["task"]), n, n - _groups(trials, design))  # fmt: skip
     both = np.einsum("ni,nj->nij", level, rest).reshape(len(trials), -1)
     slots = np.arange(len(others)) * rest.shape[1]
     left = np.setdiff1d(np.arange(both.shape[1]), slots)
     fixed = np.column_stack([rest[:, :1], both[:, slots], rest[:, 1:], both[:, left]])
-    return _Layout(fixed, *_who(trials, level), len(levels["task"]), n, n - _groups(trials, design))
+    return Layout(fixed, *_who(trials, level), len(levels["task"]), n, n - _groups(trials, design))
 
 
 def _who(
@@ -179,30 +197,28 @@ def _groups(trials: pd.DataFrame, design: Design) -> int:
     return len(trials[[f.name for f in design.groups]].astype("str").drop_duplicates())
 
 
-def _fullest(
-    y: NDArray[np.float64], layout: _Layout, factor: Factor, others: Sequence[str], unit: float
-) -> list[MixedEffect]:
-    """The first of `MODELS` that has fewer random effects than there are rows, and converges.
-
-    `y` is in units of `unit`.
-    """
-    groups = {
-        "participant": int(layout.person.max()) + 1,
-        "task": len(np.unique(layout.person * layout.tasks + layout.task)),
-    }
-    one = np.ones((len(y), 1))
+def person_terms(layout: Layout) -> dict[str, tuple[reml.Term, int]]:
+    """Each random term of a person with how many groups it has."""
+    one = np.ones((len(layout.level), 1))
     both = np.column_stack([one, layout.level])
-    whole = np.zeros(len(y), dtype=np.intp)
-    terms = {
-        SLOPES: (reml.Term(both, whole, 1), groups["participant"]),
-        TASK_SLOPES: (reml.Term(both, layout.task, layout.tasks), groups["task"]),
-        TASK_LEVELS: (reml.Term(one, layout.task, layout.tasks), groups["task"]),
-        LEVELS: (reml.Term(one, whole, 1), groups["participant"]),
+    whole = np.zeros(len(one), dtype=np.intp)
+    people = int(layout.person.max()) + 1
+    pairs = len(np.unique(layout.person * layout.tasks + layout.task))
+    return {
+        SLOPES: (reml.Term(both, whole, 1), people),
+        TASK_SLOPES: (reml.Term(both, layout.task, layout.tasks), pairs),
+        TASK_LEVELS: (reml.Term(one, layout.task, layout.tasks), pairs),
+        LEVELS: (reml.Term(one, whole, 1), people),
     }
-    given_up = []
+
+
+def _fullest(rows: Rows) -> list[MixedEffect]:
+    """The first of `MODELS` that has fewer random effects than there are rows, and converges."""
+    y, layout, factor = rows.y, rows.layout, rows.factor
+    terms, given_up = person_terms(layout), []
     for names in MODELS:
         chosen = [terms[name] for name in names]
-        said = _said(names, factor)
+        said = said_of(names, factor)
         if layout.tasks == 1 and len(names) > 1:  # the same groups twice
             continue
         if any(count * term.size >= len(y) for term, count in chosen):
@@ -216,24 +232,26 @@ def _fullest(
         except np.linalg.LinAlgError:
             given_up.append(f"{said}: cannot be fitted")
             continue
-        if found.converged and np.all(found.errors[1 : len(others) + 1] > 0):
+        if found.converged and np.all(found.errors[1 : len(rows.others) + 1] > 0):
             return [
-                _effect(found, names, factor, level, i, layout, len(y), unit, tuple(given_up))
-                for i, level in enumerate(others, start=1)
+                _effect(found, names, rows, level, i, tuple(given_up))
+                for i, level in enumerate(rows.others, start=1)
             ]
         given_up.append(f"{said}: did not converge")
     why = "no model of these trials can be fitted"
-    return [_none(layout.n, len(y), why, level) for level in others]
+    return [_none(layout.n, len(y), why, level) for level in rows.others]
 
 
-def _said(names: Sequence[str], factor: Factor) -> str:
+def said_of(names: Sequence[str], factor: Factor) -> str:
+    """Random terms in lme4's words."""
     return " + ".join(names).replace("{}", factor.name)
 
 
 def _effect(
-    found: reml.Fit, names: tuple[str, ...], factor: Factor, level: str, at: int, layout: _Layout,
-    count: int, unit: float, given_up: tuple[str, ...],
+    found: reml.Fit, names: tuple[str, ...], rows: Rows, level: str, at: int,
+    given_up: tuple[str, ...],
 ) -> MixedEffect:  # fmt: skip
+    unit, layout = rows.unit, rows.layout
     estimate, error = unit * float(found.beta[at]), unit * float(found.errors[at])
     half = t_quantile(0.975, layout.df) * error
     slopes = {
@@ -244,7 +262,7 @@ def _effect(
     gone = Undefined("not in the model")
     return MixedEffect(
         layout.n,
-        count,
+        len(rows.y),
         estimate,
         error,
         estimate / error,
@@ -253,7 +271,7 @@ def _effect(
         (float(np.exp(estimate - half)), float(np.exp(estimate + half))),
         slopes.get(SLOPES, gone),
         slopes.get(TASK_SLOPES, gone),
-        _said(names, factor),
+        said_of(names, rows.factor),
         found.singular,
         level,
         layout.df,

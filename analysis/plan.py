@@ -21,7 +21,8 @@ class Plan:
     """The analysis as it runs. `frozen` is the study's [analysis] table, None if it has none.
 
     `margins`: what the study declared to be no difference that matters, by measure; what is not in
-    it has no margin. `too_fast`: the limit of that exclusion rule, seconds.
+    it has no margin. `too_fast`: the limit of that exclusion rule, seconds. `pairwise`: factors of
+    which every pair of levels is compared; `aligned_ranks`: whether they were asked for.
     """
 
     alpha: float
@@ -33,6 +34,8 @@ class Plan:
     participants: int | None
     trials: int | None
     too_fast: float = TOO_FAST
+    pairwise: tuple[str, ...] = ()
+    aligned_ranks: bool = False
 
 
 def digest(value: Any) -> str:
@@ -42,9 +45,14 @@ def digest(value: Any) -> str:
 
 
 def make_plan(
-    study: Study, alpha: float | None = None, exclude: Sequence[str] | None = None
+    study: Study,
+    alpha: float | None = None,
+    exclude: Sequence[str] | None = None,
+    pairwise: Sequence[str] = (),
+    aligned_ranks: bool = False,
 ) -> Plan:
-    """The frozen plan, with what was asked on the command line instead, listed as deviations."""
+    """The frozen plan, with what was asked on the command line instead or beside, listed as
+    deviations. Raises DataError."""
     configs = [config_of(sidecar) for sidecar in study.sidecars.values()]
     frozen = next((c["analysis"] for c in configs if isinstance(c.get("analysis"), Mapping)), None)
     table = frozen or {}
@@ -53,6 +61,11 @@ def make_plan(
     used_out = planned_out if exclude is None else tuple(exclude)
     if not 0 < used_alpha < 1:
         raise DataError(f"alpha = {used_alpha}: expected a number between 0 and 1")
+    pairs = tuple(dict.fromkeys([*table.get("pairwise", ()), *pairwise]))
+    for name in pairs:
+        if name not in study.design.levels:
+            known = ", ".join(study.design.levels) or "no factor"
+            raise DataError(f"analysis.pairwise = {name!r}: expected among {known}")
     tests = tuple(table.get("tests", ()))
     unknown = [t for t in tests if t not in TESTS]
     if unknown:
@@ -65,6 +78,10 @@ def make_plan(
     )
     deviations = [
         *_choices(frozen, (planned_alpha, used_alpha), (planned_out, used_out)),
+        *_further(
+            [name for name in pairwise if name not in table.get("pairwise", ())],
+            aligned_ranks and table.get("aligned_ranks") is not True,
+        ),
         *_collection(study, configs, design, about),
     ]
     return Plan(
@@ -77,7 +94,17 @@ def make_plan(
         about.get("participants"),
         design.get("trials"),
         _number("too_fast", table.get("too_fast", TOO_FAST), 0),
+        pairs,
+        aligned_ranks or table.get("aligned_ranks") is True,
     )
+
+
+def _further(new: Sequence[str], aligned: bool) -> list[str]:
+    """Tests that were asked for with the report, not planned."""
+    lines = [f"All pairs of {', '.join(new)} were not planned; they were asked for."] if new else []
+    if aligned:
+        lines.append("Aligned ranks were not planned; they were asked for.")
+    return lines
 
 
 def _number(name: str, value: Any, above: float) -> float:

@@ -55,13 +55,15 @@ class Options:
     source: str | None = None
     alpha: float | None = None
     exclude: Sequence[str] | None = None
+    pairwise: tuple[str, ...] = ()
+    aligned_ranks: bool = False
     seed: int = 1
 
 
 def make_report(data: Path, options: Options) -> Report:
     """Load, analyse, and put into words; nothing is written. Raises DataError."""
     study = load_study(data, options.source)
-    plan = make_plan(study, options.alpha, options.exclude)
+    plan = make_plan(study, options.alpha, options.exclude, options.pairwise, options.aligned_ranks)
     trials, excluded = apply_rules(study.trials, plan.exclude, plan.too_fast)
     context = Context(study, plan, trials, excluded, options.seed)
     sections = _sections(context)
@@ -70,7 +72,7 @@ def make_report(data: Path, options: Options) -> Report:
         banner = f"{banner} {UNCHAINED}".strip()
     subtitle = f"Study {study.name}. Source: {study.source}. {study.description}"
     sections[-1] = with_dictionary(sections)
-    script = as_r(_title(study), study.source, plan.alpha, study.design, _facts(context, sections))
+    script = as_r(_title(study), study.source, plan, study.design, _facts(context, sections))
     return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections), script)
 
 
@@ -106,12 +108,13 @@ def with_dictionary(sections: Sequence[Section]) -> Section:
 def _facts(context: Context, sections: Sequence[Section]) -> dict[str, Any]:
     """What the script in R has to know of this report's choices."""
     tables = {b.key: b for s in sections for b in walk(s.blocks) if isinstance(b, Table)}
-    mixed = tables.get("mixed_model")
+    mixed, scenes = tables.get("mixed_model"), tables.get("mixed_scenes")
     design = context.design
     levels = levels_of(context.trials, design.crossed)
     shape = (1, *(len(known) for known in levels.values()))
     whole, _ = complete(design, Cells(np.zeros(shape), np.ones(shape, np.intp), ("",), levels))
-    return {"omnibus": whole.factors, "model": mixed.rows[0]["model"] if mixed else ""}
+    return {"omnibus": whole.factors, "model": mixed.rows[0]["model"] if mixed else "",
+            "scenes": scenes.rows[0]["model"] if scenes else ""}  # fmt: skip
 
 
 def _title(study: Study) -> str:

@@ -20,6 +20,7 @@ BENCHES = (
     "looks",
     "ordering",
     "ordering_accuracy",
+    "predictions",
     "session",
     "simulate",
     "speed",

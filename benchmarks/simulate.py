@@ -22,7 +22,7 @@ from typing import Any, TypeVar
 from seethrough.benchmarks import eyes
 from seethrough.benchmarks.memory import Watch
 from seethrough.benchmarks.rows import Row, row
-from seethrough.experiment.people.fitted.calibration import FITTED, HELD_OUT, measured, published
+from seethrough.experiment.people.fitted.calibration import ENOUGH, FITTED, SEEN, lines, measured
 from seethrough.experiment.people.fitted.fitting import Crowd
 from seethrough.experiment.people.persons.profile_file import find
 from seethrough.experiment.people.runs import batch, data_run
@@ -154,25 +154,16 @@ def many(job: batch.Batch, count: int = MANY) -> Iterator[Row]:
 
 
 def calibration(job: batch.Batch, profile: Profile) -> Iterator[Row]:
-    """How far simulated times lie from the published ones, fitted and held-out half.
+    """How many standard errors simulated measures lie from the published ones.
 
     As `calibrate` plays: trial by trial, so that the session's limit ends nobody's half-way.
     """
     assert job.tables is not None
     crowd = Crowd(job.seed, PEOPLE, drawing(load(STUDY), job.pool, KeptLooks(job.tables)))
-    found = measured(crowd.play(profile, (*FITTED, *HELD_OUT)))
-    for half, tasks in (("fitted", FITTED), ("held out", HELD_OUT)):
-        means = max(_off(found[t].means, published()[t].means) for t in tasks)
-        sds = max(_off(found[t].sds, published()[t].sds) for t in tasks)
-        r = max(abs(found[t].r - published()[t].r) for t in tasks)
-        goals = [(0.15, 0.05), (0.30, 0.15), (0.2, 0.1)] if half == "fitted" else [(None, None)] * 3
-        names = ("means", means, "share"), ("s.d.", sds, "share"), ("r", r, "")
-        for (what, value, unit), (must, aim) in zip(names, goals, strict=True):
-            yield row(f"time {what} off, {half}", STUDY, value, unit, must, aim)
-
-
-def _off(ours: Sequence[float], theirs: Sequence[float]) -> float:
-    return max(abs(a / b - 1) for a, b in zip(ours, theirs, strict=True))
+    found = lines(measured(crowd.play(profile, (*FITTED, *SEEN))))
+    for line in found:
+        must = ENOUGH if line.fitted else None
+        yield row(f"off: {line.name}", STUDY, abs(line.off), "s.e.", must, must)
 
 
 def _eyes() -> Iterator[Row]:

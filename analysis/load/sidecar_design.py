@@ -213,6 +213,9 @@ class _Reader:
                 self.text(t, p, "group"),
                 self.text(t, p, "of"),
                 self.value(t, p, "points", None, lambda v: isinstance(v, int), "a number"),
+                self.value(t, p, "low", 0, lambda v: isinstance(v, _NUMBER), "a number"),
+                self.texts(t, p, "parts"),
+                self.texts(t, p, "reverse"),
             )
             for p, t in self.tables(entry, ENTRY, "items")
         )

@@ -153,16 +153,22 @@ class Report:
 
 
 def more(table: Table, title: str, shown: str) -> Fold:
-    """Further columns of a table, behind a fold."""
+    """Further columns of a table, behind a fold; what no row has is said once, below."""
+    names = [n for n in shown.split() if not all(_gone(row.get(n)) for row in table.rows)]
+    gone = {str(row[n].reason) for n in shown.split() if n not in names for row in table.rows}
     view = replace(
         table,
         key=f"{table.key}_more",
         title=title,
-        shown=tuple(shown.split()),
+        shown=tuple(names),
         source=table.key,
-        note="",
+        note=f"Columns that no row has are left out: {'; '.join(sorted(gone))}." if gone else "",
     )
     return Fold(title, (view,))
+
+
+def _gone(value: object) -> bool:
+    return isinstance(value, Undefined)
 
 
 def row_texts(table: Table, row: Mapping[str, Any]) -> list[str]:

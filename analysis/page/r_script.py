@@ -10,26 +10,27 @@ from jinja2 import Environment, StrictUndefined
 
 from seethrough.analysis.design import Design
 from seethrough.analysis.page.html import template
+from seethrough.analysis.plan import Plan
 
 FILE = "analysis.R"
 
 
-def as_r(title: str, source: str, alpha: float, design: Design, facts: Mapping[str, Any]) -> str:
-    """The script of a study. `facts`: `omnibus`, the levels of the largest complete table, and
-    `model`, the mixed model's random terms."""
+def as_r(title: str, source: str, plan: Plan, design: Design, facts: Mapping[str, Any]) -> str:
+    """The script of a study. `facts`: `omnibus`, the levels of the largest complete table; `model`,
+    the mixed model's random terms; `scenes`, those of the model with scenes."""
     page = Environment(undefined=StrictUndefined, keep_trailing_newline=True).from_string(
         template("analysis.R.j2")
     )
-    constants = "\n".join(_constants(source, alpha, design, facts))
+    constants = "\n".join(_constants(source, plan, design, facts))
     return page.render(title=title.replace("\n", " "), constants=constants)
 
 
-def _constants(source: str, alpha: float, design: Design, facts: Mapping[str, Any]) -> list[str]:
+def _constants(source: str, plan: Plan, design: Design, facts: Mapping[str, Any]) -> list[str]:
     numbers = {f.name: f.numbers for f in design.factors if f.within and f.numbers is not None}
     main = design.main
     return [
         f"SOURCE <- {_text(source)}",
-        f"ALPHA <- {alpha!r}",
+        f"ALPHA <- {plan.alpha!r}",
         f"TASKS <- {_texts(design.task_names)}",
         "# factors within and between people, with their levels in the study's order",
         f"WITHIN <- {_lists({f.name: f.levels for f in design.factors if f.within})}",
@@ -39,11 +40,15 @@ def _constants(source: str, alpha: float, design: Design, facts: Mapping[str, An
         f"BASELINE <- {_lists({f.name: [f.baseline] for f in design.factors})}",
         f"NUMBERS <- {_lists(numbers)}",
         f"EXCLUDED <- {_nested([_lists({k: [v] for k, v in c.items()}) for c in design.excluded])}",
+        "# factors of which every pair of levels was asked for",
+        f"PAIRWISE <- {_texts(plan.pairwise)}",
+        f"ALIGNED <- {_bool(plan.aligned_ranks)}",
         "# the largest table without a cell that the study leaves out",
         f"OMNIBUS <- {_lists(facts['omnibus'])}",
         f"MEASURES <- {_nested(_measures(design))}",
         f"MAIN <- {_text(main.name if main else '')}",
         f"MODEL <- {_text(facts['model'])}",
+        f"SCENES <- {_text(facts['scenes'])}",
     ]
 
 

@@ -8,7 +8,9 @@ from typing import Any
 
 from seethrough.analysis.comparison import decisive
 from seethrough.analysis.design import Contrast, Prediction
+from seethrough.analysis.measures import TASK
 from seethrough.analysis.page.blocks import Cited, Prose, Table
+from seethrough.analysis.sections.tables import cited_f
 from seethrough.analysis.stats.undefined import Number, is_defined
 
 KINDS = {"tost_p": "TOST p", "p_holm": "Holm-corrected p", "noninferior_p": "one-sided p"}
@@ -30,6 +32,28 @@ def p_runs(table: Table, row: Mapping[str, Any], column: str) -> list[str | Cite
     p = table.cite(str(row[table.columns[0].name]), column)
     equals = "" if p.text.startswith(("<", ">", "undefined")) else "= "
     return [f" ({KINDS.get(column, 'p')} {equals}", p, ")"]
+
+
+def depends(tables: Mapping[str, Table], factor: str, alpha: float) -> list[str | Cited]:
+    """On which other factors an effect was found to depend: its mean over their levels is none of
+    theirs. That of tasks is told beside the tasks' own rows."""
+    runs: list[str | Cited] = []
+    for name, table in tables.items():
+        for row in table.rows if name.startswith("anova") else ():
+            effect = str(row["effect"])
+            others = [part for part in effect.split(" × ") if part != factor]
+            if len(others) != 1 or factor not in effect.split(" × ") or others == [TASK]:
+                continue
+            if is_defined(row["p_decisive"]) and row["p_decisive"] < alpha:
+                runs += [f" It depends on {others[0]} (", *cited_f(table, effect),
+                         "): this is the mean of unlike effects, and those at each level are what "
+                         "to read."]  # fmt: skip
+    return runs
+
+
+def on_average(verdict: str, depending: bool) -> str:
+    """The verdict on an effect that depends on something."""
+    return "supported on average, not alike" if depending and verdict == "supported" else verdict
 
 
 def rows_of(

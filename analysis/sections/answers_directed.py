@@ -10,7 +10,7 @@ from seethrough.analysis.design import Contrast, Prediction
 from seethrough.analysis.equivalence import no_ratio
 from seethrough.analysis.measures import TASK
 from seethrough.analysis.page.blocks import Cited, Prose, Table, say
-from seethrough.analysis.sections.answers import Answer, p_runs
+from seethrough.analysis.sections.answers import Answer, depends, on_average, p_runs
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.tables import cited_f
 from seethrough.analysis.stats.undefined import is_defined
@@ -36,7 +36,9 @@ def faster(
     tasks = [r for r in own if r["p_holm"] is not None and is_defined(r["p_holm"])]
     tasks = [r for r in tasks if r["where"] != "overall"]
     differ = _interaction(tables.get(f"anova_{TASK}"), contrast, alpha)
+    unlike = depends(tables, contrast.factor, alpha)
     verdict = _verdict(row, tasks, bool(differ), alpha, prediction.expect)
+    verdict = on_average(verdict, bool(unlike))
     said = say(
         f"{start}{verdict}. The geometric mean of times with it is {{}} of that without, "
         "95 % CI [{}, {}], {}.",
@@ -47,7 +49,7 @@ def faster(
         kind="answer",
     )
     runs = said.runs if row["p"] < alpha else (*said.runs, *no_ratio(logs, key, alpha))
-    said = Prose((*runs, *differ, *by_task(logs, tasks, alpha)), "answer")
+    said = Prose((*runs, *unlike, *differ, *by_task(logs, tasks, alpha)), "answer")
     return Answer(prediction, said, verdict, row["p"], 1)
 
 

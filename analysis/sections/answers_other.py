@@ -8,7 +8,7 @@ from typing import Any
 from seethrough.analysis.design import Contrast, Measured, Prediction
 from seethrough.analysis.page.blocks import Cited, Table, say
 from seethrough.analysis.page.numbers import p_value
-from seethrough.analysis.sections.answers import Answer, rows_of
+from seethrough.analysis.sections.answers import Answer, depends, on_average, rows_of
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.stats.distributions import holm, t_upper
 from seethrough.analysis.stats.undefined import Number, is_defined
@@ -77,21 +77,31 @@ def compared(
     supported = any(reached) if several else all(reached)
     against = any(s and not f for s, f in zip(shown, fitting, strict=True))
     verdict = "supported" if supported else "contradicted" if against else "not shown"
+    unlike = [run for m in context.design.measures() if prediction.about(m)
+              for run in depends(tables.get(m.name, {}), prediction.contrast, alpha)]  # fmt: skip
+    verdict = on_average(verdict, bool(unlike))
     runs: list[str | Cited] = [f"{start}{verdict}. "]
     for i, (column, table, row, _, _) in enumerate(tests):
         key = str(row[table.columns[0].name])
         p = table.cite(key, column)
         sign = "" if p.text.startswith(("<", ">")) else "= "
         estimate = "ratio" if row.get("ratio") is not None and "logs" in key else _estimate(row)
-        runs += ["; " if i else "", f"{row['label']}: {_named(estimate)} ",
-                 table.cite(key, estimate), f", p {sign}", p]  # fmt: skip
-    runs.append("." if len(tests) == 1 else f" ({_combined(several)}).")
+        runs += ["; " if i else "", f"{row['label']}: {_named(estimate)} "]
+        runs += [table.cite(key, estimate), *_interval(table, key, estimate), f", p {sign}", p]
     decides = min(used) if several else max(used)
+    runs.append("." if len(tests) == 1 else f" ({_combined(several, decides)}).")
+    runs += unlike
     return Answer(prediction, say("{}", runs, kind="answer"), verdict, decides, len(tests))
 
 
-def _combined(several: bool) -> str:
-    return "one is enough, Holm-corrected" if several else "all are needed, the largest p decides"
+def _combined(several: bool, decides: float) -> str:
+    if not several:
+        return "all are needed, the largest p decides"
+    p = p_value(decides)
+    equals = "" if p.startswith(("<", ">")) else "= "
+    return (
+        f"one is enough; these p are uncorrected, the least by Holm's correction is p {equals}{p}"
+    )
 
 
 def _is_overall(row: Mapping[str, Any]) -> bool:
@@ -107,6 +117,15 @@ def _estimate(row: Mapping[str, Any]) -> str:
     if "contrast" in row:
         return "ratio" if row.get("ratio") is not None else "estimate"
     return "ratio" if "geometric_level" in row else "difference"
+
+
+def _interval(table: Table, key: str, estimate: str) -> list[str | Cited]:
+    """` [0.75, 1.01]`, where the row has the estimate's interval."""
+    ends = ("low", "high") if estimate == "estimate" else (f"{estimate}_low", f"{estimate}_high")
+    row = table.row(key)
+    if not all(is_defined(row.get(end)) and row.get(end) is not None for end in ends):
+        return []
+    return [" [", table.cite(key, ends[0]), ", ", table.cite(key, ends[1]), "]"]
 
 
 def _named(estimate: str) -> str:

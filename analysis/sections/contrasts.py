@@ -28,7 +28,14 @@ COLUMNS = (
     Column("kind", "kind"),
     Column("n", "n", "int"),
     Column("least", "smallest group", "int"),
-    Column("estimate", "estimate", "sig3", "baseline − level, 95 % interval", "low", "high"),
+    Column(
+        "estimate",
+        "estimate",
+        "sig3",
+        "baseline − level, of a trend its slope; 95 % interval",
+        "low",
+        "high",
+    ),
     Column("low", "from", "sig3", "95 % interval"),
     Column("high", "to", "sig3", "95 % interval"),
     Column("error", "s.e.", "sig3"),
@@ -53,6 +60,8 @@ OBSERVED = (
     "{} was brought along, not assigned: its groups may differ in anything else too, and no "
     "difference between them says why."
 )
+Row = dict[str, Any]
+"""A row of the table: what a column has, numbers or why there are none."""
 CONTRAST, BETWEEN, DIFFERENCE, SIMPLE = "contrast", "between", "interaction", "simple effect"
 TRENDS = {1: "linear trend", 2: "quadratic trend"}
 
@@ -81,7 +90,7 @@ def contrast_blocks(
 
     `cells` are logarithms where `log` says so; `anova`: which interactions were found.
     """
-    rows: list[dict[str, Any]] = []
+    rows: list[Row] = []
     tasks = cells.factors[TASK]
     places = [(task, cells.pick(task=task)) for task in tasks]
     if len(tasks) > 1 and measure.pool:
@@ -92,7 +101,7 @@ def contrast_blocks(
         said = where if where == "overall" else context.design.task_said(where)
         for asked in _asked(context, own, where, found):
             label = f"{said}{asked.label.removeprefix(where)}"
-            made = _row(context, own, replace(asked, label=label), measure, log)
+            made = row_of(context, own, replace(asked, label=label), measure, log)
             if made is not None:
                 rows.append(made)
                 families.append(f"{asked.family}{' overall' if where == 'overall' else ''}")
@@ -141,8 +150,8 @@ def _asked(context: Context, cells: Cells, where: str, anova: Table | None) -> I
                 yield from _within(design, cells, where, factor, c)
         for factor in design.groups:
             for c in factor.contrasts():
-                weights = _group_weights(design, factor, c)
-                level, scale = _level(cells)
+                weights = group_weights(design, factor, c)
+                level, scale = level_of(cells)
                 yield Asked(f"{where}/{c.key}", f"{where}: {_words(c)}", BETWEEN,
                             f"{BETWEEN} {factor.name}", level, weights, scale)  # fmt: skip
     for factor in within:
@@ -159,7 +168,7 @@ def _there(factor: Factor, cells: Cells) -> list[Contrast]:
     return [c for c in factor.contrasts() if c.level in known and c.baseline in known]
 
 
-def _level(cells: Cells) -> tuple[Array, float]:
+def level_of(cells: Cells) -> tuple[Array, float]:
     """Each person's mean over the cells that are there, and the largest value."""
     flat = cells.values.reshape(len(cells.values), -1)
     flat = flat[:, np.isfinite(flat).any(axis=0)]
@@ -173,17 +182,17 @@ def _within(
     first, second = cells.both(factor.name, c.baseline, c.level)
     scores, scale = first - second, float(np.nanmax(np.abs([first, second]), initial=0.0))
     yield Asked(f"{where}/{c.key}", f"{where}: {_words(c)}", CONTRAST,
-                f"{CONTRAST} {factor.name}", scores, _equal(design), scale)  # fmt: skip
+                f"{CONTRAST} {factor.name}", scores, equal_weights(design), scale)  # fmt: skip
     for group in design.groups:
         for g in group.contrasts():
             yield Asked(
                 f"{where}/{c.key}×{g.key}", f"{where}: ({_words(c)}) × ({_words(g)})", DIFFERENCE,
                 f"{DIFFERENCE} {factor.name} {group.name}", scores,
-                _group_weights(design, group, g), scale,
+                group_weights(design, group, g), scale,
             )  # fmt: skip
 
 
-def _equal(design: Design) -> dict[str, float]:
+def equal_weights(design: Design) -> dict[str, float]:
     """Every group weighs the same."""
     keys = [_group_key(cell) for cell in design.cells(design.groups)]
     return dict.fromkeys(keys, 1 / len(keys))
@@ -193,7 +202,7 @@ def _group_key(cell: Mapping[str, str]) -> str:
     return "\x1f".join(cell.values())
 
 
-def _group_weights(design: Design, factor: Factor, c: Contrast) -> dict[str, float]:
+def group_weights(design: Design, factor: Factor, c: Contrast) -> dict[str, float]:
     """Baseline less level, over the other group factors' cells, each weighing the same."""
     cells = list(design.cells(design.groups))
     counts = {level: sum(cell[factor.name] == level for cell in cells) for level in factor.levels}
@@ -223,7 +232,7 @@ def _trends(design: Design, cells: Cells, where: str, factor: Factor) -> Iterato
         scores = (flat @ trend(x, degree)).mean(axis=1)
         scale = float(np.nanmax(np.abs(flat), initial=0.0) * np.max(np.abs(trend(x, degree))))
         yield Asked(f"{where}/{factor.name}^{degree}", f"{where}: {factor.name}, {kind}", kind,
-                    f"{kind} {factor.name}", scores, _equal(design), scale,
+                    f"{kind} {factor.name}", scores, equal_weights(design), scale,
                     x[-1] - x[0] if degree == 1 else 0.0)  # fmt: skip
 
 
@@ -247,7 +256,7 @@ def _simple(
         if frozenset((factor.name, other.name)) in found:
             for level in cells.factors[other.name]:
                 yield from _simple_rows(design, cells.pick(**{other.name: level}), where, factor,
-                                        f"{other.name} {level}", _equal(design))  # fmt: skip
+                                        f"{other.name} {level}", equal_weights(design))  # fmt: skip
     for factor, group in itertools.product(within, design.groups):
         if frozenset((factor.name, group.name)) in found:
             for level in group.levels:
@@ -269,9 +278,9 @@ def _simple_rows(
                     SIMPLE, f"{SIMPLE} {factor.name}", first - second, weights, scale)  # fmt: skip
 
 
-def _row(
+def row_of(
     context: Context, cells: Cells, asked: Asked, measure: Measured, log: bool
-) -> dict[str, Any] | None:
+) -> Row | None:
     """An asked contrast's row, of who has what it needs."""
     factors = design_at(context, cells).groups
     has = np.isfinite(asked.scores)
@@ -316,7 +325,7 @@ def _ratios(found: Estimate, log: bool, span: float | None) -> dict[str, Number 
     return {"ratio": ratio(found.estimate), "ratio_low": ratio(low), "ratio_high": ratio(high)}
 
 
-def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, Any]:
+def _margin(found: Estimate, measure: Measured, kind: str) -> Row:
     """The tests against the declared margin; trends and differences of differences have none."""
     if kind not in (CONTRAST, BETWEEN, SIMPLE):
         return dict.fromkeys(("tost_margin", "tost_p", "noninferior_p"))
@@ -332,7 +341,7 @@ def _margin(found: Estimate, measure: Measured, kind: str) -> dict[str, Any]:
     return {"tost_margin": measure.margin, "tost_p": both, "noninferior_p": worse}
 
 
-def _correct(rows: Sequence[dict[str, Any]], families: Sequence[str]) -> None:
+def _correct(rows: Sequence[Row], families: Sequence[str]) -> None:
     """Holm's p within each family."""
     for row in rows:
         row["p_holm"] = row["p"]

@@ -28,6 +28,7 @@ from seethrough.analysis.page.blocks import Block, Prose, Table, more, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.contrasts import contrast_blocks
 from seethrough.analysis.sections.omnibus import omnibus
+from seethrough.analysis.sections.pairwise import pairwise_blocks
 from seethrough.analysis.sections.tables import cell_table, missing_note, of_people
 from seethrough.analysis.stats.undefined import is_defined
 
@@ -123,7 +124,8 @@ def measured_blocks(context: Context, measure: Measured) -> tuple[list[Block], d
     factorial, anova = omnibus(context, measure, cells, logs)
     found |= anova
     extra, further = contrast_blocks(context, measure, logs or cells, anova, logs is not None)
-    return [*blocks, table, *factorial, *extra], found | further
+    asked = pairwise_blocks(context, measure, logs or cells, logs is not None)
+    return [*blocks, table, *factorial, *extra, *asked], found | further
 
 
 def _start(measure: Measured) -> str:
@@ -155,8 +157,9 @@ def _pairs(
     )  # fmt: skip
     if not measure.log:
         said = in_short(
-            [(m, tests.row(m.key), _sentence(tests, m, measure, context)) for m in pairs], context
-        )
+            [(m, tests.row(m.key), _sentence(tests, m, measure, context)) for m in pairs],
+            context, _start(measure),
+        )  # fmt: skip
         return list(said), {"tests": tests}
     unit = f" in {measure.unit}" if measure.unit else ""
     tests = replace(tests, title=f"{_start(measure)}{unit}, on the raw scale", note=RAW)
@@ -165,16 +168,17 @@ def _pairs(
         title=f"{_start(measure)} on the log scale",
     )  # fmt: skip
     said = in_short(
-        [(m, logs.row(m.key), _log_sentence(tests, logs, m, context)) for m in pairs], context
-    )
+        [(m, logs.row(m.key), _log_sentence(tests, logs, m, context)) for m in pairs],
+        context, _start(measure),
+    )  # fmt: skip
     return list(said), {"logs": logs, "tests": tests}
 
 
 def in_short(
-    said: Sequence[tuple[Pair, Mapping[str, Any], Prose]], context: Context
+    said: Sequence[tuple[Pair, Mapping[str, Any], Prose]], context: Context, what: str
 ) -> list[Prose]:
     """Each contrast's sentence; of several contrasts only those that show something, and where
-    nothing was found one line for all."""
+    nothing was found one line for all. `what`: the measure."""
     if len({m.contrast for m, _, _ in said}) < 2:
         return [sentence for _, _, sentence in said]
     alpha = context.plan.alpha
@@ -188,9 +192,13 @@ def in_short(
         else:
             none.append(m.label)
     if equal:
-        shown.append(say(f"Equivalent within the declared margin: {'; '.join(equal)}."))
-    if none:
-        shown.append(say(f"No difference shown, which is no evidence of equality: "
+        words = "equivalent within the declared margin"
+        shown.append(say(f"{what}, {words}: {'; '.join(equal)}."))
+    if none and len(none) == len(said):
+        shown.append(say(f"{what}: none of its {len(none)} contrasts with a baseline shows a "
+                         "difference, which is no evidence of equality."))  # fmt: skip
+    elif none:
+        shown.append(say(f"{what}, no difference shown, which is no evidence of equality: "
                          f"{'; '.join(none)}."))  # fmt: skip
     return shown
 

@@ -116,9 +116,8 @@ def _analysis(context: Context) -> Prose:
     configs = [config_of(s) for s in context.study.sidecars.values()]
     hashes = sorted({digest(c) for c in configs if c})
     rules = f"exclusion rules {', '.join(plan.exclude)}" if plan.exclude else "no exclusion rule"
-    stated = f"{len(context.design.predictions)} predictions" if context.design.predictions else (
-        "no prediction"
-    )  # fmt: skip
+    number = len(context.design.predictions)
+    stated = {0: "no prediction", 1: "1 prediction"}.get(number, f"{number} predictions")
     frozen = "was frozen in the study" if plan.frozen is not None else "is the default"
     named = f" (hash of the study as it ran: {', '.join(hashes)})" if hashes else ""
     out = f"{len(context.excluded)} trials do not count"

@@ -139,6 +139,10 @@ PAIRS = (
 )
 
 
+MOST_PAIRED = 6
+"""Conditions of which every pair is compared unasked: of 18 there were 153."""
+
+
 def conditions(
     context: Context,
     cells: Cells,
@@ -181,6 +185,10 @@ def conditions(
     test = Table(f"friedman_{key}", title, columns, (row,), shown)
     if not is_defined(result.chi2):
         return [test]
+    if len(levels) > MOST_PAIRED:
+        said = f"Its {len(levels) * (len(levels) - 1) // 2} pairs of conditions are not compared"
+        note = f"{said}: ask for pairs of a factor's levels (pairwise)."
+        return [replace(test, note=note)]
     names = [" ".join(at.values()) for at in levels]
     rows = tuple(
         {

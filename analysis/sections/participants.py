@@ -25,6 +25,7 @@ def participants_section(context: Context) -> Section:
     """Counts, exclusions by rule and row, deviations from the frozen plan."""
     trials, plan = context.study.trials, context.plan
     people = trials["participant"].nunique()
+    simulated = "simulated " if context.study.source == "simulated" else ""
     blocks: list[Block] = []
     counts = Table("participants", "Trials per participant", COUNTS, tuple(_counts(context)))
     total = Table(
@@ -41,7 +42,8 @@ def participants_section(context: Context) -> Section:
     )
     blocks.append(
         say(
-            f"{{}} {'participant has' if people == 1 else 'participants have'} data of {{}} "
+            f"{{}} {simulated}{'participant has' if people == 1 else 'participants have'} data of "
+            "{} "
             "trials; {} count and {} are excluded.",
             total.cite("participants", "count"),
             total.cite("trials recorded", "count"),

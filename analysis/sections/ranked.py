@@ -12,6 +12,7 @@ from seethrough.analysis.comparison import Pair, add_holm
 from seethrough.analysis.design import Factor, Measured
 from seethrough.analysis.measures import TASK, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
+from seethrough.analysis.sections.aligned import aligned_blocks
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.measured import in_short, pairs_of
 from seethrough.analysis.sections.ordinal import (
@@ -20,6 +21,7 @@ from seethrough.analysis.sections.ordinal import (
     friedman_sentence,
     friedman_table,
 )
+from seethrough.analysis.sections.pairwise import ranked_pairwise
 from seethrough.analysis.sections.tables import cell_table
 from seethrough.analysis.stats.groups import kruskal_wallis
 from seethrough.analysis.stats.undefined import is_defined
@@ -60,12 +62,14 @@ def ranked_blocks(context: Context, measure: Measured) -> tuple[list[Block], Tab
                                binary)  # fmt: skip
         said = [friedman_sentence(tests, m, f"{what}, {m.label}", context) for m in pairs]
         rows_of = [tests.row(m.key) for m in pairs]
-        blocks += in_short(list(zip(pairs, rows_of, said, strict=True)), context)
+        blocks += in_short(list(zip(pairs, rows_of, said, strict=True)), context, what)
     blocks.append(table)
     if tests is not None:
         blocks.append(tests)
     blocks += _conditions(context, measure, cells, what)
     blocks += _between(context, measure, cells, what, pairs)
+    blocks += ranked_pairwise(context, measure, cells)
+    blocks += aligned_blocks(context, measure, cells)
     return blocks, tests
 
 

@@ -22,6 +22,7 @@ from seethrough.analysis.sections.ordinal import (
     friedman_sentence,
     friedman_table,
 )
+from seethrough.analysis.sections.reliability import reliability_blocks
 from seethrough.analysis.sections.tables import keep, missing_note
 from seethrough.analysis.stats.ranks import share_interval, sign_test
 from seethrough.analysis.stats.undefined import Undefined, is_defined
@@ -71,8 +72,26 @@ def ratings_section(context: Context) -> Section | None:
     blocks: list[Block] = []
     for number, ((name, each), own) in enumerate(groups.items()):
         blocks += _group(context, name, each, own, number)
-    blocks += _single(context, [item for item in items if not item.each])
+    once = [item for item in items if not item.each]
+    blocks += _single(context, once)
+    single: dict[str, list[Item]] = {}
+    for item in once:
+        single.setdefault(item.group or item.name, []).append(item)
+    scales = [(name, own) for (name, _), own in groups.items()] + list(single.items())
+    blocks += reliability_blocks(context, [(n, o) for n, o in scales if _one_scale(o)])
     return Section("ratings", "Questionnaire", tuple(blocks)) if blocks else None
+
+
+def _one_scale(items: Sequence[Item]) -> bool:
+    """Whether items have the same points."""
+    return len({(i.points, i.low) for i in items}) == 1
+
+
+def _both_ways(items: Sequence[Item]) -> bool:
+    """Whether some items of a group count the other way round, and others do not: then their plain
+    mean means nothing."""
+    turned = {r for i in items for r in i.reverse if not i.parts}
+    return 0 < len(turned) < len(items)
 
 
 def _group(
@@ -109,9 +128,10 @@ def _ratings(
                 key = "_".join((item, *where)) + ending
                 label = ", ".join((item, *where)) + words
                 each.append(pair_of(key, label, "", 2, cells, contrast, "ratings", at=at))
-        if len(cells.factors["item"]) > 1 or others:
+        if (len(cells.factors["item"]) > 1 or others) and not _both_ways(items):
             key = f"{_stem(name)}_overall{ending}"
-            overall.append(pair_of(key, f"overall{words}", "", 2, cells, contrast))
+            family = "overall" if several else ""
+            overall.append(pair_of(key, f"overall{words}", "", 2, cells, contrast, family))
     found, means = keep(each), keep(overall)
     rows = [friedman_row(m, context, 30 + i + 1000 * number)
             for i, m in enumerate([*means, *found])]  # fmt: skip
@@ -128,7 +148,8 @@ def _ratings(
     ]  # fmt: skip
     each_said = [friedman_sentence(tests, m, _said(m, labels), context) for m in found]
     said = in_short([(m, tests.row(m.key), sentence) for m, sentence in zip(
-        [*means, *found], [*over_all, *each_said], strict=True)], context)  # fmt: skip
+        [*means, *found], [*over_all, *each_said], strict=True)], context,
+        name[:1].upper() + name[1:])  # fmt: skip
     ending = "conditions" if name == "ratings" else f"{name}_conditions"
     ordered = [main.name, *(f.name for f in others)]
     over = conditions(context, cells, ordered, ending, f"{_stem(name)}_conditions",
@@ -145,9 +166,10 @@ def _stem(name: str) -> str:
 
 def _points(items: Sequence[Item]) -> str:
     """`0–4` where the items say how many points their scale has."""
-    points = {i.points for i in items}
-    only = next(iter(points)) if len(points) == 1 else None
-    return f"0–{only - 1}" if only else ""
+    first = items[0]
+    if first.points is None or not _one_scale(items):
+        return ""
+    return f"{first.low:g}–{first.low + first.points - 1:g}"
 
 
 def _said(m: Pair, labels: Mapping[str, str]) -> str:

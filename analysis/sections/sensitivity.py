@@ -7,6 +7,7 @@ from seethrough.analysis.mixed import MODELS, MixedEffect, mixed_model
 from seethrough.analysis.page.blocks import Block, Column, Section, Table, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.robust import robust_blocks
+from seethrough.analysis.sections.scene_effects import scene_blocks
 from seethrough.analysis.stats.undefined import is_defined
 from seethrough.analysis.tradeoff import speed_of
 
@@ -59,7 +60,7 @@ def sensitivity_section(context: Context, logs: Table | None) -> Section | None:
         note=f"log time ~ {terms} + {first.model or '…'}, REML, in lme4's words with "
         f"{factor.name} {codes} and {sums}; "
         f"t on {'n − groups' if context.design.groups else 'n − 1'}."
-        + _reduced(first) + _scenes(context),
+        + _reduced(first),
     )  # fmt: skip
     blocks: list[Block] = []
     for fit in fits:
@@ -81,22 +82,12 @@ def sensitivity_section(context: Context, logs: Table | None) -> Section | None:
                     p,
                 )
             )
-    return Section("sensitivity", TITLE, (*blocks, table, *robust_blocks(context)))
+    scenes = scene_blocks(context, factor, first)
+    return Section("sensitivity", TITLE, (*blocks, table, *scenes, *robust_blocks(context)))
 
 
 def _key(fit: MixedEffect, factor: Factor, several: bool) -> str:
     return f"{factor.name}={fit.level}" if several else factor.name
-
-
-def _scenes(context: Context) -> str:
-    """Scenes that several people met are no sample here."""
-    met = context.trials[["scene", "participant"]].drop_duplicates()
-    if met.groupby("scene", observed=True).size().max() < 2:
-        return ""
-    return (
-        " Some scenes were met by several people; they are no random effect, so that the result "
-        "is for these scenes only."
-    )
 
 
 def _row(fit: MixedEffect, factor: Factor, several: bool) -> dict[str, object]:

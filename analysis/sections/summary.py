@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from seethrough.analysis.design import Contrast, Design, Prediction
@@ -45,6 +45,7 @@ def summary_section(context: Context, found: Found) -> Section:
     note = PLANNING if context.study.source == "simulated" else ""
     predictions = context.design.predictions
     answers = [_answer(context, p, found, note) for p in predictions]
+    words = {p.name: p.said or _words(context, p) for p in predictions}
     blocks: list[Prose] = [*_few(context), *(a.said for a in answers)]
     said = (
         "Everything below that answers none of these predictions is exploratory."
@@ -52,7 +53,7 @@ def summary_section(context: Context, found: Found) -> Section:
         else "The study stated no prediction: everything below is exploratory."
     )
     blocks.append(say(said, kind="note"))
-    tables = [_verdicts(answers)] if answers else []
+    tables = [_verdicts(answers, words)] if answers else []
     return Section("summary", "In short", (*blocks, *places(blocks), *tables))
 
 
@@ -79,16 +80,23 @@ def asked(design: Design, prediction: Prediction) -> tuple[Contrast, ...]:
 
 def _words(context: Context, prediction: Prediction) -> str:
     """What a prediction says where the study gave it no text."""
-    measures = ", ".join(prediction.measures)
-    level = f" ({prediction.level})" if prediction.level else ""
-    return f"{measures} {prediction.expect} by {prediction.contrast}{level}"
+    known = {n: m.said for m in context.design.measures() for n in (m.name, m.column)}
+    measures = ", ".join(known.get(name, name) for name in prediction.measures)
+    factor = next((f for f in context.design.factors if f.name == prediction.contrast), None)
+    if factor is None:
+        return f"{measures} {prediction.expect}"
+    levels = prediction.level or " or ".join(c.level for c in factor.contrasts())
+    how = {"less": "less with", "more": "more with", "not worse": "not worse with"}
+    words = how.get(prediction.expect, f"{prediction.expect} with")
+    than = "than" if prediction.expect in how else "and"
+    return f"{measures} {words} {levels} {than} {factor.baseline} ({factor.name})"
 
 
-def _verdicts(answers: Sequence[Answer]) -> Table:
+def _verdicts(answers: Sequence[Answer], words: Mapping[str, str]) -> Table:
     rows = tuple(
         {
             "prediction": a.prediction.name,
-            "said": a.prediction.said,
+            "said": words[a.prediction.name],
             "expect": a.prediction.expect,
             "combine": a.prediction.combine,
             "tests": a.tests,

@@ -1,10 +1,12 @@
 """Linear mixed models of participants by restricted maximum likelihood.
 
 y = Xβ + Zb + e with b ~ N(0, σ²ΛΛᵀ), e ~ N(0, σ²): each random term has a lower triangular factor θ
-of its covariance relative to σ², as in lme4 (Bates et al. 2015). All random terms are nested in the
-participants, so everything is a sum over participants of small matrices. β and σ² are profiled out;
-the deviance of θ is minimised with its exact gradient from several starts. An estimate on the
-boundary (a variance of 0, a correlation of ±1) is the answer there, and is called singular.
+of its covariance relative to σ², as in lme4 (Bates et al. 2015). Random terms are nested in the
+participants, so everything is a sum over participants of small matrices; one term may be crossed
+with them (scenes that many people meet), whose effects are solved for beside β, as in Henderson's
+equations. β and σ² are profiled out; the deviance of θ is minimised with its exact gradient from
+several starts. An estimate on the boundary (a variance of 0, a correlation of ±1) is the answer
+there, and is called singular.
 """
 
 from __future__ import annotations
@@ -45,7 +47,8 @@ class Term:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """`beta` with its s.e.; `covariances` of each term's effects, on the scale of y."""
+    """`beta` with its s.e.; `covariances` of each term's effects, on the scale of y; `edges`: which
+    terms are on the boundary."""
 
     beta: Array
     errors: Array
@@ -53,17 +56,29 @@ class Fit:
     covariances: tuple[Array, ...]
     deviance: float
     converged: bool
-    singular: bool
+    edges: tuple[bool, ...]
+
+    @property
+    def singular(self) -> bool:
+        """Whether any term is on the boundary."""
+        return any(self.edges)
 
 
-def fit(y: Array, x: Array, person: NDArray[np.intp], terms: Sequence[Term]) -> Fit:
+def fit(
+    y: Array, x: Array, person: NDArray[np.intp], terms: Sequence[Term],
+    crossed: Term | None = None, most: int = 3000,
+) -> Fit:  # fmt: skip
     """Fit y (N,) on x (N, p) of full rank, with `person` (N,) codes 0 … n − 1.
 
-    Raises numpy's LinAlgError where the data leave nothing to fit.
+    `crossed`: a term whose parts everybody meets; its covariance is the last of the fit's. `most`:
+    evaluations of the deviance from each start; a fit that needs more has not converged. Raises
+    numpy's LinAlgError where the data leave nothing to fit.
     """
     from scipy.optimize import minimize  # half a second of import
 
-    sums = _sums(y, x, person, terms)
+    wide = x if crossed is None else np.column_stack([x, _spread(crossed)])
+    sums = _sums(y, wide, person, terms)
+    nested, terms = len(terms), [*terms, *([] if crossed is None else [crossed])]
     sizes = [t.size for t in terms]
     bounds = [(0.0 if i == j else None, None) for q in sizes for i, j in _places(q)]
     best = None
@@ -71,28 +86,29 @@ def fit(y: Array, x: Array, person: NDArray[np.intp], terms: Sequence[Term]) -> 
     for start in STARTS:
         theta = np.concatenate([[start * (i == j) for i, j in _places(q)] for q in sizes])
         found = minimize(
-            lambda t: _deviance(sums, terms, t)[:2],
+            lambda t: _deviance(sums, terms, nested, t)[:2],
             theta,
             jac=True,
             method="TNC",
             bounds=bounds,
-            options={"ftol": 0.0, "xtol": 0.0, "gtol": 1e-9, "maxfun": 3000},
+            options={"ftol": 0.0, "xtol": 0.0, "gtol": 1e-9, "maxfun": most},
         )
         if best is None or found.fun < best.fun - 1e-9:
             best = found
     assert best is not None
-    deviance, slope, s2, information, beta = _deviance(sums, terms, best.x)
+    deviance, slope, s2, information, beta = _deviance(sums, terms, nested, best.x)
     at_end = np.array([b[0] == 0.0 for b in bounds]) & (best.x < SINGULAR)
     steep = np.where(at_end, np.minimum(slope, 0.0), slope)
     factors = _factors(best.x, sizes)
+    fixed = x.shape[1]
     return Fit(
-        beta,
-        np.sqrt(s2 * np.diag(np.linalg.inv(information))),
+        beta[:fixed],
+        np.sqrt(s2 * np.diag(np.linalg.inv(information)))[:fixed],
         float(np.sqrt(s2)),
         tuple(s2 * f @ f.T for f in factors),
         deviance,
         bool(np.max(np.abs(steep)) < FLAT * max(1.0, len(y) / 1000)),
-        bool(any(np.min(np.abs(np.diag(f))) < SINGULAR for f in factors)),
+        tuple(bool(np.min(np.abs(np.diag(f))) < SINGULAR) for f in factors),
     )
 
 
@@ -109,15 +125,15 @@ class _Sums:
     rows: int
 
 
+def _spread(term: Term) -> Array:
+    """A term's columns, each part's in places of its own: (N, parts · q)."""
+    z = np.zeros((len(term.part), term.parts, term.size))
+    z[np.arange(len(z)), term.part] = term.columns
+    return z.reshape(len(z), -1)
+
+
 def _sums(y: Array, x: Array, person: NDArray[np.intp], terms: Sequence[Term]) -> _Sums:
-    wide = sum(t.size * t.parts for t in terms)
-    z = np.zeros((len(y), wide))
-    at = 0
-    for term in terms:
-        for part in range(term.parts):
-            own = term.part == part
-            z[own, at : at + term.size] = term.columns[own]
-            at += term.size
+    z = np.column_stack([_spread(term) for term in terms])
     order = np.argsort(person, kind="stable")
     starts = np.flatnonzero(np.diff(person[order], prepend=-1))
 
@@ -153,40 +169,56 @@ def _factors(theta: Array, sizes: Sequence[int]) -> list[Array]:
 
 
 def _deviance(
-    sums: _Sums, terms: Sequence[Term], theta: Array
+    sums: _Sums, terms: Sequence[Term], nested: int, theta: Array
 ) -> tuple[float, Array, float, Array, Array]:
     """Restricted deviance, its gradient over θ, σ², Xᵀ V⁻¹ X and β.
 
     V = I + ZΛΛᵀZᵀ = σ⁻² cov(y). With A = I + ΛᵀZᵀZΛ: V⁻¹ = I − ZΛA⁻¹ΛᵀZᵀ and |V| = |A|. The
     gradient is tr(P dV) − yᵀP dV P y / σ², P = V⁻¹ − V⁻¹X(XᵀV⁻¹X)⁻¹XᵀV⁻¹.
+
+    Terms from `nested` on are crossed: their ZΛ stand beside X as columns with a penalty of 1, Z in
+    `sums` beside X. V is then that of the nested terms alone: P, |V||XᵀV⁻¹X| and yᵀPy stay what
+    they are of all terms. XᵀV⁻¹X and β have the crossed effects behind the fixed ones.
     """
     factors = _factors(theta, [t.size for t in terms])
-    whole = _block_diagonal(
-        [f for f, t in zip(factors, terms, strict=True) for _ in range(t.parts)]
-    )
+    blocks = [[f] * t.parts for f, t in zip(factors, terms, strict=True)]
+    whole = _block_diagonal([f for own in blocks[:nested] for f in own])
+    across = _block_diagonal([f for own in blocks[nested:] for f in own])
+    fixed = sums.xx.shape[0] - len(across)
+    scale = _block_diagonal([np.eye(fixed), across])
+    zx, xx, xy = sums.zx @ scale, scale.T @ sums.xx @ scale, scale.T @ sums.xy
     inner = np.eye(len(whole)) + whole.T @ sums.zz @ whole
     log_v = float(np.sum(np.linalg.slogdet(inner)[1]))
     back = whole @ np.linalg.solve(inner, np.broadcast_to(whole.T, inner.shape))  # ΛA⁻¹Λᵀ
-    left = np.swapaxes(sums.zx, 1, 2) @ back
-    information = sums.xx - (left @ sums.zx).sum(axis=0)
-    xvy = sums.xy - (left @ sums.zy[..., None])[..., 0].sum(axis=0)
+    left = np.swapaxes(zx, 1, 2) @ back
+    penalty = np.diag(np.repeat([0.0, 1.0], [fixed, len(across)]))
+    information = xx + penalty - (left @ zx).sum(axis=0)
+    xvy = xy - (left @ sums.zy[..., None])[..., 0].sum(axis=0)
     yvy = sums.yy - float(np.einsum("ni,nij,nj->", sums.zy, back, sums.zy))
     beta = np.linalg.solve(information, xvy)
-    free = sums.rows - len(beta)
+    free = sums.rows - fixed
     s2 = (yvy - float(xvy @ beta)) / free
     if not s2 > 0:
         raise np.linalg.LinAlgError("nothing is left to explain")
     log_x = float(np.linalg.slogdet(information)[1])
     deviance = log_v + log_x + free * (1 + np.log(2 * np.pi * s2))
     # Zᵀ V⁻¹ of Z, X and y − Xβ
+    inverse = np.linalg.inv(information)
     zvz = sums.zz - sums.zz @ back @ sums.zz
-    zvx = sums.zx - sums.zz @ back @ sums.zx
-    rest = sums.zy - sums.zx @ beta
+    zvx = zx - sums.zz @ back @ zx
+    rest = sums.zy - zx @ beta
     score = rest - (sums.zz @ back @ rest[..., None])[..., 0]
-    zpz = zvz - zvx @ np.linalg.inv(information) @ np.swapaxes(zvx, 1, 2)
+    zpz = zvz - zvx @ inverse @ np.swapaxes(zvx, 1, 2)
     pull = zpz.sum(axis=0) - np.einsum("ni,nj->ij", score, score) / s2
-    slope = 2 * pull @ whole
-    return deviance, _gather(slope, terms), s2, information, beta
+    slope = _gather(2 * pull @ whole, terms[:nested])
+    if len(across):  # Zᵀ P Z = Zᵀ V⁻¹ Z − …, of the crossed columns as they stand in `sums`
+        wvu = (sums.xx @ scale - (np.swapaxes(sums.zx, 1, 2) @ back @ zx).sum(axis=0))[fixed:]
+        wvw = sums.xx - (np.swapaxes(sums.zx, 1, 2) @ back @ sums.zx).sum(axis=0)
+        wvy = sums.xy - (np.swapaxes(sums.zx, 1, 2) @ back @ sums.zy[..., None])[..., 0].sum(axis=0)
+        score = wvy[fixed:] - wvu @ beta
+        pull = wvw[fixed:, fixed:] - wvu @ inverse @ wvu.T - np.outer(score, score) / s2
+        slope = np.concatenate([slope, _gather(2 * pull @ across, terms[nested:])])
+    return deviance, slope, s2, information, beta
 
 
 def _block_diagonal(blocks: Sequence[Array]) -> Array:

@@ -1,4 +1,4 @@
-"""`seethrough calibrate`: a profile whose times come near the published ones."""
+"""`seethrough calibrate`: a profile whose times and errors come near the published ones."""
 
 from __future__ import annotations
 
@@ -64,8 +64,9 @@ def run(arguments: argparse.Namespace) -> int:
         )
     best = replace(best, name=arguments.out.stem)
     others = fitting.Crowd(arguments.check_seed, arguments.check, pool)
-    every = calibration.FITTED + calibration.HELD_OUT
-    table = calibration.table(calibration.measured(others.play(best, every)))
+    every = calibration.FITTED + calibration.SEEN
+    before, after = (calibration.measured(others.play(p, every)) for p in (start, best))
+    table = calibration.table(after, before)
     print(f"{arguments.check} other participants, seed {arguments.check_seed}:")
     for line in table:
         print(line)
@@ -89,7 +90,7 @@ def _check_out(out: Path) -> None:
 def _provenance(
     arguments: argparse.Namespace, start: str, misfit: float, table: Sequence[str]
 ) -> dict[str, object]:
-    from seethrough.experiment.people.fitted.calibration import FITTED, HELD_OUT
+    from seethrough.experiment.people.fitted.calibration import FITTED, SEEN
 
     return {
         "command": f"seethrough calibrate {arguments.study} --profile {arguments.profile} "
@@ -102,8 +103,8 @@ def _provenance(
         "seed": arguments.seed,
         "start": start,
         "fitted": list(FITTED),
-        "held_out": list(HELD_OUT),
-        "source": "Elmqvist2009, table 3: completion times, s.d., and the r that each F implies",
+        "seen": list(SEEN),
+        "source": "Elmqvist2009, tables 3 and 4: means, s.d., and the r that each F implies",
         "misfit": round(misfit, 4),
         "checked": f"{arguments.check} other participants, seed {arguments.check_seed}",
         "table": list(table),

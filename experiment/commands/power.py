@@ -1,18 +1,15 @@
-"""`seethrough power`: how many participants does a study need?"""
+"""`seethrough power`: how many participants do a study's own predictions need?"""
 
 from __future__ import annotations
 
 import argparse
 import re
+from math import isinf
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from seethrough.analysis.written import write_over
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import load
-
-if TYPE_CHECKING:
-    from seethrough.experiment.power.power import Effect
 
 MOST = 10_000
 LONG = 200
@@ -26,17 +23,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--effect",
-        default="published",
-        metavar="published|DIR",
-        help="the paper's effects, or a data folder of simulated participants",
+        metavar='"NAME=0.2 UNIT"|published|DIR',
+        help="an effect of a prediction or factor (UNIT: sd, %%, or the measure's), the printed "
+        "ones of the published study, or a data folder of this study",
     )
+    parser.add_argument(
+        "--spread", type=float, metavar="S", help="s.d. of a person's differences, in UNIT"
+    )
+    parser.add_argument("--source", choices=("human", "pilot", "simulated"), help="of a folder")
     parser.add_argument("--replications", type=int, default=2000, metavar="R")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="default: 1")
     parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="HTML page")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Work out the curve, print the sizes that are enough, write the page."""
+    """Work out the curves, print the sizes that are enough, write the page."""
     study = load(arguments.study)
     sizes = _sizes(arguments.participants)
     if not 10 <= arguments.replications <= 1_000_000:
@@ -45,29 +46,51 @@ def run(arguments: argparse.Namespace) -> int:
         )
     if arguments.seed < 0:
         raise InputError(f"--seed = {arguments.seed}: expected a number that is not negative")
-    from seethrough.experiment.power import power  # scipy: only when the command runs
+    if arguments.effect is None:
+        raise InputError('--effect: expected "PREDICTION=0.2 sd", published, or a data folder')
+    from seethrough.experiment.power import effects, power  # scipy: only when the command runs
     from seethrough.experiment.power.power_page import page
 
-    effects, what = _effects(arguments.effect)
     alpha = study.analysis.alpha
-    points = power.curve(effects, sizes, arguments.replications, alpha, arguments.seed)
+    effect = effects.effect_of(study, arguments.effect, arguments.spread, arguments.source)
+    points, tests = power.curve(
+        effect.planned, effect.source, sizes, arguments.replications, alpha, arguments.seed,
+        effect.truth,
+    )  # fmt: skip
     least = power.enough(points)
+    print(f"drawn: {effect.drawn}")
+    print(f"assumed: {effect.assumed}")
+    for line in effect.alone:
+        print(f"not asked: {line}")
     for name, n in least.items():
         print(f"{name:30s} {'more than ' + str(sizes[-1]) if n is None else n}")
-    command = (
-        f"seethrough power {arguments.study} --participants {arguments.participants} "
-        f"--effect {arguments.effect} --replications {arguments.replications} "
-        f"--seed {arguments.seed} --out {arguments.out.name}"
-    )
+    for put in effect.put:
+        if put.interval is not None:
+            low, high = ("∞" if isinf(n) else f"{n:.0f}" for n in put.interval)
+            print(f"  {put.test.name:40s} {put.said:16s} n {low} to {high}")
     title = f"How many participants does “{study.study.title}” need?"
-    text = f"{what} Two-sided tests at α = {alpha:g}, {arguments.replications} replications."
+    settings = f"α = {alpha:g}, {arguments.replications} replications, seed {arguments.seed}."
+    planned = study.study.participants
+    smallest = (planned, effects.smallest(effect, planned, alpha))
+    command = _command(arguments)
+    text = page(title, effect, points, tests, least, smallest, settings, command)
     try:
         arguments.out.parent.mkdir(parents=True, exist_ok=True)
-        write_over(arguments.out, page(title, text, points, least, command))
+        write_over(arguments.out, text)
     except OSError as error:
         raise InputError(f"--out = {arguments.out}: cannot be written: {error.strerror}") from None
     print(f"page: {arguments.out}")
     return 0
+
+
+def _command(a: argparse.Namespace) -> str:
+    effect = f'"{a.effect}"' if " " in a.effect else a.effect
+    more = "" if a.spread is None else f" --spread {a.spread:g}"
+    more += "" if a.source is None else f" --source {a.source}"
+    return (
+        f"seethrough power {a.study} --participants {a.participants} --effect {effect}{more} "
+        f"--replications {a.replications} --seed {a.seed} --out {a.out.name}"
+    )
 
 
 def _sizes(text: str) -> list[int]:
@@ -77,26 +100,3 @@ def _sizes(text: str) -> list[int]:
     if not 2 <= low <= high <= MOST:
         raise InputError(f"--participants = {text}: expected A..B with 2 ≤ A ≤ B ≤ {MOST}")
     return sorted({*range(low, high + 1, 1 if high - low <= LONG else 10), high})
-
-
-def _effects(source: str) -> tuple[list[Effect], str]:
-    from seethrough.experiment.power import power, power_ranks
-
-    if source == "published":
-        return [*power.published(), *power_ranks.published()], (
-            "Participants are drawn from normal populations with the paper's printed means and "
-            "s.d. and the correlation that its F implies (paper 004, tables 3 and 4); for the "
-            "ratings, whose correlation is not printed, r = 0. Right answers and preference are "
-            "drawn with replacement from the only 16 people that fit what is printed."
-        )
-    from seethrough.experiment.power.power_data import sampled
-
-    folder = Path(source)
-    if not folder.is_dir():
-        raise InputError(f"--effect = {source}: expected published or a data folder")
-    effects = sampled(folder)
-    assert isinstance(effects[0], power.SampledEffect)  # times come first
-    return list(effects), (
-        f"Participants are drawn with replacement from the {len(effects[0].values)} simulated ones "
-        f"of {folder.name}; simulated participants are a tool for planning, never evidence."
-    )

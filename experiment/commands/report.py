@@ -36,6 +36,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="instead of the study's own rules (a deviation): timed_out, focus_lost, "
         "frames_missed, too_fast, participant:ID; may be repeated",
     )
+    parser.add_argument(
+        "--pairwise",
+        action="append",
+        metavar="FACTOR",
+        help="compare every pair of this factor's levels, too; may be repeated",
+    )
+    parser.add_argument(
+        "--aligned-ranks",
+        action="store_true",
+        help="test interactions of ordinal measures by aligned ranks, too, with a warning",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -44,7 +55,9 @@ def run(args: argparse.Namespace) -> int:
     from seethrough.analysis.errors import DataError
     from seethrough.analysis.report import Options, make_published, make_report, write
 
-    options = Options(args.source, args.alpha, args.exclude)
+    options = Options(
+        args.source, args.alpha, args.exclude, tuple(args.pairwise or ()), args.aligned_ranks
+    )
     if args.published == (args.data is not None):
         raise DataError("report: expected either DATA or --published")
     make = make_published if args.published else lambda: make_report(args.data, options)

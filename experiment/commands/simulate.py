@@ -6,20 +6,16 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.persons.profile_file import find, names
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
-from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.skills.effects import EFFECTS, checked
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 
 if TYPE_CHECKING:
-    from moderngl import Context
-
     from seethrough.experiment.record.trial_record import TrialRecord
 
 MOST_WORKERS = 256
@@ -48,10 +44,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="visual",
         help="visual: the real session, drawn and looked at; data: from visibility tables",
     )
+    parser.add_argument("--workers", type=int, default=1, metavar="W", help="processes; default: 1")
     data = parser.add_argument_group("data mode")
     data.add_argument("--tables", type=Path, metavar="FILE", help="visibility tables, kept")
     data.add_argument("--pool", type=int, default=POOL, metavar="K", help="scenes a task")
-    data.add_argument("--workers", type=int, default=1, metavar="W", help="processes; default: 1")
     data.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, tcp://HOST:PORT")
 
 
@@ -71,11 +67,23 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.mode == "data":
         _data_mode(arguments, count, profile, without)
     else:
-        if arguments.workers != 1 or arguments.tables or arguments.scheduler:
-            raise InputError("--workers, --scheduler and --tables: expected with --mode data only")
+        if arguments.tables or arguments.scheduler:
+            raise InputError("--scheduler and --tables: expected with --mode data only")
+        workers = _workers(arguments)
+        if workers > 1 and (arguments.explain or arguments.watch):
+            raise InputError("--explain and --watch: expected with one worker")
         if arguments.watch:
             return _watch(study, count, arguments.seed, arguments.out, profile, without)
-        simulate(study, count, arguments.seed, arguments.out, profile, without, arguments.explain)
+        simulate(
+            study,
+            count,
+            arguments.seed,
+            arguments.out,
+            profile,
+            without,
+            arguments.explain,
+            workers,
+        )
     print(f"{count} simulated participants in {arguments.out}")
     return 0
 
@@ -88,55 +96,29 @@ def simulate(
     profile: Profile = AVERAGE,
     without: frozenset[str] = frozenset(),
     explain: bool = False,
+    workers: int = 1,
 ) -> None:
     """Play `count` sessions into the data folder `out`. Raises InputError if they are there."""
-    from seethrough.experiment.display.driver import open_context
+    from seethrough.experiment.people.runs import visual
 
-    context = open_context()
+    job = visual.Visual(study, seed, out, profile, without)
     slots = study.plan.slots(count)
+    if workers > 1:
+        with Progress("simulating", count) as progress:
+            for slot in visual.play(job, slots, workers):
+                progress.step(f"S{slot:02d}")
+        return
+    seat = visual.Seat(job)
     trials = sum(len(s.trials) for slot in slots for s in session_for(slot, study.plan))
     with Progress("simulating", trials) as progress:
         for slot in slots:
-            person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
-            _one(study, slot, seed, out, context, progress, person, explain)
 
+            def ended(record: TrialRecord, person: SimulatedParticipant, slot: int = slot) -> None:
+                progress.step(f"S{slot:02d} {record.trial.task}")
+                if explain:
+                    _explain(f"S{slot:02d} trial {record.trial.number} {record.trial.task}", person)
 
-def _one(
-    study: Study,
-    slot: int,
-    seed: int,
-    out: Path,
-    context: Context,
-    progress: Progress,
-    person: SimulatedParticipant,
-    explain: bool,
-) -> None:
-    from seethrough.experiment.display.offscreen import OffscreenDisplay
-    from seethrough.experiment.people.simulated_input import SimulatedInput
-    from seethrough.experiment.record.recorder import FileRecorder, Who
-    from seethrough.experiment.session.session import run_session
-    from seethrough.experiment.session.software import provenance
-    from seethrough.experiment.session.surroundings import Surroundings
-    from seethrough.experiment.study.described import design_entry
-    from seethrough.experiment.study.own_model_files import keep
-
-    clock = SimulatedClock()
-    screen = study.session_part(slot).display
-    display = OffscreenDisplay(context, (screen.width, screen.height), clock)
-    described = provenance(study, display.describe(), **person.about(seed))
-    who = Who(
-        study.study.name, f"S{slot:02d}", "simulated", slot, described, design=design_entry(study)
-    )
-
-    def ended(record: TrialRecord) -> None:
-        progress.step(f"S{slot:02d} {record.trial.task}")
-        if explain:
-            _explain(f"S{slot:02d} trial {record.trial.number} {record.trial.task}", person)
-
-    session_input = SimulatedInput(person, display, clock)
-    keep(study, out)
-    world = Surroundings(display, session_input, clock, FileRecorder(out, who), TASKS, ended)
-    run_session(study, slot, world)
+            seat.play(slot, ended)
 
 
 def _watch(
@@ -164,6 +146,13 @@ def _explain(trial: str, person: SimulatedParticipant) -> None:
         print(f"  {'used    ' if use.used else 'not used'} {use.effect:13s} {use.reason}")
 
 
+def _workers(a: argparse.Namespace) -> int:
+    """How many processes. Raises InputError."""
+    if not 1 <= a.workers <= MOST_WORKERS:
+        raise InputError(f"--workers = {a.workers}: expected a number from 1 to {MOST_WORKERS}")
+    return int(a.workers)
+
+
 def _data_mode(
     arguments: argparse.Namespace, count: int, profile: Profile, without: frozenset[str]
 ) -> None:
@@ -171,8 +160,7 @@ def _data_mode(
     from seethrough.experiment.people.runs.batch import Batch
 
     a = arguments
-    if not 1 <= a.workers <= MOST_WORKERS:
-        raise InputError(f"--workers = {a.workers}: expected a number from 1 to {MOST_WORKERS}")
+    _workers(a)
     if a.scheduler is not None and a.workers != 1:
         raise InputError("--workers and --scheduler: expected one of them")
     if a.pool < 1:

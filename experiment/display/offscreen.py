@@ -18,12 +18,18 @@ if TYPE_CHECKING:
 
 
 class OffscreenDisplay:
-    """Shows nothing to nobody; `look` tells what could be seen."""
+    """Shows nothing to nobody; `look` tells what could be seen, by eyes that may be given."""
 
-    def __init__(self, context: Context, size: tuple[int, int], clock: Clock) -> None:
+    def __init__(
+        self,
+        context: Context,
+        size: tuple[int, int],
+        clock: Clock,
+        looking: Looking | None = None,
+    ) -> None:
         self.size = size
         self.clock = clock
-        self.looking = Looking(context, size, simple=True)
+        self.looking = looking or Looking(context, size, simple=True)
         self._context = context
         self._shown: View | None = None
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import exp, hypot, log2
+from math import exp, log2
 from statistics import fmean
 
 import numpy as np
@@ -27,6 +27,7 @@ from seethrough.experiment.people.persons.person import Person
 READ = 4.0  # seconds a paragraph: some 15 words at 240 words a minute [ours]
 DECIDE = 3.0  # seconds an item of a questionnaire [ours]
 MIDDLE, STEEPNESS, WOBBLE = 0.57, 0.28, 0.15  # ratings, 0–1, against log2 of relative time [ours]
+STILL = 2**0.5  # a picture that stands still: twice the variance of a depth in it [ours]
 
 Levels = tuple[tuple[str, str], ...]  # factor and level
 
@@ -125,7 +126,7 @@ class Opinions:
     def _nearer(self, picture: Picture, options: tuple[str, ...]) -> int:
         """Which of the kinds looks nearest in the picture, with the usual error in depth."""
         p = self.person.profile
-        spread = hypot(p.depth_noise, p.through_noise)
+        spread = p.depth_noise * STILL
         kinds = [o.removeprefix("kind.") for o in options]
         camera, scene = picture.view.camera, picture.view.scene
         depth = camera.depth(scene.centers)

@@ -1,80 +1,110 @@
-"""Effects from the participants of a data folder, reduced as the analysis reduces them."""
+"""People of a data folder of this study, reduced to scores as its report reduces them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
 
 from seethrough.analysis import measures
-from seethrough.analysis.cells import Cells
-from seethrough.analysis.design import ABSOLUTE, Contrast, Measured
+from seethrough.analysis.cells import people as people_of
+from seethrough.analysis.design import Design
 from seethrough.analysis.errors import DataError
-from seethrough.analysis.load.study import Study, load_study
-from seethrough.analysis.tradeoff import price_of
+from seethrough.analysis.exclude import apply_rules
+from seethrough.analysis.load.study import load_study
+from seethrough.analysis.plan import make_plan
+from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.measured import OVERALL, pair_key, pairs_of
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.power.power import SampledEffect
-from seethrough.experiment.power.power_ranks import RankEffect
+from seethrough.experiment.power.planned import Plans, Score, groups_of
+from seethrough.experiment.power.sources import Sampled
+
+Array = NDArray[np.float64]
 
 
-def sampled(folder: Path, source: str = "simulated") -> list[SampledEffect | RankEffect]:
-    """Times, errors, right answers, distances and ratings of a folder's participants.
+def context_of(folder: Path, source: str | None, design: Design) -> Context:
+    """A folder as its report reads it, exclusions and all.
 
-    Each with the test that the analysis makes of it. Raises DataError for a folder that a report
-    refuses, InputError for one that has no such participants.
+    Raises DataError for a folder that a report refuses, InputError for another study's.
     """
     try:
         study = load_study(folder, source)
     except DataError as error:
         raise DataError(f"--effect = {folder}: {line}" for line in error.lines) from None
-    design, trials = study.design, study.trials
-    contrast = next((c for c in design.contrasts() if not c.between), None)
-    levels = () if contrast is None else (contrast.baseline, contrast.level)
-    if contrast is None or not set(levels) <= set(trials[contrast.factor].astype("str")):
-        name = "any factor" if contrast is None else contrast.factor
-        raise InputError(f"--effect = {folder}: expected trials of both levels of {name}")
-    plain = [m for m in design.measures() if not m.ranked]
-    effects = [e for m in plain for e in _effects(study, m, contrast)]
-    ranked = [e for m in design.measures() if m.ranked for e in _effects(study, m, contrast)]
-    ranked += _ratings(study, contrast)
-    if any(len(effect.values) < 2 for effect in (*effects, *ranked)):
-        raise InputError(f"--effect = {folder}: expected at least 2 complete participants")
-    return [*effects, *map(RankEffect, ranked)]
+    if study.design != design:
+        raise InputError(
+            f"--effect = {folder}: expected data of this study: its factors, tasks, measures or "
+            "predictions are others"
+        )
+    plan = make_plan(study)
+    trials, excluded = apply_rules(study.trials, plan.exclude, plan.too_fast)
+    return Context(study, plan, trials, excluded, 1)
 
 
-def _effects(study: Study, measure: Measured, contrast: Contrast) -> Iterator[SampledEffect]:
-    """A measure's effects: over its tasks, for a time, and in each; what a task is not judged by is
-    left out."""
-    if measure.adds == ABSOLUTE:
-        return
-    cells = measures.cells_of(study.trials, study.design, measure)
-    tasks = cells.factors[measures.TASK]
-    name = "time" if measure.log else measure.said
-    if measure.log and len(tasks) > 1:
-        yield _effect(f"{name}, overall", measures.over_tasks(cells), contrast)
-    for task in tasks:
-        found = _effect(f"{name} {task}", cells, contrast, task=task)
-        own = study.design.task(task)
-        price = price_of(own) if own else None
-        if not measure.ranked or (price is not None and price.name == measure.name):
-            yield found
+def sampled(context: Context, plans: Plans) -> tuple[Sampled, Array]:
+    """The people of a folder by group, and all of their scores (people, columns).
+
+    Raises InputError where a group has fewer than two people, or nobody has a score.
+    """
+    design, trials = context.design, context.study.trials
+    people = people_of(trials)
+    scores = np.stack([_column(context, s, people) for s in plans.scores], axis=1)
+    own = [measures.groups_of(trials, f, people) for f in design.groups]
+    keys = list(zip(*own, strict=True)) if own else [()] * len(people)
+    parts = []
+    for group in groups_of(design):
+        at = np.array([key == tuple(group.values()) for key in keys])
+        if at.sum() < 2:
+            where = f" in the group {', '.join(group.values())}" if group else ""
+            raise InputError(
+                f"--effect: expected at least 2 participants{where}, got {int(at.sum())}"
+            )
+        parts.append(scores[at])
+    for k, score in enumerate(plans.scores):
+        if not np.isfinite(scores[:, k]).any():
+            what = score.item or (score.measure.said if score.measure else "")
+            raise InputError(
+                f"--effect: expected somebody with {what} {score.where}: nobody has it"
+            )
+    shares = tuple(len(part) / len(people) for part in parts)
+    return Sampled(tuple(parts), shares), scores
 
 
-def _ratings(study: Study, contrast: Contrast) -> Iterator[SampledEffect]:
-    """The mean of the items that are asked for each level."""
-    asked = [i for i in study.design.items or () if contrast.factor in i.each]
-    if not asked or not len(study.questionnaire):
-        return
-    factors = [study.design.factor(name) for name in asked[0].each]
-    own = [i.name for i in asked if i.each == asked[0].each]
-    cells = measures.ratings(study.questionnaire, own, factors)
-    if {contrast.baseline, contrast.level} <= set(cells.factors[contrast.factor]):
-        yield _effect("rating, overall", cells, contrast)
+def _column(context: Context, score: Score, people: list[str]) -> Array:
+    """(n,) a score of everybody, NaN for who lacks it."""
+    found = np.full(len(people), np.nan)
+    if score.measure is None:
+        return _item(context, score.item, people)
+    measure, contrast, design = score.measure, score.contrast, context.design
+    assert contrast is not None
+    cells = measures.cells_of(context.trials, design, measure)
+    logs = measures.cells_of(context.trials, design, measure, log=True) if measure.log else None
+    if contrast.between:
+        used = logs or cells
+        own = measures.over_tasks(used) if score.where == OVERALL else used.pick(task=score.where)
+        place = {name: k for k, name in enumerate(own.participants)}
+        values = own.at()
+        return np.array([values[place[name]] if name in place else np.nan for name in people])
+    several = len([c for c in design.contrasts() if not c.between]) > 1
+    key = pair_key(measure.name, score.where, contrast, several)
+    pair = next((p for p in pairs_of(context, measure, cells, logs) if p.key == key), None)
+    if pair is None:
+        return found
+    first, second = pair.logs if pair.logs is not None else (pair.first, pair.second)
+    place = {name: k for k, name in enumerate(people)}
+    at = [place[name] for name in pair.participants]
+    found[at] = score.first * first + score.second * second
+    return found
 
 
-def _effect(name: str, cells: Cells, contrast: Contrast, **at: str) -> SampledEffect:
-    """Whoever has both levels of it, as in the report."""
-    levels = (contrast.baseline, contrast.level)
-    pairs = np.stack(cells.both(contrast.factor, *levels, **at), axis=1)
-    return SampledEffect(name, pairs[np.isfinite(pairs).all(axis=1)])
+def _item(context: Context, item: str, people: list[str]) -> Array:
+    """What everybody answered to what was asked once."""
+    asked = context.study.questionnaire
+    if not len(asked):
+        return np.full(len(people), np.nan)
+    own = asked[asked["item"].astype("str") == item]
+    values = pd.to_numeric(own["value"], errors="coerce")
+    mean = values.groupby(own["participant"].astype("str")).mean()
+    return np.array([float(mean.get(name, np.nan)) for name in people])

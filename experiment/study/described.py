@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from seethrough.experiment.questions.ready import question
+from seethrough.experiment.questions.kit import Asking
+from seethrough.experiment.questions.likert.likert_question import LikertParameters
+from seethrough.experiment.questions.ready import Ready, question
 from seethrough.experiment.study.factors import ALONE, Factor
 from seethrough.experiment.study.reading import STARTS, Question
 from seethrough.experiment.study.study import Study
@@ -44,25 +46,41 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
 
 def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
     """A question's items, but of what is asked at the start: for which levels, together with which,
-    of how many points. Where one has the question's own name, it is made of the others."""
+    of how many points. What is added up stands for its parts."""
     if asked.use in STARTS:
         return []
     said = question(asked.use).items(asked.parameters, name)
-    known = {name: said[name]} if name in said else said
+    parts = {p.score: list(p.asked(name)) for p in _scales(asked, name) if p.score}
+    added = {item for own in parts.values() for item in own}
+    known = {item: words for item, words in said.items() if item not in added}
+    turned = [item for p in _scales(asked, name) for item in p.reverse]
     each = list(each_of(study, asked))
     compared = asked.table.of or next((f.name for f in study.factors if f.block), "")
     items = []
     for item, words in known.items():
-        scale = re.search(r"\(0–(\d+)\)$", words)
+        scale = re.search(r"\((-?\d+)–(-?\d+)\)$", words)
         items.append({
             "name": item,
             "label": item.replace("_", " "),
             "each": each,
-            "group": name if each and len(known) > 1 else "",
+            "group": name if len(known) > 1 else "",
             "of": compared if asked.use == "comparison" and item == "preference" else "",
-            **({"points": int(scale[1]) + 1} if scale else {}),
+            **({"points": int(scale[2]) - int(scale[1]) + 1, "low": int(scale[1])}
+               if scale else {}),
+            **({"parts": parts[item]} if item in parts else {}),
+            **({"reverse": own} if (own := [t for t in turned if t in parts.get(item, [item])])
+               else {}),
         })  # fmt: skip
     return items
+
+
+def _scales(asked: Question, name: str) -> list[LikertParameters]:
+    """The Likert scales of a question."""
+    kind = question(asked.use)
+    found = [part.parameters for part in kind.parts(Asking(name))] if isinstance(kind, Ready) else [
+        asked.parameters
+    ]  # fmt: skip
+    return [p for p in found if isinstance(p, LikertParameters)]
 
 
 def _factor(study: Study, factor: Factor) -> dict[str, Any]:

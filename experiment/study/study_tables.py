@@ -297,6 +297,14 @@ class AnalysisTable(Table):
         float, key("an answer sooner than this is impossible: what `exclude` leaves out by that "
                    "name", "s", gt=0, le=1e9),
     ] = 0.2  # fmt: skip
+    pairwise: Annotated[
+        tuple[str, ...],
+        key("factors of which every pair of levels is compared, not only each with the baseline",
+            said="an array of factors' names"),
+    ] = ()  # fmt: skip
+    aligned_ranks: Annotated[
+        bool, key("test interactions of ordinal measures by aligned ranks, too, with a warning")
+    ] = False
     margins: Annotated[MarginsTable, key("differences that would not matter")] = MarginsTable()
     predictions: Annotated[
         tuple[PredictionTable, ...],
@@ -304,8 +312,10 @@ class AnalysisTable(Table):
             said="an array of tables, [[analysis.predictions]]"),
     ] = ()  # fmt: skip
 
-    _arrays = field_validator("tests", "exclude", "predictions", mode="before")(_as_tuple)
-    _unique = field_validator("tests", "exclude")(_once)
+    _arrays = field_validator("tests", "exclude", "pairwise", "predictions", mode="before")(
+        _as_tuple
+    )
+    _unique = field_validator("tests", "exclude", "pairwise")(_once)
 
 
 class QuestionTable(Table):

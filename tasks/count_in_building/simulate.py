@@ -2,59 +2,48 @@
 
 from __future__ import annotations
 
-from math import dist
+import numpy as np
 
 from seethrough.tasks.kit.skills.counting import slips
-from seethrough.tasks.kit.skills.glance import Glance
+from seethrough.tasks.kit.skills.glance import Glance, blurred
+from seethrough.tasks.kit.skills.memory import NOVICE, Memory, Met, doubt
 from seethrough.tasks.kit.skills.mood import Mood
-from seethrough.tasks.kit.skills.places import Place
 from seethrough.tasks.kit.skills.strategy import Play, Strategy
 from seethrough.tasks.kit.skills.walking import Found, Walker, go_on
 
 MOST_SECONDS = 900.0
+SHAPES = np.full(1000, "", dtype="<U32")  # all are of the asked kind
 
 
 class Tally:
-    """Places of what has been counted, and which of it has stayed in sight since the last look."""
+    """What has been counted, told by its place, and what of it has stayed in sight since."""
 
-    def __init__(self) -> None:
-        self.places: list[Place] = []
-        self.tracked: dict[int, int] = {}  # index in the scene → entry of `places`
+    def __init__(self, mood: Mood) -> None:
+        self.memory = Memory(mood.learned.share("found again", 0.5, NOVICE), size=2)
+        self.tracked: dict[int, int] = {}  # index in the scene → entry of `memory`
 
     def add(self, walker: Walker, found: Found) -> int:
         """Match what was found to what was counted; how many are taken for new."""
-        p = walker.mood.profile
-        tracked: dict[int, int] = {}
+        # What has stayed in sight is known (ACT-R's fingers of instantiation); all else is told by
+        # its place.
+        stayed = [i for i in found.clear if i in self.tracked]
+        rest = [i for i in found.clear if i not in self.tracked]
+        entries = {i: self.tracked[i] for i in stayed}
         new = 0
-        used: set[int] = set()
-        # What has stayed in sight is known; the rest is told by its place.
-        order = sorted(found.index, key=lambda i: i not in self.tracked)
-        for index in order:
-            place = walker.place(index, found.sight)
-            entry = self.tracked.get(index)
-            if entry is None:
-                within = p.same_place + 0.1 * dist(place, walker.eye)
-                entry = self._nearest(place, within, used)
-            if entry is None:
-                entry = len(self.places)
-                self.places.append(place)
-                new += 1
-            else:
-                (a, b), (c, d) = self.places[entry], place
-                self.places[entry] = ((a + c) / 2, (b + d) / 2)
-            used.add(entry)
-            if len(tracked) < p.tracked:
-                tracked[index] = entry
-        self.tracked = tracked
+        if rest:
+            new = int(self.memory.take(_met(walker, found, rest), busy=set(entries.values())).sum())
+            entries |= dict(zip(rest, self.memory.entries.tolist(), strict=True))
+        self.tracked = dict(list(entries.items())[: walker.mood.profile.tracked])
         return new
 
-    def _nearest(self, place: Place, within: float, used: set[int]) -> int | None:
-        free = [k for k in range(len(self.places)) if k not in used]
-        if not free:
-            return None
-        ways = [dist(self.places[k], place) for k in free]
-        nearest = min(ways)
-        return free[ways.index(nearest)] if nearest < within else None
+
+def _met(walker: Walker, found: Found, index: list[int]) -> Met:
+    """The things of these numbers, where one believes them to stand."""
+    p = walker.mood.profile
+    place = np.array([walker.place(i, found.clear[i]) for i in index])
+    clear = np.array([found.clear[i] for i in index])
+    here = np.add(walker.eye, walker.error)
+    return Met(place, doubt(place - here, p.depth_noise * blurred(clear, p)), SHAPES[: len(index)])
 
 
 def count_things(mood: Mood, glance: Glance) -> Play:
@@ -63,7 +52,7 @@ def count_things(mood: Mood, glance: Glance) -> Play:
     walker = Walker(mood, glance)
     walker.hands.wait(p.prepare)
     began = glance.now
-    tally, count, goal = Tally(), 0, None
+    tally, count, goal = Tally(mood), 0, None
     while walker.hands.time - began < MOST_SECONDS:
         found = walker.look()
         new = tally.add(walker, found)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import exp, hypot
+from math import exp
 
 import numpy as np
 
 from seethrough.tasks.depth_order.pair import LIFT
 from seethrough.tasks.kit.hud import Label
-from seethrough.tasks.kit.skills.glance import WHOLE, Glance, recognised
+from seethrough.tasks.kit.skills.glance import Glance, blurred, clear_pixels, recognised
 from seethrough.tasks.kit.skills.hands import Hands
 from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.strategy import Play, Strategy
@@ -36,8 +36,8 @@ def judge_depth(mood: Mood, glance: Glance) -> Play:
             looks.append(exp(mood.rng.standard_normal()) * float(np.linalg.norm(camera.eye)))
             continue
         true = float(camera.depth(glance.view.scene.centers[thing][None])[0])
-        through = 0.0 if seen.weight[thing] >= WHOLE else p.through_noise
-        spread = hypot(p.depth_noise, through) if mood.uses("depth_noise") else 0.0
+        blur = float(blurred(clear_pixels(seen, np.array([thing])), p)[0])
+        spread = p.depth_noise * blur if mood.uses("depth_noise") else 0.0
         looks.append(true * exp(spread * mood.rng.standard_normal()))
     hands.wait(p.prepare)
     hands.key(marks[int(np.argmin(looks))].text.lower())

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.tasks.kit.skills.counting import saccade
-from seethrough.tasks.kit.skills.glance import Glance, heading, recognised
+from seethrough.tasks.kit.skills.glance import Glance, heading
 from seethrough.tasks.kit.skills.hands import Hands, learn_gain
+from seethrough.tasks.kit.skills.memory import meet, memory_of
 from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.red import red_things
 from seethrough.tasks.kit.skills.strategy import Play, Strategy
 
 FROM_ABOVE = 1.25  # height, in radians, from which a flat letter reads well [ours]
-RELATIVE_DEPTH = 0.04  # s.d. of depth in the cloud, as a part of the distance [ours]
 MISTAKEN_SHAPE = 0.25  # of unclear red things, how many are taken for cones [ours]
 ANGLES = np.arange(36) * (2 * np.pi / 36)
 
@@ -37,7 +37,7 @@ def name_letter(mood: Mood, glance: Glance) -> Play:
     p = mood.profile
     hands = Hands(mood, glance.now)
     hands.wait(p.prepare)
-    places: dict[int, list[NDArray[np.float64]]] = {}
+    letter = Letter(mood)
     for looks in range(1, p.letter_looks + 1):
         yaw, height = heading(glance.view)
         side = 0.0 if looks == 1 else p.orbit_step
@@ -46,11 +46,12 @@ def name_letter(mood: Mood, glance: Glance) -> Play:
         if side:
             learn_gain(hands, yaw, heading(glance.view)[0], side)
         red = red_things(mood, glance)
-        _remember(mood, glance, _cones(mood, glance, red), places)
-        # Colour guides the eyes to what is red; a shape takes attention, thing by thing.
-        hands.wait(len(red) * (p.attention_shift + p.search_slope + saccade(0.1, mood)))
+        # Colour guides the eyes to what is red; a shape takes attention, thing by thing, until it
+        # is clear.
+        unclear = letter.look(glance, red)
+        hands.wait(unclear * (p.attention_shift + p.search_slope + saccade(0.1, mood)))
         hands.wait(p.letter_turning * mood.rng.random())
-        chances = letter_chances(np.array([np.mean(v, axis=0) for v in places.values()]))
+        chances = letter_chances(letter.cones())
         if max(chances.values()) > 1 - (1 - p.certainty) / mood.care:
             break
         hands.wait(p.prepare)
@@ -60,26 +61,36 @@ def name_letter(mood: Mood, glance: Glance) -> Play:
     yield hands.take()
 
 
-def _cones(mood: Mood, glance: Glance, red: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Red things taken for cones: told by their shape where it is clear, else guessed."""
-    clear = recognised(glance.look(), red, mood)
-    guess = mood.rng.random(len(red)) < MISTAKEN_SHAPE
-    cone = np.array([glance.view.scene.objects[i].kind == "cone" for i in red], dtype=bool)
-    return red[np.where(clear, cone, guess)]
+class Letter:
+    """The red things met so far, and which of them are taken for cones.
 
+    What was guessed of an unclear thing is taken back as soon as its shape is clear, and a clear
+    shape is not looked at again.
+    """
 
-def _remember(
-    mood: Mood,
-    glance: Glance,
-    cones: NDArray[np.int64],
-    places: dict[int, list[NDArray[np.float64]]],
-) -> None:
-    """Where each cone seems to be on the floor of the world: sharp across the view, not along."""
-    eye = glance.view.camera.eye
-    away = glance.view.scene.centers[cones] - eye
-    noise = RELATIVE_DEPTH * mood.rng.standard_normal(len(cones))
-    for index, place in zip(cones.tolist(), eye + away * (1 + noise)[:, None], strict=True):
-        places.setdefault(index, []).append(place[[0, 2]])
+    def __init__(self, mood: Mood) -> None:
+        self.mood = mood
+        self.memory = memory_of(mood)
+        self._guess = np.empty(0, dtype=bool)
+
+    def look(self, glance: Glance, red: NDArray[np.int64]) -> int:
+        """Take in the red things noticed; how many of them had to be looked at one by one."""
+        mood, view = self.mood, glance.view
+        met = meet(mood, glance.look(), view.scene, view.camera, red)
+        clear_before = self.memory.shape != ""
+        new = self.memory.take(met, None if mood.uses("view_changes") else red)
+        guess = mood.rng.random(len(view.scene.objects))[red[new]] < MISTAKEN_SHAPE
+        self._guess = np.concatenate([self._guess, guess])
+        known = np.zeros(len(self.memory), dtype=bool)
+        known[: len(clear_before)] = clear_before
+        return int((~known[self.memory.entries]).sum())
+
+    def cones(self) -> NDArray[np.float64]:
+        """(n, 2) where on the floor of the world those seem to be that are taken for cones."""
+        clear = self.memory.shape != ""
+        cone = np.where(clear, self.memory.shape == "cone", self._guess)
+        places: NDArray[np.float64] = self.memory.place[cone][:, [0, 2]]
+        return places
 
 
 @cache
@@ -128,5 +139,10 @@ FIT = 0.25  # s.d. of a cone about its stroke, half letter heights [ours]
 
 
 STRATEGY = Strategy(
-    name_letter, {"crowding": "many small things on the view"}, heights=(FROM_ABOVE,)
+    name_letter,
+    {
+        "crowding": "many small things on the view",
+        "view_changes": "places and shapes over several views",
+    },
+    heights=(FROM_ABOVE,),
 )

@@ -29,7 +29,7 @@ def find_unique(mood: Mood, glance: Glance) -> Play:
         if len(found.index):
             walker.settle()
             index = found.index[0]
-            believed = walker.place(index, found.sight)
+            believed = walker.place(index, found.clear[index])
             there = (believed[0] - walker.error[0], believed[1] - walker.error[1])
             if dist(there, walker.eye) <= mood.profile.near_enough:
                 break

@@ -23,7 +23,17 @@ from report_folders import PUBLISHED, contents, make_case, write_published  # no
 
 from seethrough.analysis.report import Options, make_report  # noqa: E402
 
-PACKAGES = ("afex", "emmeans", "car", "lme4", "BayesFactor", "exactRankTests", "jsonlite")
+PACKAGES = (
+    "afex",
+    "emmeans",
+    "car",
+    "lme4",
+    "BayesFactor",
+    "exactRankTests",
+    "jsonlite",
+    "psych",
+    "ordinal",
+)
 VERSIONS = (
     "cat(jsonlite::toJSON(as.list(c(R = paste(R.version$major, R.version$minor, sep = '.'), "
     "sapply(c({}), function(p) as.character(packageVersion(p))))), auto_unbox = TRUE))"

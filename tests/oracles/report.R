@@ -29,6 +29,7 @@ main <- function(folder, out) {
     participants_tables(d), time_tables(d), accuracy_tables(d), ratings_tables(d),
     tradeoff_tables(d), list(order = order_rows(d)), learning_tables(d),
     list(faults = fault_rows(d), difficulty = difficulty_rows(d), mixed_model = mixed_row(d)),
+    list(mixed_scenes = scenes_row(d, mixed_row(d)[[1]])),
     list(robust = robust_rows(d))
   )
   write_tables(tables, out)

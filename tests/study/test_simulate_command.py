@@ -5,7 +5,10 @@ import json
 
 import pytest
 
+from seethrough import api
 from seethrough.experiment import cli
+from seethrough.experiment.power import effects
+from seethrough.experiment.study.config import load
 
 
 def rows(folder):
@@ -59,17 +62,57 @@ def test_visual_mode_explains_its_effects(tmp_path, capsys):
     assert "hasty" in json.dumps(sidecar) and "crowding" in json.dumps(sidecar)
 
 
+def test_two_workers_play_the_same_real_sessions_as_one(tmp_path):
+    """Byte for byte but for when they were recorded."""
+    told = {}
+    for workers in ("1", "2"):
+        out = tmp_path / workers
+        words = ["simulate", "demo", "--participants", "2", "--workers", workers]
+        assert cli.main([*words, "--out", str(out)]) == 0
+        told[workers] = [
+            {k: v for k, v in row.items() if k not in ("started", "chain")} for row in rows(out)
+        ]
+        traces = sorted(out.glob("data/simulated/*/traces/*"))
+        told[workers].append([(path.name, path.read_bytes()) for path in traces])
+    assert told["1"] == told["2"] and len(told["1"]) == 2 * 8 + 1
+
+
 def test_power_from_the_paper_and_from_simulated_people(tables, tmp_path, capsys):
     page = tmp_path / "p.html"
-    words = ["power", "published", "--participants", "8..12", "--replications", "50"]
-    assert cli.main([*words, "--out", str(page)]) == 0
-    assert "time, overall" in capsys.readouterr().out
+    words = ["--participants", "8..12", "--replications", "50", "--out", str(page)]
+    assert cli.main(["power", "published", "--effect", "published", *words]) == 0
+    assert "completion time overall" in capsys.readouterr().out
     text = page.read_text(encoding="utf-8")
-    assert "<svg" in text and "never" not in text and "no person took part" in text
+    assert "<svg" in text and "A plan, no evidence" in text and "never evidence" not in text
     out = tmp_path / "people"
     assert data_mode(tables, out, "--participants", "4") == 0
-    assert cli.main([*words, "--effect", str(out), "--out", str(page)]) == 0
-    assert "never evidence" in page.read_text(encoding="utf-8")
+    assert cli.main(["power", "demo", "--effect", str(out), *words]) == 0
+    said = capsys.readouterr().out
+    assert "drawn: 4 simulated participants of people" in said
+    text = page.read_text(encoding="utf-8")
+    assert "never evidence" in text and text.index("Drawn.") < text.index("<svg")
+    assert cli.main(["power", "published", "--effect", str(out), *words]) == 2
+    assert f"--effect = {out}: expected data of this study" in capsys.readouterr().err
+
+
+def test_power_asks_what_the_report_asks(tables, tmp_path):
+    """The people as they are: every test's p is the one that their report prints."""
+    out = tmp_path / "people"
+    assert data_mode(tables, out, "--participants", "6") == 0
+    study = load("demo")
+    effect = effects.effect_of(study, str(out), None, None)
+    mine = effects.decisions(effect)
+    printed = api.results(out)
+    for mine_of, table, row, column in (
+        ("completion time overall", "tests_log_time", "time_overall", "p"),
+        ("relative error overall", "tests_count_error", "count_error_overall", "p"),
+        ("distance T3 unique", "tests_distance", "distance_unique", "p"),
+        ("right answers T1 count", "friedman_correct", "correct_count", "p_exact"),
+    ):
+        expected = printed[table].loc[row, column]
+        if expected == expected:  # what the report cannot test is 1 here
+            assert mine[mine_of] == pytest.approx(expected, rel=1e-9)
+    assert mine["completion time overall"] < 1
 
 
 @pytest.mark.parametrize(
@@ -80,7 +123,8 @@ def test_power_from_the_paper_and_from_simulated_people(tables, tmp_path, capsys
         ("simulate demo --out {t}/x --profile hero", "--profile = hero: expected one of average"),
         ("simulate demo --out {t}/x --mode data --pool 0", "--pool = 0: expected at least 1 scene"),
         ("simulate demo --out {t}/x --mode data --workers 0", "--workers = 0: expected a number"),
-        ("simulate demo --out {t}/x --workers 2", "expected with --mode data only"),
+        ("simulate demo --out {t}/x --workers 0", "--workers = 0: expected a number from 1"),
+        ("simulate demo --out {t}/x --workers 2 --explain", "expected with one worker"),
         ("simulate demo --out {t}/x --scheduler tcp://h:1", "expected with --mode data only"),
         ("simulate demo --out {t}/x --mode data --scheduler tcp://h:1 --workers 2",
          "--workers and --scheduler: expected one of them"),
@@ -89,7 +133,8 @@ def test_power_from_the_paper_and_from_simulated_people(tables, tmp_path, capsys
         ("power published --out {t}/p --participants 1..4", "--participants = 1..4: expected A..B"),
         ("power published --out {t}/p --participants many", "--participants = many: expected A..B"),
         ("power published --out {t}/p --replications 3", "--replications = 3: expected a number"),
-        ("power published --out {t}/p --effect {t}/nix", "expected published or a data folder"),
+        ("power published --out {t}/p", "--effect: expected \"PREDICTION=0.2 sd\", published"),
+        ("power published --out {t}/p --effect {t}/nix", "published, or a data folder"),
         ("calibrate published --out {t}/c --tables {t}/t --participants 2",
          "--participants = 2: expected at least 3"),
         ("calibrate published --out {t}/c --tables {t}/t --last 2",

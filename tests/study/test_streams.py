@@ -88,7 +88,11 @@ def test_a_full_disk_where_the_output_goes():
 LONG = [
     ("simulate published --participants 4 --out {t}/v", "simulating"),
     ("simulate published --mode data --pool 4 --participants 9 --out {t}/d --workers 2", "making"),
-    ("power published --participants 8..99 --replications 100000 --out {t}/p.html", ""),
+    (
+        "power published --effect published --participants 8..99 --replications 100000 "
+        "--out {t}/p.html",
+        "",
+    ),
     ("check published --certificate {t}/c.csv", "measuring"),
 ]
 

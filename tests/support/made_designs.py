@@ -39,7 +39,9 @@ Cell = Mapping[str, str]
 @dataclass(frozen=True)
 class Design:
     """What to make. `factors`: the sidecar's; `people`: of each group, in the order of the groups'
-    cells; `effect`: what a cell adds to log time; `tasks`: names, each with `measures`."""
+    cells; `effect`: what a cell adds to log time; `tasks`: names, each with `measures`; `shared`:
+    how many scenes of a task everybody meets, 0 where each trial has a scene of its own; `answers`:
+    a slot's rows of the questionnaire instead of drawn ones; `plan`: the study's [analysis]."""
 
     factors: Sequence[Mapping[str, Any]]
     people: Sequence[int] = (12,)
@@ -52,6 +54,9 @@ class Design:
     seed: int = 1
     source: str = "human"
     asked: bool = True
+    shared: int = 0
+    plan: Mapping[str, Any] = field(default_factory=dict)
+    answers: Callable[[int], Sequence[Mapping[str, Any]]] | None = None
     more: Mapping[str, Any] = field(default_factory=dict)
 
     def entry(self) -> dict[str, Any]:
@@ -107,14 +112,17 @@ def _person(folder: Path, design: Design, slot: int, group: Cell, rng: Generator
     extra = ",".join(m["name"] for m in design.measures if m["name"] not in ("time", "correct"))
     table = own / f"{stem}_trials_data.csv"
     write_rows(table, FIXED.format(columns, extra).replace(",,", ",").split(","), rows)
-    config = {"study": {"title": "Made", "participants": None}}
+    config: dict[str, Any] = {"study": {"title": "Made", "participants": None}}
+    if design.plan:
+        config["analysis"] = dict(design.plan)
     sidecar = {"started": "2026-11-22T09:00:00Z", "design": design.entry(),
                "provenance": {"study": config}}  # fmt: skip
     table.with_suffix(".json").write_text(json.dumps(sidecar))
     if design.asked:
         within = ",".join(f["name"] for f in design.of(within=True))
         answers = [{**who, "row_id": f"{design.source}-{name}-1-q{i:03d}", **row}
-                   for i, row in enumerate(_answers(design, rng))]  # fmt: skip
+                   for i, row in enumerate(design.answers(slot) if design.answers
+                                           else _answers(design, rng))]  # fmt: skip
         path = own / f"{stem}_questionnaire_data.csv"
         write_rows(path, ASKED.format(within).replace(",,", ",").split(","), answers)
     chain_table(table)
@@ -134,6 +142,8 @@ def _trials(
         for task in design.tasks:
             for k in range(1, design.trials + 1):
                 mean = 3 + person + slopes[index] + design.effect({**cell, "task": task})
+                scene, adds = _scene(design, slot, task, len(rows), index)
+                mean += adds
                 time = float(np.exp(mean + rng.normal(0, 0.3)))
                 right = bool(rng.random() < 0.85)
                 number = len(rows) + 1
@@ -141,7 +151,7 @@ def _trials(
                 rows.append({
                     "trial": number, "block": block, "task_set": (number - 1) // design.trials + 1,
                     "trial_in_set": k, "attempt": 1, **cell, "task": task,
-                    "scene": f"stream-{slot}-{number}", "targets": 10, "answer": "a", "truth": "a",
+                    "scene": scene, "targets": 10, "answer": "a", "truth": "a",
                     "correct": right, "off": float(rng.gamma(3, 2) * np.exp(0.1 * person)),
                     "ease": int(np.clip(round(3 - 2 * design.effect({**cell, "task": task})
                                               + rng.normal(0, 0.8)), 1, 5)),
@@ -151,6 +161,17 @@ def _trials(
                     "started": "2026-11-22T09:00:00Z", "events_file": "x", "camera_file": "x",
                 })  # fmt: skip
     return rows
+
+
+def _scene(design: Design, slot: int, task: str, before: int, cell: int) -> tuple[str, float]:
+    """A trial's scene, and what it adds to log time: a level, and its own effect of each cell."""
+    if not design.shared:
+        return f"stream-{slot}-{before + 1}", 0.0
+    which = (before // len(design.tasks) + 3 * slot) % design.shared
+    key = (10_000, design.tasks.index(task), which)
+    rng = np.random.default_rng(np.random.SeedSequence(design.seed, spawn_key=key))
+    level, slopes = rng.normal(0, 0.2), rng.normal(0, 0.2, len(design.cells(within=True)))
+    return f"{task}-{which}", float(level + slopes[cell])
 
 
 def _answers(design: Design, rng: Generator) -> list[dict[str, Any]]:
@@ -206,4 +227,27 @@ DESIGNS: Mapping[str, Design] = {
                       3, effect=lambda c: -0.2 * (c["training"] == "long"), seed=7),
     "left_out": Design((factor("view", "plain", "cut", "lens"), CLUTTER), (12,), 2,
                        effect=_of_both, seed=8, excluded=({"view": "plain", "clutter": "380"},)),
+    "four_ranked": Design((VIEWS,), (11,), 3, ("find",), (TIME, EASE, RIGHT), effect=_of_view,
+                          seed=11, plan={"pairwise": ["view"]}),
+    "four_tasks": Design((VIEWS,), (16,), 2, ("find", "count"), (TIME, OFF, RIGHT),
+                         effect=_of_view, seed=12),
+    "two_by_three_ranked": Design(
+        (factor("view", "plain", "cut"), CLUTTER), (10,), 3, ("find",), (OFF, EASE, RIGHT),
+        effect=_of_both, seed=13, plan={"pairwise": ["clutter"], "aligned_ranks": True},
+    ),
+    "two_by_three_tasks": Design((factor("view", "plain", "cut"), CLUTTER), (7,), 2,
+                                 ("find", "count"), effect=_of_both, seed=14),
+    "mixed_unlike": Design(
+        (factor("training", "none", "some", kind="measured"), CLUTTER), (12, 4), 2,
+        effect=_of_group, seed=15, plan={"pairwise": ["clutter"]},
+    ),
+    "left_out_ranked": Design(
+        (factor("view", "plain", "cut", "lens"), CLUTTER), (9,), 3, ("find",), (TIME, EASE, RIGHT),
+        effect=_of_both, seed=16, excluded=({"view": "plain", "clutter": "380"},),
+        plan={"pairwise": ["view"], "aligned_ranks": True},
+    ),
+    "scenes": Design((factor("view", "plain", "cut"),), (12,), 4, effect=_of_view, seed=9,
+                     shared=8),
+    "scenes_of_three": Design((factor("view", "plain", "xray", "cut"),), (9,), 4,
+                              ("find", "count"), effect=_of_view, seed=10, shared=12),
 }  # fmt: skip

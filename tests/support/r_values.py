@@ -42,6 +42,8 @@ FLOORS = {
 CANCEL = 1e-14
 """Of means and s.d.: what rounding leaves of differences between equal sums in another order."""
 CANCELLING = ("difference", "within_half", "mean_baseline", "mean_level")
+OMEGA = 1e-6
+"""Two optimisers of one likelihood, flat near its top."""
 NEAR_1E9 = {"log": 1e-5, "": 1e-6}
 """Times near 10⁹: of a spread of some seconds seven digits are left in a mean, which is a double;
 their logarithms near 20.7 spread by some 10⁻⁸, and have six to seven."""
@@ -96,6 +98,7 @@ FITTED: Mapping[str, Callable[[Mapping[str, str]], float]] = {
     # its own standard error is about that of the estimate, or larger
     "sd_slope": _fitted,
     "sd_task_slope": _fitted,
+    "sd_scene": _fitted,
 }
 """Columns of an iterative fit, and what R's row allows."""
 
@@ -227,7 +230,9 @@ def _room(
         draws = int(mine["method"].split()[0])
         # both count the observed order in: (hits + 1) / (draws + 1)
         return SAMPLED * math.sqrt(truth * (1 - truth) / draws) + 1 / draws
-    if table == "mixed_model" and column in FITTED:
+    if table == "reliability" and column == "omega":
+        return OMEGA
+    if table in ("mixed_model", "mixed_scenes") and column in FITTED:
         return FITTED[column](theirs) + CLOSED * abs(truth)
     floor = FLOORS.get(column, 0.0)
     if column in CANCELLING and "sd_baseline" in theirs:

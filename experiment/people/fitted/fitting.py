@@ -1,4 +1,4 @@
-"""Fitting: a profile whose times come near the published ones.
+"""Fitting: a profile whose times and errors come near the published ones.
 
 Every evaluation uses the same random streams, trial by trial, so that profiles differ and luck
 does not. Means come first: times are nearly proportional to the pace.
@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from math import exp, log
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,9 @@ from scipy.stats.qmc import Halton
 
 from seethrough.experiment.people.fitted.calibration import (
     FITTED,
-    TimeMeasure,
+    Key,
+    Moments,
+    TrialRow,
     measured,
     misfit,
     published,
@@ -32,16 +33,15 @@ from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.design import SIMULATED, generator, session_for
 from seethrough.tasks.kit.skills.profile import Profile
 
-Play = Callable[[Profile], Iterable[Mapping[str, Any]]]
+Play = Callable[[Profile], Iterable[TrialRow]]
 
 # What may be fitted, each within a factor of the starting profile's value.
 FREE = {
     "pace": 3.0,  # decisions: all mental times
     "recheck": 4.0,  # thoroughness: telling a thing as counted already
-    "patience": 3.0,  # thoroughness: views without news before a count is believed
+    "worth": 4.0,  # thoroughness: seconds one would spend for one more thing
     "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
-    "trust": 1.6,  # caution: how far a view through walls is believed
-    "trust_cloud": 2.4,  # caution: patience saved by seeing things through others, up to .96
+    "cloud_depth": 2.0,  # sharpness: how surely a thing is known again in a world that turns
     "sd_person": 4.0,
     "sd_task": 4.0,
     "sd_trial": 4.0,
@@ -53,7 +53,7 @@ STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chan
 PACES = 1  # evaluations that correct the pace alone
 STEPS = 6  # evaluations of the larger crowd, once its derivatives are there
 LAST = 1 + len(FREE) + STEPS  # all evaluations of the larger crowd
-LOOSE = 1.0  # logarithm of the factor by which a constant may move for one tolerance of misfit
+LOOSE = 1.0  # logarithm of the factor by which a constant may move for one standard error
 
 
 class Crowd:
@@ -70,12 +70,12 @@ class Crowd:
         even = Halton(TRAITS, seed=generator(seed, (SIMULATED,)))
         self.traits = ndtri(even.random(count))
 
-    def play(self, profile: Profile, tasks: Collection[str]) -> list[dict[str, object]]:
-        """Who, which task and level, and how long: every trial of `tasks`, after its training.
+    def play(self, profile: Profile, tasks: Collection[str]) -> list[TrialRow]:
+        """Who, which task and level, how long, how far off, for every trial of `tasks`.
 
         What is drawn on the way is kept person by person: an interrupted fit goes on with it.
         """
-        rows = []
+        rows: list[TrialRow] = []
         for slot in self.slots:
             person = SimulatedParticipant(
                 generator(self.seed, (SIMULATED, slot)), profile, traits=self.traits[slot - 1]
@@ -86,10 +86,14 @@ class Crowd:
                 for trial in task_set.training:
                     play_trial(person, self.pool, trial)
                 for trial in task_set.trials:
-                    time = play_trial(person, self.pool, trial)[0].time
+                    record = play_trial(person, self.pool, trial)[0]
+                    of = record.outcome
+                    assert of is not None  # it was played to its end
                     rows.append(
-                        {"participant": slot, "task": trial.task,
-                         "transparency": trial.levels["transparency"], "time": time}
+                        {"participant": slot, "task": trial.task, "time": record.time,
+                         "transparency": trial.levels["transparency"], "truth": of.truth,
+                         "count_error": of.count_error, "distance": of.distance,
+                         "correct": of.correct}
                     )  # fmt: skip
             self.pool.looks.flush()
         return rows
@@ -101,8 +105,7 @@ def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
     for (name, factor), value in zip(FREE.items(), x, strict=True):
         scale = exp(float(np.clip(value, -log(factor), log(factor))))
         changes[name] = getattr(profile, name) * scale
-    for share in ("diligence", "trust", "trust_cloud"):
-        changes[share] = min(changes[share], 1.0)
+    changes["diligence"] = min(changes["diligence"], 1.0)
     return replace(profile, **changes)
 
 
@@ -114,7 +117,7 @@ class _Search:
         self.value, self.best, self.x = np.inf, start, np.zeros(len(FREE))
         self.count = 0
 
-    def found(self, x: NDArray[np.float64]) -> dict[str, TimeMeasure]:
+    def found(self, x: NDArray[np.float64]) -> dict[Key, Moments]:
         """What the crowd does with the constants at `x`."""
         profile = with_free(self.start, x)
         simulated = measured(self.play(profile))
@@ -126,7 +129,7 @@ class _Search:
         return simulated
 
     def residuals(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Tolerances off; and how far the constants have moved, so that none moves for nothing."""
+        """Standard errors off; and how far constants have moved, so that none moves for nothing."""
         return np.concatenate([residuals(self.found(x)), x / LOOSE])
 
 
@@ -159,12 +162,14 @@ def calibrate(
     return search.best, float(search.value)
 
 
-def _too_slow(simulated: Mapping[str, TimeMeasure]) -> float:
+def _too_slow(simulated: Mapping[Key, Moments]) -> float:
     """By how much the fitted means are too long: the mean logarithm of their ratios."""
     ratios = [
         ours / theirs
         for task in FITTED
-        for ours, theirs in zip(simulated[task].means, published()[task].means, strict=True)
+        for ours, theirs in zip(
+            simulated[task, "time"].means, published()[task, "time"].means, strict=True
+        )
     ]
     return float(np.mean(np.log(ratios)))
 

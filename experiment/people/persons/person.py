@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.skills.effects import plan_effects
+from seethrough.tasks.kit.skills.learned import Learned
 from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.profile import Profile
 
@@ -24,7 +25,8 @@ PACE = 0  # last word of the stream of a pace at another task: no trial's has th
 
 @dataclass
 class Person:
-    """Pace and care for a whole session; experience grows with each trial.
+    """Pace and care for a whole session; experience grows with each trial, and so does what is
+    `learned` at each task.
 
     `pace` multiplies mental times at each task, `care` multiplies patience and divides slips.
     `traits` (2 + tasks,) are the person's standard normal deviates: of care, of pace, of pace at
@@ -39,6 +41,7 @@ class Person:
     _own: float = field(init=False)
     care: float = field(init=False)
     experience: dict[str, int] = field(default_factory=dict)
+    learned: dict[str, Learned] = field(default_factory=dict)
     began: float | None = None
 
     def __post_init__(self) -> None:
@@ -89,7 +92,9 @@ def mood_for(person: Person, task: str, now: float) -> Mood:
     if effects["fatigue"].used:
         spread *= 1 + p.fatigue * (now - person.began) / 3600
     pace *= exp(spread * rng.standard_normal())
-    return Mood(rng, p, effects, pace, person.care)
+    learned = person.learned.setdefault(task, Learned())
+    learned.begin()
+    return Mood(rng, p, effects, pace, person.care, learned)
 
 
 def _number(task: str) -> int:

@@ -46,6 +46,15 @@ def read(path: Path) -> Profile:
         raise InputError(f"{path}: profile.{error}") from None
 
 
+def made_by(name: str) -> tuple[str, tuple[str, ...]]:
+    """The command that fitted a profile file, and its table; nothing for those of the program."""
+    path = SHIPPED / f"{name}.toml" if name in names() else Path(name)
+    found = read_toml(path).get("provenance", {}) if path.is_file() else {}
+    if not isinstance(found, dict):
+        return "", ()
+    return str(found.get("command", "")), tuple(map(str, found.get("table", ())))
+
+
 def _faults(values: Mapping[str, object]) -> Iterator[str]:
     """What is wrong with the keys of a profile, a line each."""
     known = sorted(f.name for f in fields(Profile))

@@ -39,7 +39,9 @@ def run(
         if not chunks:
             print(f"{out}: all {count} participants are there", file=sys.stderr)
             return
-        make_tables(job, min(count, CHUNK))
+        # Few people look from few places: what they need is drawn as they come.
+        if count > CHUNK or count >= job.pool:
+            make_tables(job, min(count, CHUNK))
         with (
             Progress("simulating", sum(map(len, chunks))) as progress,
             closing(KeptLooks(job.tables)) as tables,

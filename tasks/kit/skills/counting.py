@@ -7,29 +7,23 @@ from numpy.typing import NDArray
 
 from seethrough.tasks.kit.skills.mood import Mood
 
-CLUSTER = 0.06  # things nearer than this on the view, in its heights, are one glance (2°) [ours]
-
 
 def seconds_to_count(places: NDArray[np.float64], mood: Mood) -> float:
-    """Time to count things at (n, 2) places on the view, from one to the nearest not yet counted.
+    """Time to count things that stand out, at (n, 2) places on the view.
 
-    Up to four close together are subitised; each next group, and each thing beyond four, is
-    counted. Every move of the eyes costs a shift of attention and a saccade by its angle.
+    As many as are taken in at a glance (four) cost a fraction of a count each, wherever they are;
+    every further one is counted on the way from the nearest that is not counted yet, with a saccade
+    of its own.
     """
     p = mood.profile
     if len(places) == 0:
         return 0.0
-    most = p.subitising_range if mood.uses("subitising") else 1
-    steps = _steps(places)
-    total, in_group = p.attention_shift + p.count, 1
-    for step in steps:
-        if step < CLUSTER and in_group < most:
-            total += p.subitise
-            in_group += 1
-        else:
-            total += p.count + p.attention_shift + saccade(step, mood)
-            in_group = 1
-    return total
+    glance = min(len(places), p.subitising_range) if mood.uses("subitising") else 0
+    first = p.attention_shift + p.subitise * glance
+    counted = _steps(places)[max(glance - 1, 0) :] if len(places) > glance else []
+    if not glance:
+        first += p.count
+    return first + sum(p.count + saccade(step, mood) for step in counted)
 
 
 def saccade(distance: float, mood: Mood) -> float:

@@ -13,6 +13,7 @@ from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.skills.mood import Mood
+from seethrough.tasks.kit.skills.profile import Profile
 
 # Thresholds count the pixels of a window of 800 × 600, whatever the size of the id picture.
 WINDOW_PIXELS = 480_000
@@ -49,27 +50,42 @@ def window_pixels(seen: Visibility) -> NDArray[np.float64]:
     return seen.area * WINDOW_PIXELS
 
 
+def clear_pixels(seen: Visibility, index: NDArray[np.int64]) -> NDArray[np.float64]:
+    """(k,) of these things, the pixels that show them as clearly as pixels can."""
+    clear: NDArray[np.float64] = (
+        seen.area[index] * WINDOW_PIXELS * np.minimum(seen.contrast[index] / CLEAR, 1.0)
+    )
+    return clear
+
+
+def blurred(clear: NDArray[np.float64], p: Profile) -> NDArray[np.float64]:
+    """How many times less sure the distance of a thing is than that of one seen large and clear.
+
+    Variances add up; that of a thing whose kind can be told half of the time is twice as large.
+    """
+    return np.sqrt(1 + p.recognise / np.maximum(clear, 1.0))
+
+
 def noticed(seen: Visibility, mood: Mood) -> NDArray[np.int64]:
     """Indices of what is noticed in one look: contrast × √pixels against a threshold.
 
-    The square root is spatial summation as an ideal observer of white noise has it.
+    The square root is spatial summation as an ideal observer of white noise has it. Luck is drawn
+    for every object of the scene, so that more visible things meet the same luck, and more of it.
     """
     p = mood.profile
     index = np.nonzero(seen.pixels > 0)[0]
     strength = seen.contrast[index] * np.sqrt(seen.area[index] * WINDOW_PIXELS)
     chance = likely(strength, p.notice, p.notice_spread)
-    return index[mood.rng.random(len(index)) < chance]
+    return index[mood.rng.random(len(seen.pixels))[index] < chance]
 
 
 def recognised(seen: Visibility, index: NDArray[np.int64], mood: Mood) -> NDArray[np.bool_]:
     """Of what is noticed, whose kind can be told: enough pixels that stand out."""
     p = mood.profile
-    clear = seen.area[index] * WINDOW_PIXELS * np.minimum(seen.contrast[index] / CLEAR, 1.0)
-    chance = likely(clear, p.recognise, p.recognise_spread)
-    return mood.rng.random(len(index)) < chance
+    chance = likely(clear_pixels(seen, index), p.recognise, p.recognise_spread)
+    return mood.rng.random(len(seen.pixels))[index] < chance
 
 
-WHOLE = 0.9  # opacity below which a thing is seen to lie behind another [ours]
 CLEAR = 0.2  # contrast above which a thing is as clear as it gets [ours]
 
 
@@ -77,13 +93,14 @@ def uncrowded(
     seen: Visibility, index: NDArray[np.int64], mood: Mood
 ) -> tuple[NDArray[np.int64], int]:
     """What is left after crowding, and how many were lost: near neighbours run together."""
-    if not mood.uses("crowding") or len(index) < 2:
+    if not mood.uses("crowding"):
         return index, 0
+    luck = mood.rng.random(len(seen.pixels))
     place = seen.position[index]
     apart = np.hypot(*np.moveaxis(place[:, None] - place[None], -1, 0))
     np.fill_diagonal(apart, np.inf)
     # Of a crowded pair only the weaker one can be lost.
     weaker = window_pixels(seen)[index]
     crowded = ((apart < mood.profile.crowding) & (weaker[:, None] <= weaker[None])).any(axis=1)
-    lost = crowded & (mood.rng.random(len(index)) < mood.profile.crowded)
+    lost = crowded & (luck[index] < mood.profile.crowded)
     return index[~lost], int(lost.sum())

@@ -89,7 +89,7 @@ class Hands:
     def turning(
         self, yaw: float, pitch: float = 0.0, drag: bool = False, parts: int = 1
     ) -> Iterator[bool]:
-        """A turn that takes its bits over bits per second; True once it has ended.
+        """A turn at the person's pace; True once it has ended.
 
         Comes back after each of so many equal parts of the way, for a look in passing. `drag`
         holds the world (orbit); without, the pointer turns the walker.
@@ -98,7 +98,7 @@ class Hands:
         angle = hypot(yaw, pitch)
         if angle < 1e-9:
             return
-        seconds = log2(angle / p.tolerance + 1) / p.bits_per_second * self.mood.pace
+        seconds = self.turn_seconds(angle) * self.mood.pace
         factor = 1.0
         if self.mood.uses("motor_noise"):
             factor += p.motor_noise * float(self.mood.rng.standard_normal())
@@ -117,6 +117,11 @@ class Hands:
         if drag:
             self._events.append(PointerRelease(self.time, x, y))
         yield True
+
+    def turn_seconds(self, angle: float) -> float:
+        """Seconds that a turn takes at the usual pace: its bits over bits per second."""
+        p = self.mood.profile
+        return log2(angle / p.tolerance + 1) / p.bits_per_second
 
     def walking(self, distance: float, parts: int = 1) -> Iterator[bool]:
         """Walk straight on, a key held for as long as it should take; see `turning`."""

@@ -29,22 +29,21 @@ HALF_VIEW = np.arctan(np.tan(np.pi / 6) * 4 / 3)  # half of the horizontal field
 COS_HALF_VIEW = np.cos(HALF_VIEW)
 
 
-@dataclass(eq=False)
-class Layout:
-    """Cells and walls of a scene. `segments` (n, 2, 2) in (x, z); `pieces` of a wall are of these.
+class Grid:
+    """The cells of a square building of `size` cells a side; their middles are `centers` (n, 2).
 
-    What depends on a cell alone is worked out once; `sure` keeps what walkers make of it.
+    What depends on a cell alone is worked out once, for all buildings of that size.
     """
 
-    centers: NDArray[np.float64]
-    segments: NDArray[np.float64]
-    pieces: dict[int, list[int]]
-    size: int
-    sure: dict[tuple[float, ...], NDArray[np.float64]] = field(default_factory=dict)
-    _blocked: dict[int, NDArray[np.uint8]] = field(default_factory=dict)
-    _ways: dict[int, tuple[NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=dict)
-    _units: dict[int, NDArray[np.float64]] = field(default_factory=dict)
-    _near: dict[int, NDArray[np.bool_]] = field(default_factory=dict)
+    def __init__(self, size: int) -> None:
+        line = (np.arange(size) + 0.5) * CELL - size * CELL / 2
+        x, z = np.meshgrid(line, line, indexing="ij")
+        self.size = size
+        self.centers = np.stack([x.ravel(), z.ravel()], axis=1)
+        self.sure: dict[tuple[float, ...], NDArray[np.float64]] = {}  # what walkers make of it
+        self._ways: dict[int, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
+        self._units: dict[int, NDArray[np.float64]] = {}
+        self._near: dict[int, NDArray[np.bool_]] = {}
 
     def cell(self, place: Place) -> int:
         """The cell in which (or nearest to which) a place lies."""
@@ -79,13 +78,33 @@ class Layout:
         seen = across * facing[0] + along * facing[1] > COS_HALF_VIEW
         return seen
 
+
+@lru_cache(maxsize=4)
+def grid(size: int) -> Grid:
+    """The one grid of that size."""
+    return Grid(size)
+
+
+@dataclass(eq=False)
+class Layout:
+    """Cells and walls of a scene. `segments` (n, 2, 2) in (x, z); `pieces` of a wall are of these.
+
+    Which walls hide what from a cell is worked out once.
+    """
+
+    grid: Grid
+    segments: NDArray[np.float64]
+    pieces: dict[int, list[int]]
+    _blocked: dict[int, NDArray[np.uint8]] = field(default_factory=dict)
+
     def hidden(self, cell: int, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """(n,) which cells one of these wall segments hides from the middle of `cell`."""
         if cell not in self._blocked:
-            blocked = crossings(self.centers[cell], self.centers, self.segments).T
+            centers = self.grid.centers
+            blocked = crossings(centers[cell], centers, self.segments).T
             self._blocked[cell] = np.packbits(blocked, axis=1)  # 300 MB of a study would be 40
         found = np.bitwise_or.reduce(self._blocked[cell].compress(walls, axis=0), axis=0)
-        return np.unpackbits(found, count=len(self.centers)).view(bool)
+        return np.unpackbits(found, count=len(self.grid.centers)).view(bool)
 
 
 @lru_cache(maxsize=64)
@@ -98,8 +117,6 @@ def _read(scene: Scene) -> Layout:
     floor = next(o for o in scene.objects if o.kind == "floor")
     half = float(np.abs(moved(floor.mesh.vertices, floor.transform)[:, [0, 2]]).max())
     size = max(1, int(2 * half // CELL))
-    line = (np.arange(size) + 0.5) * CELL - size * CELL / 2
-    x, z = np.meshgrid(line, line, indexing="ij")
     segments: list[NDArray[np.float64]] = []
     pieces = {}
     for index, thing in enumerate(scene.objects):
@@ -107,12 +124,7 @@ def _read(scene: Scene) -> Layout:
             own = _pieces(thing)
             pieces[index] = list(range(len(segments), len(segments) + len(own)))
             segments += own
-    return Layout(
-        np.stack([x.ravel(), z.ravel()], axis=1),
-        np.array(segments).reshape(-1, 2, 2),
-        pieces,
-        size,
-    )
+    return Layout(grid(size), np.array(segments).reshape(-1, 2, 2), pieces)
 
 
 def _pieces(wall: Object) -> list[NDArray[np.float64]]:
@@ -142,7 +154,7 @@ class Known:
     """
 
     def __init__(self, plan: Layout) -> None:
-        n = len(plan.centers)
+        n = len(plan.grid.centers)
         self.layout = plan
         self.walls = np.zeros(len(plan.segments), dtype=bool)
         self.unclear: dict[int, int] = {}  # things noticed but not made out → their cells

@@ -46,8 +46,6 @@ class Profile:
     count: float = 0.300
     recheck: float = 0.250  # telling a thing as counted already, per item [ours]
     slip: float = 0.010  # an item lost or counted twice in passing [ours]
-    forget: float = 0.008  # counted things taken for new ones after a view change [ours]
-    mistake_old: float = 0.10  # new things taken for counted ones after a view change [ours]
 
     # Hands. KLM: keystroke .20–.28, pointing 1.10, homing .40, mental preparation 1.35.
     key: float = 0.28
@@ -63,23 +61,18 @@ class Profile:
 
     # Strategy [ours].
     orbit_step: float = pi / 3  # from one view of the abstract world to the next
-    patience: float = 2.0  # views without news before a count is believed, 1 or more
+    worth: float = 60.0  # seconds one would spend for one more thing of many
     diligence: float = 0.06  # share of the building that may stay unseen when counting
     certainty: float = 0.90  # posterior probability at which a letter is believed
     letter_looks: int = 8  # after so many looks, the best guess is good enough
     letter_turning: float = 1.0  # seconds to turn a letter half round in the mind (Cooper 1975)
-    no_news: float = 0.05  # so small a share of new things does not keep one looking
-    trust: float = 0.8  # in a view through walls, against one that nothing hides
-    # Share of the patience beyond 1 that is saved once things were seen through others.
-    trust_cloud: float = 0.4
     near_enough: float = 18.0  # how near one walks to see where something stands
 
     # Places. Distances in virtual worlds look short and uncertain (Loomis & Knapp 2003).
     depth_bias: float = 0.90
-    depth_noise: float = 0.12  # s.d. as a part of the distance
-    through_noise: float = 0.10  # more of it for what shines through something
+    depth_noise: float = 0.12  # s.d. as a part of the distance, of what is seen large and clear
+    cloud_depth: float = 0.04  # the same in a world that one turns before the eyes [ours]
     drift: float = 0.10  # s.d. of where one believes to be, per root of the path length
-    same_place: float = 5.0  # nearer than this, a thing is taken for one seen before
     tracked: int = 4  # things kept in sight as the view moves (ACT-R: 4 FINSTs)
     plan_noise: float = 8.0  # s.d. of a mark on the plan
 
@@ -92,7 +85,7 @@ class Profile:
     sd_trial_walking: float = 0.35  # as sd_trial, in the building
     sd_care: float = 0.30  # s.d. of the logarithm of a person's care
     pace: float = 1.0  # factor on all mental times
-    care: float = 1.0  # factor on patience; slips and misses fall with it
+    care: float = 1.0  # factor on what a find is worth; slips and misses fall with it
     # Heathcote et al. 2000: practice follows an exponential in each person.
     learning: float = 0.35  # how much slower the first trial of a task is than the last
     learning_rate: float = 0.35  # per trial
@@ -129,8 +122,7 @@ class Profile:
 
 
 _SHARES = (
-    "slip", "trust", "trust_cloud", "no_news", "forget", "mistake_old", "crowded", "diligence",
-    "certainty",
+    "slip", "crowded", "diligence", "certainty",
 )  # fmt: skip
 _POSITIVE = (
     "notice_spread", "recognise", "recognise_spread", "bits_per_second", "tolerance", "gain",

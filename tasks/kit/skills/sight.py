@@ -7,7 +7,7 @@ places: what depends on the look alone is worked out once and kept with it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
-from seethrough.tasks.kit.skills.glance import CLEAR, WHOLE, WINDOW_PIXELS, likely
+from seethrough.tasks.kit.skills.glance import CLEAR, WINDOW_PIXELS, likely
 from seethrough.tasks.kit.skills.profile import Profile
+
+BUILT = ("wall", "outer wall", "floor")
 
 
 def shown(seen: Visibility) -> NDArray[np.float64]:
@@ -81,27 +83,22 @@ class Kept(Visibility):
 class Thing(NamedTuple):
     """Something visible that may be asked for, by its number in the scene.
 
-    `notice` and `recognise` are somebody's chances, `weight` and `contrast` those of the look.
+    `notice` and `recognise` are somebody's chances, `clear` counts the pixels that show it clearly.
     """
 
     number: int
     notice: float
     recognise: float
-    weight: float
-    contrast: float
+    clear: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Sight:
-    """A look at a building by somebody of a profile: the things visible that may be asked for.
-
-    Of all other objects that are visible `walls` holds the indices: they are not looked at, but
-    remembered. `whole` are those of the things that show opaquely.
-    """
+    """A look at a building by somebody of a profile: `things` that stand about in it, and `walls`
+    (all else) with the chance that enough of one is seen to remember where it goes."""
 
     things: list[Thing]
-    whole: frozenset[int]
-    walls: frozenset[int]
+    walls: dict[int, float]
 
 
 def sight(seen: Visibility, scene: Scene, profile: Profile) -> Sight:
@@ -117,13 +114,21 @@ def sight(seen: Visibility, scene: Scene, profile: Profile) -> Sight:
 
 def _sight(rows: NDArray[np.float64], scene: Scene, p: Profile) -> Sight:
     numbers = rows[0].astype(np.int64)
-    asked = scene.targets[numbers]
-    _, _, weight, _, _, contrast, area = rows[:, asked]
+    contrast, area = rows[5:7]
     pixels = area * WINDOW_PIXELS
     notice = likely(contrast * np.sqrt(pixels), p.notice, p.notice_spread)
     clear = pixels * np.minimum(contrast / CLEAR, 1.0)
     recognise = likely(clear, p.recognise, p.recognise_spread)
-    columns = (numbers[asked], notice, recognise, weight, contrast)
+    asked = ~built(scene)[numbers]
+    columns = (numbers[asked], notice[asked], recognise[asked], clear[asked])
     things = [Thing(*values) for values in zip(*(c.tolist() for c in columns), strict=True)]
-    whole = frozenset(thing.number for thing in things if thing.weight >= WHOLE)
-    return Sight(things, whole, frozenset(numbers[~asked].tolist()))
+    # A wall may fill the view, and then nothing sets it off: its pixels alone count.
+    extent = likely(pixels[~asked], p.recognise, p.recognise_spread)
+    return Sight(things, dict(zip(numbers[~asked].tolist(), extent.tolist(), strict=True)))
+
+
+@lru_cache(maxsize=64)
+def built(scene: Scene) -> NDArray[np.bool_]:
+    """(n,) which objects are the building itself: walls and floors look like no thing (scenes are
+    compared by identity)."""
+    return np.array([thing.kind in BUILT for thing in scene.objects], dtype=bool)

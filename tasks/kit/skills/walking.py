@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, dist, hypot, pi
+from math import atan2, cos, dist, hypot, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +14,12 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Inset
 from seethrough.tasks.kit.skills.counting import saccade
-from seethrough.tasks.kit.skills.glance import CLEAR, WHOLE, WINDOW_PIXELS, Glance, likely
+from seethrough.tasks.kit.skills.glance import WINDOW_PIXELS, Glance, likely
 from seethrough.tasks.kit.skills.hands import Hands
 from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.places import (
     CELL,
+    COS_HALF_VIEW,
     DIRECTIONS,
     STRIDES,
     THERE,
@@ -37,7 +38,6 @@ THING = 1.5  # radius of a usual thing, for how well it would be seen from afar 
 # one unit high at distance 1 / (2 tan 30°), and three quarters of its width high.
 FILLED = 0.5 * pi * (THING / (2 * np.tan(np.pi / 6))) ** 2 * 0.75 * WINDOW_PIXELS
 REACH = 3  # cells about a place that count as worth going there for [ours]
-THROUGH = 0.3  # clearness of what shines through walls, until experience corrects it [ours]
 TURNS = np.array([apart(k * STEP, 0.0) for k in range(1, DIRECTIONS)])
 TURN_COST = 0.25 / STEP  # seconds a radian is thought to cost when choosing [ours]
 GOAL = 0.5  # a cell is a goal if it is unseen at least half as much as any [ours]
@@ -48,10 +48,15 @@ TURN_AND_LOOK = LOOK + TURN_COST * np.abs(TURNS)
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """Things of the asked kind recognised, in the order of the scene, and what the look shows."""
+    """Things of the asked kind recognised, in the order of the scene, each with the pixels that
+    showed it clearly."""
 
-    index: list[int]
-    sight: Sight
+    clear: dict[int, float]
+
+    @property
+    def index(self) -> list[int]:
+        """Their numbers."""
+        return list(self.clear)
 
 
 class Walker:
@@ -66,12 +71,15 @@ class Walker:
         self._walls: set[int] = set()  # objects that are no things and have been visible
         self.error = (0.0, 0.0)  # where one believes to be, less where one is
         self.recognised: set[int] = set()  # what has been made out, and is known again
-        self.passed: set[int] = set()  # things of the asked kind made out in passing
-        self.through: list[float] = []  # clearness of things seen through walls
+        self.passed: dict[int, float] = {}  # the same made out in passing, as in `Found`
+        # Of known things behind known walls, how many were seen well enough to be told.
+        self.through = mood.learned.share("through walls", 0.0, 1.0)
         self._busy = glance.now  # until then one thinks about what was seen last
         self._one = mood.profile.search_slope + saccade(0.2, mood)  # seconds a thing noticed takes
         # What hides, the cell and experience that the quality of looks was worked out for, and it.
-        self._quality: tuple[NDArray[np.bool_], tuple[int, int], NDArray[np.float64]] | None = None
+        self._quality: tuple[NDArray[np.bool_], tuple[int, float], NDArray[np.float64]] | None = (
+            None
+        )
 
     @property
     def glance(self) -> Glance:
@@ -85,21 +93,24 @@ class Walker:
         x, _, z = camera.eye.tolist()
         self.eye = (x, z)
         # What can be seen from a cell is judged from its middle.
-        self.cell = self.known.layout.cell(self.eye)
+        self.cell = self.known.layout.grid.cell(self.eye)
         self.yaw = atan2(-camera.rotation.item(2, 0), camera.rotation.item(0, 0))
 
     def look(self) -> Found:
         """Look, and remember what has been seen; found is also what was made out in passing."""
         self.settle()
-        view = self._sight()
+        view, known = self._sight(), self.recognised.copy()
         things, asked = self._make_out(view, self._noticed(view))
-        self._see_through(things)
+        self._check(view)
         self._inspect()
-        self._think(self.mood.profile.count, len(things))
+        # What was made out before is known at its place.
+        news = sum(thing.number not in known for thing in things)
+        self._think(self.mood.profile.count, news)
         if self.passed:
-            asked = sorted(self.passed.union(asked))
+            asked = {**self.passed, **asked}
+            asked = {number: asked[number] for number in sorted(asked)}
             self.passed.clear()
-        return Found(asked, view)
+        return Found(asked)
 
     def pass_by(self) -> None:
         """Look while on the move: at nothing that is known already."""
@@ -112,29 +123,44 @@ class Walker:
     def _sight(self) -> Sight:
         return sight(self.glance.look(), self.glance.view.scene, self.mood.profile)
 
+    def _luck(self) -> list[float]:
+        """One draw for each object of the scene, however few are visible."""
+        luck: list[float] = self.mood.rng.random(len(self._asked)).tolist()
+        return luck
+
     def _noticed(self, view: Sight) -> list[Thing]:
         """Which of the things seen are noticed."""
-        draws = self.mood.rng.random(len(view.things)).tolist()
-        return [t for t, draw in zip(view.things, draws, strict=True) if draw < t.notice]
+        luck = self._luck()
+        return [thing for thing in view.things if luck[thing.number] < thing.notice]
 
-    def _make_out(self, view: Sight, things: list[Thing]) -> tuple[list[Thing], list[int]]:
-        """The things noticed; and the indices of those that are of the asked kind."""
-        if not view.walls <= self._walls:
-            self.known.see_walls(view.walls - self._walls)
-            self._walls |= view.walls
-        if not things:
-            return things, []
-        draws = self.mood.rng.random(len(things)).tolist()
-        clear: list[int] = []
-        unclear: list[int] = []
-        for thing, draw in zip(things, draws, strict=True):
-            (clear if draw < thing.recognise else unclear).append(thing.number)
+    def _make_out(self, view: Sight, things: list[Thing]) -> tuple[list[Thing], dict[int, float]]:
+        """The things noticed; and those of the asked kind, with the pixels that show them."""
+        luck = self._luck()
+        self._see_walls(view, luck)
+        clear: dict[int, float] = {}
+        unclear: list[Thing] = []
+        for thing in things:
+            if luck[thing.number] < thing.recognise:
+                clear[thing.number] = thing.clear
+            else:
+                unclear.append(thing)
         self.recognised.update(clear)
         if self.known.unclear:
             for made_out in clear:
                 self.known.unclear.pop(made_out, None)
-        self._wonder(view, unclear)
-        return things, [index for index in clear if self._asked[index]]
+        self._wonder(unclear)
+        return things, {index: pixels for index, pixels in clear.items() if self._asked[index]}
+
+    def _see_walls(self, view: Sight, luck: list[float]) -> None:
+        """Remember walls once enough of them was seen."""
+        new = {
+            wall
+            for wall, chance in view.walls.items()
+            if luck[wall] < chance and wall not in self._walls
+        }
+        if new:
+            self.known.see_walls(new)
+            self._walls |= new
 
     def _think(self, seconds: float, things: int) -> None:
         """Thinking about a look begins now and goes on while the feet and hands do."""
@@ -145,75 +171,73 @@ class Walker:
         """Think to the end about what was seen: before the next look, and before decisions."""
         self.hands.time = max(self.hands.time, self._busy)
 
-    def _see_through(self, things: list[Thing]) -> None:
-        """Learn whether things shine through walls: was one seen that a known wall is before?"""
-        faint = [thing for thing in things if thing.weight < WHOLE]
-        if not faint:
+    def _check(self, view: Sight) -> None:
+        """Learn how far walls hide: are known things seen that stand behind known walls?
+
+        Places are checked, not things that happen to shine through: what is not seen counts too.
+        """
+        known = np.array(sorted(self.recognised), dtype=np.int64)
+        if not len(known):
             return
-        index = [thing.number for thing in faint]
-        places = self.glance.view.scene.transforms[index][:, [0, 2], 3]
+        places = self.glance.view.scene.transforms[known][:, [0, 2], 3]
+        way = places - self.eye
+        far = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1.0)
+        ahead = (way @ [-sin(self.yaw), -cos(self.yaw)]) > COS_HALF_VIEW * far
         walls = self.known.layout.segments[self.known.walls]
-        behind = crossed(np.array(self.eye), places, walls).tolist()
-        self.through += [
-            min(thing.contrast / CLEAR, 1.0)
-            for thing, hid in zip(faint, behind, strict=True)
-            if hid
-        ]
+        behind = ahead & crossed(np.array(self.eye), places, walls)
+        if not behind.any():
+            return
+        p = self.mood.profile
+        told = {thing.number: thing.recognise for thing in view.things}
+        expected = likely(FILLED / far[behind] ** 2, p.recognise, p.recognise_spread)
+        seen = sum(told.get(number, 0.0) for number in known[behind].tolist())
+        self.through.add(seen, float(expected.sum()))
 
     def _inspect(self) -> None:
-        plan = self.known.layout
+        plan = self.known.layout.grid
         inside = plan.ahead(self.cell, self.yaw)
         here = plan.near(self.cell)
         self.known.inspect(np.where(inside, self.quality(), here))
         if self.known.unclear:
             self.known.unclear = {i: c for i, c in self.known.unclear.items() if not here[c]}
 
-    def _wonder(self, view: Sight, things: list[int]) -> None:
+    def _wonder(self, things: list[Thing]) -> None:
         """Where something was noticed and not made out, one has not really looked yet."""
-        for index in things:
-            if index not in self.recognised:
-                x, z = self.place(index, view)
+        for thing in things:
+            if thing.number not in self.recognised:
+                x, z = self.place(thing.number, thing.clear)
                 place = (x - self.error[0], z - self.error[1])
-                self.known.unclear[index] = self.known.layout.cell(place)
+                self.known.unclear[thing.number] = self.known.layout.grid.cell(place)
 
     def quality(self) -> NDArray[np.float64]:
         """(n,) how surely a thing in each cell would be recognised from where one stands."""
         hidden = self.known.hidden(self.cell)
-        about = (self.cell, len(self.through))
+        about = (self.cell, self.through.cases)
         if self._quality is None or self._quality[0] is not hidden or self._quality[1] != about:
-            through = self.mood.profile.trust * self._sure(self._through_clearness())
-            made = np.where(hidden, through, self._sure(1.0))
+            sure = self._sure()
+            made = np.where(hidden, min(self.through.mean, 1.0) * sure, sure)
             self._quality = (hidden, about, made)
         return self._quality[2]
 
-    def _sure(self, clearness: float) -> NDArray[np.float64]:
-        """(n,) the same for things everywhere as clear as that; looked up where nobody differs."""
-        p, kept = self.mood.profile, self.known.layout.sure
-        key = (self.cell, clearness, p.recognise, p.recognise_spread)
-        if key in kept:
-            return kept[key]
-        distance = np.maximum(self.known.layout.ways(self.cell)[0], 1.0)
-        sure = likely(FILLED / distance**2 * clearness, p.recognise, p.recognise_spread)
-        if clearness in (0.0, 1.0):
+    def _sure(self) -> NDArray[np.float64]:
+        """(n,) the same if nothing hid anything; looked up where nobody's eyes differ."""
+        p, kept = self.mood.profile, self.known.layout.grid.sure
+        key = (self.cell, p.recognise, p.recognise_spread)
+        if key not in kept:
+            distance = np.maximum(self.known.layout.grid.ways(self.cell)[0], 1.0)
             if len(kept) >= MOST_KEPT:
                 kept.clear()  # calibration tries profile after profile
-            kept[key] = sure
-        return sure
-
-    def _through_clearness(self) -> float:
-        """How clear a thing behind a wall would be: nothing shines through until one did."""
-        if not self.through:
-            return 0.0
-        return (THROUGH + sum(self.through)) / (1 + len(self.through))
+            kept[key] = likely(FILLED / distance**2, p.recognise, p.recognise_spread)
+        return kept[key]
 
     def choose(self) -> tuple[float, Place | None]:
         """The next thing to do: (turn, None) to look round, (turn, place) to go somewhere.
 
         What is most worth its time: unseen cells that a look would show, over seconds.
         """
-        distance, toward = self.known.layout.ways(self.cell)
+        distance, toward = self.known.layout.grid.ways(self.cell)
         worth = self.known.gain(self.quality())
-        inside = self.known.layout.ahead(self.cell, self.yaw + TURNS)
+        inside = self.known.layout.grid.ahead(self.cell, self.yaw + TURNS)
         gains = (inside @ worth) / TURN_AND_LOOK
         side = int(gains.argmax())
         best, choice = float(gains[side]), (float(TURNS[side]), None)
@@ -221,11 +245,13 @@ class Walker:
         # Only what is unseen is worth going to: there, one will at least have seen that.
         unseen = self.known.unseen
         rates = np.where(
-            unseen > GOAL * unseen.max(), _nearby(unseen, self.known.layout.size) / seconds, 0.0
+            unseen > GOAL * unseen.max(),
+            _nearby(unseen, self.known.layout.grid.size) / seconds,
+            0.0,
         )
         there = int(rates.argmax())
         if rates[there] > best:
-            x, z = self.known.layout.centers[there].tolist()
+            x, z = self.known.layout.grid.centers[there].tolist()
             return float(apart(toward[there], self.yaw)), (x, z)
         return choice
 
@@ -267,13 +293,14 @@ class Walker:
         """Into how many parts looks divide a way that they usually divide into so many."""
         return max(1, usual * self.mood.profile.passing)
 
-    def place(self, index: int, view: Sight) -> Place:
-        """Where one believes a thing to stand: direction good, distance uncertain."""
+    def place(self, index: int, clear: float) -> Place:
+        """Where one believes a thing to stand that so many pixels show clearly: direction good,
+        distance uncertain."""
         mood, p = self.mood, self.mood.profile
         (x, z), transforms = self.eye, self.glance.view.scene.transforms
         across, along = transforms.item(index, 0, 3) - x, transforms.item(index, 2, 3) - z
         if mood.uses("depth_noise"):
-            spread = hypot(p.depth_noise, 0.0 if index in view.whole else p.through_noise)
+            spread = p.depth_noise * (1 + p.recognise / max(clear, 1.0)) ** 0.5
             # Near things are seen at their distance; far ones look nearer.
             bias = 1 - (1 - p.depth_bias) * min(1.0, hypot(across, along) / 30)
             noise = float(np.exp(spread * mood.rng.standard_normal()))

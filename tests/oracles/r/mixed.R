@@ -61,6 +61,61 @@ mixed_row <- function(d) {
   list(out)
 }
 
+# The same model with scenes crossed: those that two people met, from seven on; fullest first, none
+# whose variance is 0. `plain` is the row above.
+scenes_row <- function(d, plain) {
+  rows <- d$rows
+  if (plain$model == "") return(NULL)
+  pairs <- unique(rows[c("scene", "participant")])
+  met <- table(pairs$scene)
+  shared <- names(met)[met > 1]
+  if (length(shared) < 7) return(NULL)
+  y <- log(rows$time)
+  unit <- sd0(y)
+  rows$y <- shifted(y) / unit
+  rows$technique <- ifelse(rows$transparency == "dynamic", 0.5, -0.5)
+  tasks <- levels_in(rows$task, TASKS)
+  rows$task <- factor(rows$task, tasks)
+  fixed <- "technique"
+  if (length(tasks) > 1) {
+    contrasts(rows$task) <- contr.sum(length(tasks))
+    fixed <- "technique * task"
+  }
+  rows$s0 <- as.numeric(rows$scene %in% shared)
+  rows$s1 <- rows$s0 * rows$technique
+  # trials of other scenes: one more scene, of which no effect enters anything
+  rows$scene[rows$s0 == 0] <- "-"
+  both <- table(unique(rows[rows$s0 == 1, c("scene", "transparency")])$scene)
+  steps <- c("(0 + s0 + s1 | scene)", "(0 + s0 | scene)")
+  for (step in steps) {
+    slopes <- grepl("s1", step)
+    if (slopes && sum(both == 2) < 7) next
+    if (length(shared) * (1 + slopes) >= sum(rows$s0)) next
+    nested <- gsub("transparency", "technique", plain$model)
+    fit <- fit_of(paste("y ~", paste(c(fixed, nested, step), collapse = " + ")), rows)
+    theta <- lme4::getME(fit, "Tlist")[["scene"]]
+    if (min(svd(theta)$d) < 0.01) next
+    own <- summary(fit)$coefficients["technique", ]
+    estimate <- own[["Estimate"]] * unit
+    error <- own[["Std. Error"]] * unit
+    df <- min(plain$df, length(shared) - 1)
+    ends <- estimate + c(-1, 1) * qt(0.975, df) * error
+    spread <- attr(lme4::VarCorr(fit)$scene, "stddev") * unit
+    words <- if (slopes) "(1 + transparency | scene)" else "(1 | scene)"
+    nested_singular <- any(sapply(setdiff(names(lme4::getME(fit, "Tlist")), "scene"), function(g) {
+      min(abs(diag(lme4::getME(fit, "Tlist")[[g]]))) < 1e-4
+    }))
+    return(list(list(
+      effect = "transparency", scenes = length(shared), trials = nrow(rows), estimate = estimate,
+      error = error, t = estimate / error, df = df, p = 2 * pt(-abs(estimate / error), df),
+      ratio = exp(estimate), low = exp(ends[1]), high = exp(ends[2]), sd_scene = spread[["s0"]],
+      sd_slope = if (slopes) spread[["s1"]] else "", model = paste(plain$model, words, sep = " + "),
+      singular = if (nested_singular) "true" else "false"
+    )))
+  }
+  NULL
+}
+
 slope_of <- function(fit, group, unit) {
   found <- lme4::VarCorr(fit)[[group]]
   if (is.null(found) || !"technique" %in% colnames(found)) return(undefined)

@@ -145,6 +145,7 @@ ratings_tables <- function(d) {
   q <- d$questions
   out <- list(single_items = single_items(q))
   q <- q[q$item %in% ITEMS & !is.na(q$value), ]
+  out$reliability <- reliability_rows(q, sort(unique(d$questions$participant), method = "radix"))
   if (!two_levels(q)) return(out)
   factors <- list(
     item = levels_in(q$item, ITEMS), scenario = levels_in(q$scenario, SCENARIOS), transparency = LEVELS
@@ -171,6 +172,60 @@ ratings_tables <- function(d) {
   names <- as.vector(t(outer(LEVELS, factors$scenario, paste)))
   out$post_hoc_conditions <- pairs_after(y, names)
   out
+}
+
+# Cronbach's alpha with Feldt's interval (psych), and omega of one factor (factanal), by condition.
+reliability_rows <- function(q, who) {
+  rows <- list()
+  if (!all(ITEMS %in% q$item)) return(rows)
+  for (t in levels_in(q$transparency, LEVELS)) for (s in levels_in(q$scenario, SCENARIOS)) {
+    own <- q[q$transparency == t & q$scenario == s, ]
+    if (!nrow(own)) next
+    x <- tapply(own$value, list(factor(own$participant, who), factor(own$item, ITEMS)), mean)
+    x <- x[rowSums(is.na(x)) == 0, , drop = FALSE]
+    if (!nrow(x)) next
+    row <- list(
+      scale = paste("ratings", t, s, sep = "/"), items = ncol(x), n = nrow(x), alpha = undefined,
+      low = undefined, high = undefined, omega = undefined
+    )
+    if (nrow(x) >= 3 && all(apply(x, 2, function(c) diff(range(c)) > 0)) && var(rowSums(x)) > 0) {
+      a <- suppressMessages(suppressWarnings(psych::alpha(x, check.keys = FALSE, warnings = FALSE)))
+      row$alpha <- a$total$raw_alpha
+      row$low <- a$feldt$lower.ci[[1]]
+      row$high <- a$feldt$upper.ci[[1]]
+      row$omega <- omega_of(x)
+    }
+    rows <- c(rows, list(row))
+  }
+  rows
+}
+
+omega_of <- function(x) {
+  r <- cor(x)
+  k <- ncol(x)
+  if (qr(r)$rank < k) return(undefined)
+  # the likelihood itself, over loadings and uniquenesses, from many starts: factanal stops at improper
+  # solutions, and may end in a shallow one; it finds none that is better
+  loss <- function(theta) {
+    sigma <- tcrossprod(theta[1:k]) + diag(theta[-(1:k)])
+    as.numeric(determinant(sigma)$modulus) + sum(diag(solve(sigma, r)))
+  }
+  set.seed(1)
+  fits <- lapply(1:20, function(i) {
+    try(nlminb(c(runif(k, -0.9, 0.9), runif(k, 0.1, 0.9)), loss,
+      lower = c(rep(-Inf, k), rep(0.005, k)), upper = c(rep(Inf, k), rep(1, k)),
+      control = list(rel.tol = 1e-15, x.tol = 1e-12, eval.max = 2000, iter.max = 2000)
+    ), silent = TRUE)
+  })
+  fits <- Filter(function(f) !inherits(f, "try-error"), fits)
+  best <- fits[[which.min(sapply(fits, function(f) f$objective))]]$par
+  load <- best[1:k]
+  own <- best[-(1:k)]
+  if (any(own <= 0.005 * (1 + 1e-4)) || any(own >= 0.99)) return(undefined)
+  theirs <- try(factanal(covmat = cov(x), n.obs = nrow(x), factors = 1), silent = TRUE)
+  if (!inherits(theirs, "try-error")) stopifnot(loss(c(theirs$loadings[, 1], theirs$uniquenesses)) >= loss(best) - 1e-6)
+  sum_of <- sum(load * apply(x, 2, sd))^2
+  sum_of / (sum_of + sum(own * apply(x, 2, var)))
 }
 
 # A preference for neither is a tie: counted, and left out of share, interval and test.

@@ -110,10 +110,13 @@ def test_the_gradient_is_the_slope_of_the_deviance():
     terms = [reml.Term(one, np.zeros(48, int), 1), reml.Term(one, part, 2)]
     sums = reml._sums(y, one, person, terms)
     theta = np.array([0.8, 0.2, 0.5, 0.4, -0.3, 0.6])
-    slope = reml._deviance(sums, terms, theta)[1]
+    slope = reml._deviance(sums, terms, 2, theta)[1]
     step = 1e-6 * np.eye(6)
     numeric = [
-        (reml._deviance(sums, terms, theta + s)[0] - reml._deviance(sums, terms, theta - s)[0])
+        (
+            reml._deviance(sums, terms, 2, theta + s)[0]
+            - reml._deviance(sums, terms, 2, theta - s)[0]
+        )
         / 2e-6
         for s in step
     ]

@@ -12,8 +12,7 @@ from scipy import stats
 from seethrough.analysis.exclude import apply_rules, focus_lost
 from seethrough.analysis.stats.ranks import friedman, post_hoc, ranks, sign_test, signed_rank
 from seethrough.analysis.stats.ties import difference_signs, is_constant, levels, slack
-from seethrough.experiment.power.power import SampledEffect
-from seethrough.experiment.power.power_ranks import RankEffect
+from seethrough.experiment.power.decisions import Test, run
 
 # Ten people, three ratings each: the sums of the other condition's are smaller by D, so the means
 # differ by ±2/3, computed in many ways.
@@ -124,9 +123,9 @@ def test_power_by_ranks_takes_ties_as_the_report_does():
     first = A.mean(axis=1)
     second = np.array([(row[2] / 3 + row[1] / 3) + row[0] / 3 for row in A])
     assert (first != second).any()
-    people = RankEffect(SampledEffect("x", np.stack([first, second], axis=1)))
-    assert people.chances() == (0.0, 0.0)
-    assert not people.found(people.people.values[None], 0.05).any()
+    found = run(Test("x", 0, ranked=True), [(first - second)[None, :, None]])
+    assert not found.there.any()
+    assert found.p.tolist() == [1.0]
 
 
 def test_a_share_of_missed_frames_of_exactly_a_twentieth_is_not_more():

@@ -1,184 +1,227 @@
-"""Power against the closed form, published values and the analysis's own test."""
+"""Power against closed forms, published values and the report's own decisions."""
+
+from dataclasses import replace
+from math import inf, log, sqrt
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy import stats
 
-from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.contrasts import estimate
+from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.stats.paired import paired, ratio_within, tost
 from seethrough.analysis.stats.ranks import friedman
-from seethrough.experiment.people.runs.batch import Batch
-from seethrough.experiment.people.runs.batch_files import Results, render
-from seethrough.experiment.people.runs.data_mode import Played
-from seethrough.experiment.power import power_ranks
-from seethrough.experiment.power.power import (
-    NormalEffect,
-    SampledEffect,
-    closed_form,
-    curve,
-    enough,
-    power,
-    published,
-    rejections,
-)
-from seethrough.experiment.power.power_data import sampled
-from seethrough.experiment.power.power_ranks import RankEffect, trinomial_power
+from seethrough.experiment import cli
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.power import effects
+from seethrough.experiment.power.closed import interval_of, needed, signed_power, wrong_sign
+from seethrough.experiment.power.decisions import Part, Planned, Results, Test, decide, run
+from seethrough.experiment.power.planned import plans_of
+from seethrough.experiment.power.power import curve
+from seethrough.experiment.power.sources import Normal, Sampled, sizes
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
 
-SHIFT = NormalEffect("shift", (0.5, 0.0), (1.0, 1.0), 0.5)
+RNG = np.random.default_rng(5)
+FASTER = Test("faster", 0, 1.0)
+
+
+def shift(delta, columns=1):
+    """Normal scores of that standardised mean."""
+    return Normal(np.full((1, columns), delta), np.ones((1, columns)))
 
 
 def test_closed_form_agrees_with_published_values():
-    # Superpower's ANOVA_exact, σ = 1, ρ = .5, Δ = .5 in a 2 × 2: main effect, dz = .5/√.5.
-    assert_allclose(closed_form(0.5 / 0.5**0.5, 16, 0.05), 0.75298, atol=5e-6)
     # Sample sizes for 80 % that every power table prints: dz .35 → 67, .5 → 34, .8 → 15.
-    for dz, n in ((0.35, 67), (0.5, 34), (0.8, 15)):
-        assert closed_form(dz, n, 0.05) >= 0.8 > closed_form(dz, n - 1, 0.05)
-    assert_allclose(closed_form(0.0, 16, 0.05), 0.05, rtol=1e-9)
+    assert [needed(dz, 0.05) for dz in (0.35, 0.5, 0.8)] == [67, 34, 15]
+    # Superpower's ANOVA_exact, σ = 1, ρ = .5, Δ = .5: dz = .5/√.5; the other tail is below 1e-5.
+    assert_allclose(signed_power(0.5 / 0.5**0.5, 16, 0.05), 0.75298, atol=1e-5)
+    assert_allclose(
+        signed_power(0.0, 16, 0.05), 0.025, rtol=1e-9
+    )  # false, and by luck the right way
+    assert needed(0.0, 0.05) == needed(-0.3, 0.05) == inf
+    # The larger an effect the fewer it takes, to effects that nobody could overlook.
+    grown = [needed(delta, 0.05) for delta in (0.1, 0.3, 1.0, 3.0, 10.0, 100.0)]
+    assert grown == sorted(grown, reverse=True) and grown[-1] == 3
+    # One-sided, 80 %: dz .5 takes 27 (G*Power 3.1, t test, one sample).
+    assert needed(0.5, 0.05, sides=1) == 27
 
 
-def test_drawing_agrees_with_the_closed_form():
-    for point in curve([SHIFT, published()[0], published()[-1]], (8, 16, 34), 4000, 0.05, 1):
-        error = max((point.exact * (1 - point.exact) / 4000) ** 0.5, 1 / 4000)
-        assert abs(point.found - point.exact) < 4 * error
-        assert point.low <= point.found <= point.high
+def test_type_s_and_m_are_those_of_the_definitions():
+    """n = 16: d_z .3 exaggerates 2.1 times; .1 has the wrong sign in .15 of what is significant."""
+    assert_allclose(wrong_sign(0.1, 16, 0.05), 0.15, atol=0.005)
+    for delta, larger in ((0.3, 2.1), (0.1, 5.6)):
+        planned = [Planned("P", "", (FASTER,))]
+        _, tests = curve(planned, shift(delta), [16], 20_000, 0.05, 1, {"faster": delta})
+        assert_allclose(tests[0].exaggerated, larger, rtol=0.03)  # printed to two digits
+        s = wrong_sign(delta, 16, 0.05)
+        shown = signed_power(delta, 16, 0.05) / (1 - s) * 20_000
+        assert abs(tests[0].wrong - s) < 4 * sqrt(s * (1 - s) / shown) + 1e-3
 
 
-def test_rejections_are_those_of_the_analysis():
-    rng = np.random.default_rng(3)
-    values = SHIFT.draw(rng, 40, 12)
-    found = rejections(values, 0.05)
-    for replication, expected in zip(values, found, strict=True):
-        assert (
-            repeated_measures(replication, ("transparency",))["transparency"].p < 0.05
-        ) == expected
-    assert 0 < found.sum() < 40
+def test_drawing_agrees_with_the_closed_form_and_counts_the_right_sign_alone():
+    planned = [Planned("P", "", (FASTER,))]
+    for delta in (0.5, 0.0, -0.5):
+        points, _ = curve(planned, shift(delta), (8, 16, 34), 4000, 0.05, 1, {"faster": delta})
+        for point in points:
+            exact = signed_power(delta, point.n, 0.05)
+            assert abs(point.power - exact) < 4 * max(sqrt(exact * (1 - exact) / 4000), 1 / 4000)
+            assert point.low <= point.power <= point.high
+            other = signed_power(-delta, point.n, 0.05)
+            assert abs(point.against - other) < 4 * max(sqrt(other * (1 - other) / 4000), 1 / 4000)
 
 
-def test_draws_have_their_moments():
-    values = NormalEffect("x", (10.0, 4.0), (3.0, 1.0), -0.4).draw(
-        np.random.default_rng(1), 400, 500
+def test_tests_are_those_of_the_report():
+    """p of single studies against the report's functions, groups of unequal size among them."""
+    first, second = RNG.lognormal(1, 0.5, (2, 12))
+    d = first - second
+    wide = np.stack([d, 1.2 * first - second, second - first / 1.2], axis=1)[None]
+    assert_allclose(run(FASTER, [wide]).p[0], paired(first, second).p, rtol=1e-9)
+    no_worse = Test("x", 0, parts=(Part(0, 1.0, 0.4),))
+    assert_allclose(run(no_worse, [wide]).p[0], tost(d, 0.4).p_low, rtol=1e-9)
+    same = Test("x", 0, parts=(Part(0, 1.0, 0.4), Part(0, -1.0, 0.4)))
+    assert_allclose(run(same, [wide]).p[0], tost(d, 0.4).p, rtol=1e-9)
+    ratio = Test("x", 0, parts=(Part(1), Part(2)))
+    assert_allclose(run(ratio, [wide]).p[0], ratio_within(first, second, 1.2).p, rtol=1e-9)
+    a, b = RNG.normal(0.4, 1, (4, 1)), RNG.normal(0, 3, (9, 1))
+    found = run(Test("x", 0, weights=(1.0, -1.0)), [a[None], b[None]])
+    welch = estimate([a[:, 0], b[:, 0]], [1.0, -1.0])
+    assert_allclose(found.p[0], welch.p, rtol=1e-9)
+    assert_allclose(found.p[0], stats.ttest_ind(a, b, equal_var=False).pvalue[0], rtol=1e-9)
+
+
+def test_order_alone_is_friedmans_exact_test():
+    pairs = RNG.integers(0, 4, (9, 2)).astype(float)
+    d = (pairs[:, 0] - pairs[:, 1])[None, :, None]
+    ranked = Test("x", 0, 1.0, ranked=True)
+    assert_allclose(run(ranked, [d]).p[0], friedman(pairs, RNG).exact, rtol=1e-12)
+
+
+def test_people_who_lack_a_score_are_left_out_of_that_test_alone():
+    d = RNG.normal(0.5, 1, (1, 10, 1))
+    gone = np.concatenate([d, np.full((1, 3, 1), np.nan)], axis=1)
+    assert_allclose(run(FASTER, [gone]).p, run(FASTER, [d]).p, rtol=1e-12)
+
+
+def test_equal_scores_are_no_evidence():
+    same = np.full((1, 8, 1), 0.1 + 0.2)
+    found = run(FASTER, [same])
+    assert not found.there[0] and found.p[0] == 1.0
+
+
+def results(*p, fits=1, there=True):
+    return [Results(np.array([x]), np.array([1.0]), np.array([fits]), np.array([there])) for x in p]
+
+
+def test_all_are_needed_or_one_by_holm():
+    tests = (FASTER, replace(FASTER, name="b"), replace(FASTER, name="c"))
+    every, some = Planned("P", "", tests), Planned("P", "", tests, any=True)
+    p = (0.001, 0.02, 0.04)
+    assert decide(every, results(*p), 0.05).supported[0]
+    assert not decide(every, results(0.001, 0.02, 0.06), 0.05).supported[0]
+    assert decide(some, results(0.016, 0.5, 0.9), 0.05).supported[0] == (
+        holm([0.016, 0.5, 0.9])[0] < 0.05
     )
-    flat = values.reshape(-1, 2)
-    assert_allclose(flat.mean(axis=0), [10, 4], atol=5 * 3 / len(flat) ** 0.5)
-    assert_allclose(np.corrcoef(flat.T)[0, 1], -0.4, atol=5 / len(flat) ** 0.5)
+    assert not decide(some, results(0.02, 0.5, 0.9), 0.05).supported[0]
+    wrong = decide(every, results(*p, fits=-1), 0.05)
+    assert wrong.against[0] and not wrong.supported[0]
+    # What nobody can test says nothing where others do; alone it supports nothing.
+    gone = results(1.0, there=False)
+    assert decide(every, [*results(0.01, 0.01), *gone], 0.05).supported[0]
+    assert not decide(Planned("P", "", (FASTER,)), gone, 0.05).supported[0]
 
 
-def test_the_papers_effects_give_back_its_f():
-    for effect, f in zip(
-        published(), (49.54, 7.54, 5.28, 22.98, 48.61, 4.74, 4.12, 0.068), strict=True
-    ):
-        assert_allclose(16 * effect.dz() ** 2, f, rtol=1e-9)
-        assert -1 <= effect.r <= 1
+def test_the_interval_of_n_carries_the_pilots_doubt():
+    """A 95 % interval holds the truth; its end is ∞ where the pilot is not significant itself."""
+    delta = 0.75
+    missed = 1 - signed_power(delta, 16, 0.05)
+    rng, endless, covered = np.random.default_rng(2), 0, 0
+    for _ in range(100):
+        d = rng.normal(delta, 1, 16)
+        low, high = interval_of(d.mean() / d.std(ddof=1), 16, 15)
+        covered += low <= delta <= high
+        endless += needed(low, 0.05) == inf
+    assert 85 <= covered <= 100
+    assert needed(interval_of(0.4, 16, 15)[0], 0.05) == inf
+    assert abs(endless / 100 - missed) < 3 * sqrt(missed * (1 - missed) / 100)
 
 
-def test_enough_is_where_power_stays():
-    points = curve(
-        [SHIFT, NormalEffect("none", (0.0, 0.0), (1.0, 1.0), 0.0)], range(8, 41, 2), 50, 0.05, 1
+def test_sizes_of_groups_add_up():
+    assert sizes((1.0,), 7) == [7]
+    assert sizes((10, 4), 14) == [10, 4] and sizes((10, 4), 7) == [5, 2]
+    assert sizes((0.9, 0.1), 8) == [6, 2] or min(sizes((0.9, 0.1), 8)) == 2
+
+
+def test_sampled_people_stay_together():
+    people = Sampled((np.arange(10.0)[:, None] * [1, 10],), (1.0,))
+    (drawn,) = people.draw(np.random.default_rng(1), 5, 8)
+    assert drawn.shape == (5, 8, 2) and np.array_equal(drawn[..., 1], 10 * drawn[..., 0])
+
+
+def test_a_study_is_asked_its_own_predictions_and_nothing_else():
+    plans = plans_of(effects.design_of(load("published")))
+    assert [p.name for p in plans.planned] == ["P1", "P2", "P3"]
+    first, second, third = plans.planned
+    assert [t.name for t in first.tests] == ["completion time overall"] and first.tests[0].sign == 1
+    assert "right answers T2 pattern not worse" in [t.name for t in second.tests]
+    assert not any("right answers T1" in t.name for t in second.tests)  # judged by how far off
+    (part,) = third.tests[0].parts
+    assert part.shift == -2.5
+    distance = next(t for t in second.tests if t.name.startswith("distance"))
+    assert distance.parts[0].shift == 3.0 and distance.parts[0].sign == 1.0
+
+
+def test_a_study_without_predictions_is_asked_its_contrasts():
+    study = load("clutter")
+    plans = plans_of(effects.design_of(study))
+    factors = {f.name for f in study.factors}
+    asked = {s.contrast.factor for s in plans.scores}
+    assert (
+        asked <= factors
+        and plans.planned
+        and all(t.sign == 0 for p in plans.planned for t in p.tests)
     )
-    answer = enough(points)
-    assert answer["none"] is None
-    assert closed_form(SHIFT.dz(), answer["shift"], 0.05) >= 0.8
 
 
-def test_sampling_keeps_participants_whole_and_says_no_closed_form():
-    people = np.array([[1.0, 2.0], [10.0, 20.0], [100.0, 200.0]])
-    effect = SampledEffect("doubling", people)
-    values = effect.draw(np.random.default_rng(1), 50, 6)
-    assert (values[..., 1] == 2 * values[..., 0]).all()
-    assert power(effect, 6, 50, 0.05, np.random.default_rng(1)).exact is None
+def test_published_effects_are_the_papers():
+    effect = effects.effect_of(load("published"), "published", None, None)
+    put = {p.test.name: p for p in effect.put}
+    overall = put["completion time overall"]
+    # lognormal moments by hand: median ratio of 65.17 (27.75) and 28.69 (11.02)
+    a, b = log(1 + (27.75 / 65.17) ** 2), log(1 + (11.02 / 28.69) ** 2)
+    ratio = (28.69 / sqrt(1 + (11.02 / 28.69) ** 2)) / (65.17 / sqrt(1 + (27.75 / 65.17) ** 2))
+    assert overall.said == f"ratio {ratio:.3g}" and a > b > 0
+    assert overall.interval[0] <= overall.n <= overall.interval[1]
+    assert put["distance T3 unique not worse"].interval[1] == inf
+    assert any("prints no numbers" in line for line in effect.alone)
 
 
-def test_one_seed_one_curve_whatever_else_is_drawn():
-    alone = curve([SHIFT], (16,), 200, 0.05, 7)
-    among = curve([SHIFT], (8, 12, 16), 200, 0.05, 7)
-    assert alone[0] == among[2]
-
-
-def test_identical_conditions_are_no_effect():
-    same = SampledEffect("same", np.array([[1.0, 1.0], [2.0, 2.0]]))
-    assert power(same, 8, 100, 0.05, np.random.default_rng(1)).found == 0
+def test_an_assumed_effect_needs_what_the_tables_say(tmp_path, capsys):
+    out = tmp_path / "p.html"
+    words = ["power", "published", "--effect", "P1=0.5 sd", "--participants", "30..38"]
+    assert cli.main([*words, "--replications", "4000", "--out", str(out)]) == 0
+    said = capsys.readouterr().out
+    assert "assumed: In each test of P1" in said and "\nP2" not in said
+    (line,) = (x for x in said.splitlines() if x.startswith("P1 "))
+    assert abs(int(line.split()[1]) - 34) <= 2  # 4,000 draws: s.e. .006, and .01 an n
+    text = out.read_text("utf-8")
+    assert text.index("Assumed.") < text.index("<svg") and ">34<" in text
 
 
 @pytest.mark.parametrize(
-    "build, message",
+    "effect, more, message",
     [
-        (lambda: NormalEffect("x", (0, 1), (1, 1), 1.5), r"x: r = 1.500, expected a correlation"),
-        (lambda: NormalEffect("x", (0, 1), (0, 1), 0.5), r"x: sd = \(0, 1\), expected numbers > 0"),
-        (lambda: power(SHIFT, 1, 10, 0.05, np.random.default_rng()), r"participants = 1, expected"),
+        ("P9=0.2 sd", [], r"--effect = P9: expected one of P1, P2, P3, transparency"),
+        ("P1=20 %", [], r"--effect: 20 %: expected --spread S as well"),
+        ("P1=20 units", [], r"--effect: 20 units: completion time overall: expected sd or %"),
+        ("nowhere", [], r'--effect = nowhere: expected "PREDICTION=0.2 sd", published, or a data'),
     ],
 )
-def test_what_makes_no_sense_is_refused(build, message):
-    with pytest.raises(ValueError, match=message):
-        build()
+def test_bad_effects_are_refused_in_a_line(effect, more, message):
+    with pytest.raises(InputError, match=message):
+        effects.effect_of(load("published"), effect, None, None)
 
 
-def test_what_is_significant_by_ranks_is_significant_to_the_analysis():
-    rng = np.random.default_rng(5)
-    values = rng.integers(0, 3, (60, 14, 2)) + np.array([0, 0.0])
-    values[30:, :, 1] += rng.integers(0, 3, (30, 14))
-    found = RankEffect(SampledEffect("x", values[0])).found(values, 0.05)
-    expected = []
-    for table in values:
-        exact = friedman(table, rng).exact
-        expected.append(isinstance(exact, float) and exact < 0.05)
-    assert found.tolist() == expected and 0 < sum(expected) < 60
-
-
-def test_rank_tests_agree_with_the_trinomial_and_that_with_scipy():
-    people = SampledEffect("x", np.array([[0.0, 1.0]] * 6 + [[1.0, 0.0]] * 2 + [[1.0, 1.0]] * 2))
-    normal = RankEffect(NormalEffect("y", (1.0, 0.0), (1.0, 1.0), 0.2))
-    for effect in (RankEffect(people), normal):
-        for point in curve([effect], (8, 16, 30), 4000, 0.05, 3):
-            error = max((point.exact * (1 - point.exact) / 4000) ** 0.5, 1 / 4000)
-            assert abs(point.found - point.exact) < 4 * error
-    # Without ties: the binomial's own tails. 12 of 14 is significant (p = .013), 11 is not.
-    win = normal.chances()[0]
-    tails = stats.binom.sf(11, 14, win) + stats.binom.cdf(2, 14, win)
-    assert_allclose(trinomial_power(win, 1 - win, 14, 0.05), tails, rtol=1e-9)
-    assert trinomial_power(0.0, 0.0, 20, 0.05) == 0
-
-
-def test_the_papers_rank_tested_people_have_its_moments():
-    correct, rating, preferred = power_ranks.published()
-    values = correct.people.values
-    assert_allclose(values.mean(axis=0), 0.963, atol=6e-4)  # printed to three places
-    assert_allclose(values.std(axis=0, ddof=1), (0.109, 0.150), atol=6e-4)
-    assert sorted(c * 16 for c in correct.chances()) == [1, 1]  # so that Friedman's p is 1
-    assert_allclose(preferred.people.values[:, 1].mean() * 16, 15.5)
-    assert rating.exact(16, 0.05) > 0.99  # "Friedman p < .01" with 16
-
-
-def test_a_folder_gives_every_test_the_analysis_makes(tmp_path):
-    study = load("demo")
-    rows = []
-    rng = np.random.default_rng(1)
-    for slot in range(1, 5):
-        for task_set in session_for(slot, study.plan):
-            for trial in task_set.trials:
-                rows.append(_trial(trial, slot, rng))
-    about = Batch("demo", 1, 1).about(study)
-    with Results(tmp_path, study, about) as results:
-        results.add(render(about, study, (1, 2, 3, 4), [Played("demo", "S01", 1, trials=rows)]))
-    names = [e.name for e in sampled(tmp_path)]
-    assert names == [
-        "time, overall", "time count", "time pattern", "time unique", "time count_in_building",
-        "relative error count", "relative error count_in_building", "distance unique",
-        "right answers pattern (Friedman)",
-    ]  # fmt: skip
-
-
-def _trial(trial, slot, rng):
-    answer = {"count": "20", "count_in_building": "6", "pattern": "C", "unique": ""}[trial.task]
-    counts = trial.task.startswith("count")
-    return {
-        "row_id": f"simulated-S{slot:02d}-1-trial{trial.number:03d}", "study": "demo",
-        "participant": f"S{slot:02d}", "session": 1, "source": "simulated", "slot": slot,
-        "trial": trial.number, "block": trial.block, "task_set": trial.task_set,
-        "trial_in_set": trial.in_set, "attempt": 1, **trial.levels,
-        "world": trial.world, "task": trial.task, "scene": trial.scene, "targets": 20,
-        "time": float(rng.uniform(5, 50)), "time_clean": 5.0, "timed_out": False, "frames": 9,
-        "answer": answer, "truth": answer, "correct": bool(rng.random() < 0.7),
-        "count_error": 0 if counts else None, "distance": None if trial.task != "unique" else 3.0,
-    }  # fmt: skip
+def test_printed_numbers_are_for_the_published_study_alone():
+    with pytest.raises(InputError, match="--effect = published: expected the published study's"):
+        effects.effect_of(load("clutter"), "published", None, None)

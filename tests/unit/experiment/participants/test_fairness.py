@@ -53,7 +53,8 @@ def one_room(name):
     parameters = BuildingParameters(grid=4, room=4, objects=3, count=(2, 2))
     models = {"ball": lambda: geometry.sphere(0.8), "block": lambda: geometry.box(1, 1.5, 2)}
     make = unique_building if name == "unique" else count_building
-    return parameters, make(np.random.default_rng(0), parameters, models)
+    # Of world 1 no view shows one thing before another: pictures are equal to the last pixel.
+    return parameters, make(np.random.default_rng(1), parameters, models)
 
 
 def play(renderer, scene, technique, seed, name="count", seen=lambda sight: sight):

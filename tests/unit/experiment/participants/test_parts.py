@@ -27,7 +27,7 @@ from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.places import Known, apart, bearing, crossed, layout
 from seethrough.tasks.kit.skills.profile import AVERAGE
 from seethrough.tasks.kit.skills.strategy import Strategy
-from seethrough.tasks.kit.skills.walking import REACH, _nearby
+from seethrough.tasks.kit.skills.walking import REACH, Found, _nearby
 from seethrough.tasks.pattern.simulate import (
     FAR,
     FIT,
@@ -76,17 +76,26 @@ def test_crowding_hides_the_weaker_of_close_neighbours():
 
 
 def test_counting_times_add_up():
+    """Four are taken in at a glance wherever they are; from the fifth on each is counted."""
     p, m = AVERAGE, mood()
-    one = p.attention_shift + p.count
     assert seconds_to_count(np.zeros((0, 2)), m) == 0
-    assert_allclose(seconds_to_count(np.array([[0.1, 0.1]]), m), one)
-    line = np.array([[0.1 + 0.02 * k, 0.1] for k in range(4)])
-    assert_allclose(seconds_to_count(line, m), one + 3 * p.subitise)
-    five = np.array([[0.1 + 0.02 * k, 0.1] for k in range(5)])
-    step = p.saccade + p.saccade_per_degree * 0.02 * p.view_angle
-    assert_allclose(seconds_to_count(five, m), 2 * one + 3 * p.subitise + step)
-    slow = mood(without=["subitising"])
-    assert_allclose(seconds_to_count(line, slow), 4 * one + 3 * step)
+    for gap in (0.02, 0.2):
+        line = np.array([[0.1 + gap * k, 0.1] for k in range(6)])
+        step = p.saccade + p.saccade_per_degree * gap * p.view_angle
+        for n in range(1, 5):
+            assert_allclose(seconds_to_count(line[:n], m), p.attention_shift + n * p.subitise)
+        four = seconds_to_count(line[:4], m)
+        assert_allclose(seconds_to_count(line, m), four + 2 * (p.count + step))
+        slow = mood(without=["subitising"])
+        assert_allclose(seconds_to_count(line, slow), p.attention_shift + 6 * p.count + 5 * step)
+
+
+def test_counting_is_as_quick_as_people_are():
+    """Trick & Pylyshyn 1994: 40–120 ms for each of up to four, 250–350 ms for each further one."""
+    places = np.random.default_rng(3).random((30, 2))
+    seconds = [seconds_to_count(places[:n], mood()) for n in (1, 4, 5, 30)]
+    assert 0.04 <= (seconds[1] - seconds[0]) / 3 <= 0.12
+    assert 0.25 <= (seconds[3] - seconds[1]) / 26 <= 0.40  # with the way of the eyes
 
 
 def test_slips_have_their_rate():
@@ -170,10 +179,11 @@ def test_known_walls_hide_cells_and_doorways_do_not():
     cube = geometry.box()
     models = {"a": lambda: cube, "b": lambda: cube}
     b = unique_building(np.random.default_rng(1), BuildingParameters(), models)
-    plan = layout(b.scene)
+    whole = layout(b.scene)
+    plan = whole.grid
     assert plan.size == 16 and len(plan.centers) == 256
-    assert len(plan.segments) == 4 + 2 * len(b.floor.walls)
-    known = Known(plan)
+    assert len(whole.segments) == 4 + 2 * len(b.floor.walls)
+    known = Known(whole)
     eye = b.start
     assert_allclose(plan.centers[plan.cell(eye)], eye)
     rng = np.random.default_rng(3)
@@ -207,26 +217,25 @@ class _Here:
 
     def __init__(self, places):
         self.mood = mood("count_in_building", without=["depth_noise"])
-        self.places, self.eye = places, (0.0, 0.0)
+        self.places, self.eye, self.error = places, (-10.0, 0.0), (0.0, 0.0)
 
-    def place(self, index, view):
+    def place(self, index, clear):
         return self.places[index]
 
 
-class _Found:
-    def __init__(self, *index):
-        self.index, self.sight = list(index), None
+def _found(*index):
+    return Found(dict.fromkeys(index, 400.0))
 
 
 def test_things_are_told_by_their_places():
-    tally = Tally()
-    places = {1: (0, 0), 2: (30, 0), 3: (31, 0), 4: (0, 1)}
+    places = {1: (0, 0), 2: (60, 0), 3: (61, 0), 4: (0, 1)}
     walker = _Here(places)
-    assert tally.add(walker, _Found(1, 2)) == 2
-    assert tally.add(walker, _Found(1, 2)) == 0
+    tally = Tally(walker.mood)
+    assert tally.add(walker, _found(1, 2)) == 2
+    assert tally.add(walker, _found(1, 2)) == 0
     # Two in one look are two, however close; one that comes later and close is mistaken for it.
-    assert tally.add(walker, _Found(2, 3)) == 1
-    assert tally.add(walker, _Found(4)) == 0
+    assert tally.add(walker, _found(2, 3)) == 1
+    assert tally.add(walker, _found(4)) == 0
 
 
 LEVELS = ("dynamic", "", "standard")  # what the options of a comparison speak for
@@ -299,7 +308,7 @@ def test_what_is_unseen_nearby_is_summed_over_a_square():
         for i in range(16)
         for j in range(16)
     ]
-    assert_allclose(_nearby(known.unseen, known.layout.size), expected, rtol=1e-12)
+    assert_allclose(_nearby(known.unseen, known.layout.grid.size), expected, rtol=1e-12)
 
 
 def test_looks_from_one_place_do_not_add_up_and_from_two_they_do():

@@ -16,8 +16,8 @@ from seethrough.tasks.kit.skills.profile import AVERAGE
 from seethrough.tasks.kit.skills.sight import sight
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
-THINGS = (True, False, True, True, False, True)  # what may be asked for; the others are walls
-SCENE = Scene(tuple(Object(geometry.box(), target=thing) for thing in THINGS))
+THINGS = (True, False, True, True, False, True)  # what stands about; the others are walls
+SCENE = Scene(tuple(Object(geometry.box(), kind="cat" if t else "wall") for t in THINGS))
 
 
 def look():
@@ -38,7 +38,8 @@ def kept():
 def test_a_sight_says_of_each_thing_that_may_be_asked_for_what_the_arrays_say(seen):
     found = sight(seen, SCENE, AVERAGE)
     assert [t.number for t in found.things] == [2, 3]
-    assert found.walls == {1, 4} and found.whole == {2}
+    walls = likely(look().area[[1, 4]] * WINDOW_PIXELS, AVERAGE.recognise, AVERAGE.recognise_spread)
+    assert found.walls == pytest.approx({1: walls[0], 4: walls[1]}, rel=1e-12)
     pixels = look().area * WINDOW_PIXELS
     p = AVERAGE
     for thing in found.things:
@@ -48,7 +49,20 @@ def test_a_sight_says_of_each_thing_that_may_be_asked_for_what_the_arrays_say(se
         # The same formula for one number: a few units in the last place.
         assert thing.notice == pytest.approx(notice, rel=1e-12)
         assert thing.recognise == pytest.approx(clear, rel=1e-12)
-        assert (thing.weight, thing.contrast) == (look().weight[i], look().contrast[i])
+        assert thing.clear == pytest.approx(pixels[i] * 0.15 / CLEAR, rel=1e-12)
+
+
+def test_what_is_a_target_of_the_technique_is_nobodys_knowledge():
+    """Walls and things are told apart by what they look like, not by a flag."""
+    marked = Scene(tuple(replace(thing, target=not thing.target) for thing in SCENE.objects))
+    a, b = sight(look(), SCENE, AVERAGE), sight(look(), marked, AVERAGE)
+    assert a.things == b.things and a.walls == b.walls
+
+
+def test_one_pixel_of_wall_is_one_pixel_of_wall():
+    one = look()
+    one = replace(one, area=np.full(6, 1 / WINDOW_PIXELS), pixels=np.ones(6, int))
+    assert max(sight(one, SCENE, AVERAGE).walls.values()) < 1e-4
 
 
 def test_a_kept_look_serves_one_profile_after_the_other():

@@ -84,13 +84,13 @@ def test_eyes_draw_each_viewpoint_once_at_the_lattice_pose():
         drawn.append(camera)
         return random_look(len(drawn))
 
-    eyes = TableEyes(KeptLooks(), "a", 12, "walkthrough", draw)
+    eyes = TableEyes(KeptLooks(), "a", 12, "walk", draw)
     first = walk(BuildingParameters(), (2.6, 2.4), 0.05).camera()
     second = walk(BuildingParameters(), (2.4, 2.7), -0.1).camera()
     assert same_look(eyes.look(None, first), eyes.look(None, second))
     assert len(drawn) == 1
     assert_allclose(drawn[0].eye, (2.5, 3.2, 2.5))
-    blind = TableEyes(KeptLooks(), "a", 12, "walkthrough")
+    blind = TableEyes(KeptLooks(), "a", 12, "walk")
     with pytest.raises(KeyError, match=r"viewpoint \(0, 0, 0\) is in no table"):
         blind.look(None, first)
 
