@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
+from seethrough.benchmarks.pages import page_figures
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.session.hand import COARSE, PICKED
 from seethrough.experiment.study.config import load
@@ -32,7 +33,7 @@ from seethrough.renderer.scene.transforms import translation
 from seethrough.renderer.techniques.base import Shot
 from seethrough.tasks.catalog import TASKS
 
-PARTS = ("task", "office", "large", "click")
+PARTS = ("task", "office", "large", "click", "pages")
 LARGE = 500_000  # triangles
 SIDES = 142  # of each ball: 20,022 triangles
 # What somebody writes who takes the package of `new task` and asks something else with it.
@@ -85,7 +86,8 @@ trials = 1
 
 def figures(only: list[str] | None = None) -> Iterator[Row]:
     """Every row."""
-    measured = {"task": _task, "office": _office, "large": _large, "click": _click}
+    measured = {"task": _task, "office": _office, "large": _large, "click": _click,
+                "pages": page_figures}  # fmt: skip
     for part in only or PARTS:
         yield from measured[part]()
 

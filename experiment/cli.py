@@ -12,6 +12,7 @@ from typing import NoReturn
 from seethrough.analysis.errors import DataError
 from seethrough.experiment import streams
 from seethrough.experiment.errors import InputError, one_line, unknown
+from seethrough.experiment.study import trust
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
@@ -29,6 +30,7 @@ COMMANDS = {
     "report": "make the statistics report from a data folder",
     "seal": "print one hash over everything that was recorded",
     "keys": "list what a study file may say: keys, types, defaults, limits, meaning",
+    "texts": "write what is to be translated for a study in a language of its own",
     "check": "check a study before anybody is invited",
     "design": "print, write or draw what a study's factors make",
     "migrate": "rewrite a study file of an earlier version",
@@ -44,6 +46,12 @@ COMMANDS = {
     "gallery": "draw every mode, mask, granularity and hard case into a page",
     "demo": "play the short study and make its report",
 }
+
+# Commands that read a study, which may bring code along.
+TRUSTING = {
+    "run", "simulate", "calibrate", "power", "replay", "status", "check", "design", "prereg",
+    "render", "texts",
+}  # fmt: skip
 
 ELSEWHERE = {"bench": "seethrough.benchmarks.bench"}  # commands that are not the experiment's
 
@@ -68,6 +76,8 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
         if name == chosen:
             module = importlib.import_module(ELSEWHERE.get(name, f"{__package__}.commands.{name}"))
             module.add_arguments(sub)
+            if name in TRUSTING:
+                sub.add_argument("--trust", action="store_true", help=trust.TRUST)
             sub.set_defaults(run=module.run)
     return parser
 
@@ -108,6 +118,8 @@ def _is_interrupt(error: BaseException | None) -> bool:
 def _run(words: Sequence[str]) -> int:
     try:
         arguments = _parser(words).parse_args(words)
+        if getattr(arguments, "trust", False):
+            trust.trust_everything()
         return int(arguments.run(arguments) or 0)
     except InputError as error:
         return _failed(error.lines, 2)

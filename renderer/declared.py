@@ -35,6 +35,7 @@ class Key:
     choices: tuple[str, ...] = ()
     point: bool = False
     said: str = ""  # what is allowed, where neither limits nor choices say it
+    shown: bool = False  # whether participants read it: a text that a study's language translates
 
 
 def key(default: Any, meaning: str, unit: str = "", **more: Any) -> Any:

@@ -7,16 +7,20 @@ stranger's package names its object in the entry points of a group, as in its py
     [project.entry-points."seethrough.techniques"]
     my_lens = "my_package:TECHNIQUE"
 
-Names are found without importing anything; an object is imported when it is asked for.
+Names are found without importing anything; an object is imported when it is asked for. A study may
+bring one along in a file (experiment/study/plugin_files.py): it is `provided` to this process.
 """
 
 from __future__ import annotations
 
+import hashlib
 import pkgutil
+import sys
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
 from typing import Any
 
 
@@ -41,6 +45,53 @@ KINDS = {
 
 class PluginError(Exception):
     """A plug-in that cannot be used, in one line."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a plug-in that is not ours is from: its code's files, and one hash of all of them. Of
+    one that a study brings along, `beside` is the file's name there, and `content` what is in it.
+    """
+
+    files: tuple[Path, ...]
+    sha256: str
+    beside: str = ""
+    content: bytes = b""
+
+
+_provided: dict[tuple[str, str], tuple[object, Origin]] = {}
+
+
+def provide(kind: str, name: str, plugin: object, origin: Origin) -> None:
+    """A plug-in that a study brings along; one that had the name before is forgotten.
+
+    Raises PluginError where an installed one has the name.
+    """
+    if name in _places(kind):
+        raise PluginError(f"there is a {kind} {name} already, expected a name of its own")
+    _provided[kind, name] = (plugin, origin)
+
+
+def origin(kind: str, name: str) -> Origin | None:
+    """Where a plug-in is from; None for ours. Raises KeyError if there is none."""
+    if (kind, name) in _provided:
+        return _provided[kind, name][1]
+    place = _places(kind)[name]
+    return None if isinstance(place, str) else _installed(place.module)
+
+
+@cache
+def _installed(module: str) -> Origin:
+    """All Python files of the package that a module belongs to, or the module's own."""
+    import_module(module)
+    top = sys.modules[module.partition(".")[0]]
+    main = Path(str(top.__file__))
+    files = sorted(main.parent.rglob("*.py")) if main.stem == "__init__" else [main]
+    whole = hashlib.sha256()
+    for file in files:
+        name = file.relative_to(main.parent).as_posix()
+        whole.update(name.encode() + b"\0" + file.read_bytes())
+    return Origin(tuple(files), whole.hexdigest())
 
 
 @cache
@@ -69,15 +120,21 @@ def _places(kind: str) -> dict[str, EntryPoint | str]:
 
 def known(kind: str) -> tuple[str, ...]:
     """The names of all plug-ins of a kind: ours sorted, then others' sorted."""
-    return tuple(_places(kind))
+    brought = (name for own, name in _provided if own == kind)
+    return (*_places(kind), *brought)
 
 
-@cache
 def get(kind: str, name: str) -> Any:
     """The plug-in of this name.
 
     Raises KeyError if there is none, PluginError if it fails to load.
     """
+    brought = _provided.get((kind, name))
+    return brought[0] if brought else _loaded(kind, name)
+
+
+@cache
+def _loaded(kind: str, name: str) -> object:
     place = _places(kind)[name]
     if isinstance(place, str):
         found = getattr(import_module(place), KINDS[kind].constant)

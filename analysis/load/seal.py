@@ -33,4 +33,5 @@ def _sealed(data: Path, source: str) -> Iterator[Path]:
         if is_there(data / name):
             yield data / name
     yield from files_under(data / "models", data)
+    yield from files_under(data / "plugins", data)
     yield from files_under(data / "data" / source, data)

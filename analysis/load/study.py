@@ -74,8 +74,11 @@ def load_study(folder: Path, source: str | None = None) -> Study:
     check_trials(trials, whole.source, design)
     columns = schema.answer_columns(design)
     empty = {name: pd.Series(dtype="object") for name in (*columns, "_file", "_row")}
+    if answers and all(_AFTER in _names(source) for source in answers):
+        columns = {**columns, _AFTER: "integer"}
     questions = read_table(answers, columns) if answers else pd.DataFrame(empty)
     if answers:
+        questions = _last_asked(questions, columns)
         _check_ids(questions)
         _check_source(questions, whole.source)
     _same_people(trials, questions)
@@ -150,6 +153,22 @@ def _repairs(base: Path, folder: Path) -> tuple[str, ...]:
             name = path.relative_to(folder).as_posix()
             raise DataError(f"{name}: expected what `seethrough repair` writes") from None
     return tuple(lines)
+
+
+_AFTER = "after_trial"  # tables of before lack it
+
+
+def _names(source: Source) -> list[str]:
+    return source.data.partition(b"\n")[0].decode("utf-8", "replace").rstrip("\r").split(",")
+
+
+def _last_asked(questions: pd.DataFrame, columns: Mapping[str, str]) -> pd.DataFrame:
+    """Of what was asked after a trial that was played again, the answers to the last time."""
+    if _AFTER not in questions:
+        return questions
+    told_by = [name for name in columns if name not in ("row_id", "session", "value", "text")]
+    again = questions[_AFTER].notna() & questions.duplicated(told_by, keep="last")
+    return questions[~again].reset_index(drop=True) if again.any() else questions
 
 
 def _same_people(*tables: pd.DataFrame) -> None:

@@ -19,6 +19,7 @@ from seethrough.experiment.study.design import TaskSet, session_for
 from seethrough.experiment.study.design_table import minutes
 from seethrough.experiment.study.factors import ALONE, WITHIN
 from seethrough.experiment.study.own_model_files import models_of
+from seethrough.experiment.study.translations import languages_of, texts_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 from seethrough.tasks.kit.world import FILES
 
@@ -65,7 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.certificate is not None and arguments.certificate.exists():
         raise InputError(f"{arguments.certificate}: exists already; expected a new file")
     study = load(arguments.study)
-    Texts(study.study.language, study.texts)
+    for language in languages_of(study):
+        texts_of(study, language)
     said = Verdicts()
     said.say("config", f"{study.study.name}, {study.digest()[:12]}")
     _models(study, said)

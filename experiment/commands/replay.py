@@ -108,12 +108,10 @@ def _thinned(frames: Iterable[Frame], every: float) -> Iterable[tuple[float, Fra
 def _watch(recorded: Recorded, speed: float) -> None:
     from seethrough.experiment.display.clock import RealClock
     from seethrough.experiment.display.window import Window
-    from seethrough.experiment.pages.texts import Texts
 
     study = recorded.study
-    texts = Texts(study.study.language, study.texts)
     clock = RealClock(speed)
-    window = Window(study.display, texts, clock, f"Replay of {recorded.trial.task}")
+    window = Window(study.display, recorded.texts, clock, f"Replay of {recorded.trial.task}")
     try:
         _play(recorded, clock.now, window.show, window.left)
     finally:

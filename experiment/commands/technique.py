@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 from itertools import chain
+from pathlib import Path
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, short, unknown
+from seethrough.experiment.study.plugin_files import from_path
+from seethrough.experiment.study.trust import TRUST
 
 HELP = "list techniques, or try one on all that it must keep to"
 
@@ -16,7 +19,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     inner = parser.add_subparsers(dest="what", required=True, metavar="WHAT")
     inner.add_parser("list", help="name all techniques, with what participants read about them")
     tried = inner.add_parser("check", help="run the suite that every technique has to pass")
-    tried.add_argument("name", metavar="NAME", help="a technique, as `list` names it")
+    tried.add_argument("name", metavar="NAME", help="a technique, as `list` names it, or a file")
+    tried.add_argument("--trust", action="store_true", help=TRUST)
     tried.add_argument(
         "--all", action="store_true", help="exactness as well on every scene and option: minutes"
     )
@@ -30,7 +34,9 @@ def run(args: argparse.Namespace) -> int:
             found = registry.get("technique", name)
             print(f"{name} ({found.version}): {found.instruction}")
         return 0
-    if args.name not in names:
+    if args.name.endswith(".py"):
+        args.name = from_path("technique", Path(args.name))
+    elif args.name not in names:
         raise InputError(
             f"technique check {short(args.name)}: {unknown(args.name, names, 'technique')}"
         )

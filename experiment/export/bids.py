@@ -11,7 +11,7 @@ from pathlib import Path
 
 from seethrough.analysis.load.files import read_json
 from seethrough.experiment.export.dataset import Dataset, Row, as_json, check_labels, harmless, put
-from seethrough.experiment.export.wide import item_name
+from seethrough.experiment.export.wide import in_sets, item_name
 from seethrough.experiment.record.columns import Column
 
 VERSION = "1.10.0"
@@ -121,11 +121,14 @@ def _participants(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
 
 def _phenotype(data: Dataset, out: Path, labels: Mapping[str, str]) -> None:
     rows: dict[str, dict[str, str]] = {}
+    places = in_sets(data)
     for answer in data.tables["questionnaire"]:
         if answer["participant"] in labels:
             label = f"sub-{labels[answer['participant']]}"
             row = rows.setdefault(label, {"participant_id": label})
-            row[item_name(answer, data.factors)] = answer["value"] or harmless(answer["text"])
+            row[item_name(answer, data.factors, places)] = answer["value"] or harmless(
+                answer["text"]
+            )
     items = sorted({name for row in rows.values() for name in row} - {"participant_id"})
     path = out / "phenotype"
     put(path / "questionnaire.tsv", _tsv(["participant_id", *items], list(rows.values())))

@@ -15,6 +15,7 @@ from seethrough.experiment.export.dataset import (
     latest_attempts,
     put,
 )
+from seethrough.experiment.record.columns import measures_among
 
 MEASURES = ("time", "time_clean", "timed_out", "correct", "count_error", "distance")
 NUMBERS = {"true": "1", "false": "0"}
@@ -28,19 +29,21 @@ def wide(data: Dataset, out: Path) -> None:
     naming, grouping = _naming(data), _grouping(data)
     meaning |= {factor: said[factor] for factor in grouping}
     rows: dict[str, dict[str, str]] = {p: {"participant": p} for p in data.participants}
+    own = [c.name for c in measures_among(data.columns("trials"))]
     for trial in latest_attempts(data.tables["trials"]):
         rows[trial["participant"]]["slot"] = trial["slot"]
         for factor in grouping:
             rows[trial["participant"]][factor] = trial[factor]
-        for measure in MEASURES:
+        for measure in (*MEASURES, *own):
             if trial[measure] != "":
                 levels = [trial[factor] for factor in naming]
                 name = "_".join([measure, *levels, trial["task"], trial["trial_in_set"]])
                 rows[trial["participant"]][name] = _number(trial[measure])
                 where = ", ".join(trial[factor] for factor in data.factors)
                 meaning[name] = f"{said[measure]}; {where}" if where else said[measure]
+    places = in_sets(data)
     for answer in data.tables["questionnaire"]:
-        name = item_name(answer, data.factors)
+        name = item_name(answer, data.factors, places)
         if answer["participant"] in rows:
             rows[answer["participant"]][name] = answer["value"] or harmless(answer["text"])
             meaning[name] = said["item"]
@@ -82,9 +85,20 @@ def _groups(rows: Sequence[Row], by: str, factor: str) -> dict[str, set[str]]:
     return found
 
 
-def item_name(answer: Row, factors: Sequence[str]) -> str:
-    """A column for an item of the questionnaire, in its condition where it has one."""
-    parts = (answer["item"], *(answer.get(factor, "") for factor in factors))
+Place = tuple[str, str]  # participant, trial
+
+
+def in_sets(data: Dataset) -> dict[Place, str]:
+    """The position of each participant's trials in their task sets."""
+    return {(t["participant"], t["trial"]): t["trial_in_set"] for t in data.tables["trials"]}
+
+
+def item_name(answer: Row, factors: Sequence[str], in_set: Mapping[Place, str]) -> str:
+    """A column for an item of the questionnaire: in its condition where it has one, after its trial
+    where it was asked after one."""
+    trial = answer.get("after_trial", "")
+    where = (answer.get("after_task", ""), in_set.get((answer["participant"], trial), ""))
+    parts = (answer["item"], *(answer.get(factor, "") for factor in factors), *where)
     return "_".join(part for part in parts if part)
 
 

@@ -12,6 +12,7 @@ from imgui_bundle import imgui
 
 from seethrough.renderer.gpu.overlay import STRIDE, Batch, Overlay
 
+REGULAR = "Roboto-Regular.ttf"
 FONTS = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"
 INSET_TEXTURES = 1 << 20  # names from here on are pictures of ours, below are ImGui's
 
@@ -40,6 +41,20 @@ SCREENS = {"pagedown": 0.85, "pageup": -0.85}
 LINES = {"down": 0.25, "up": -0.25}  # where there is nothing but text to move over
 
 
+def has_glyph(character: str) -> bool:
+    """Whether the font that texts are drawn in has a picture of a character."""
+    before = imgui.get_current_context()
+    own = imgui.create_context()
+    try:
+        imgui.set_current_context(own)
+        font = imgui.get_io().fonts.add_font_from_file_ttf(str(FONTS / REGULAR), 20.0)
+        return bool(font.is_glyph_in_font(ord(character)))
+    finally:
+        if before is not None:
+            imgui.set_current_context(before)
+        imgui.destroy_context(own)
+
+
 class Interface:
     """What lies flat on the screen: `begin`, draw with imgui, `end`."""
 
@@ -51,7 +66,7 @@ class Interface:
         self.io.set_ini_filename("")
         self.io.backend_flags |= imgui.BackendFlags_.renderer_has_textures
         self.io.config_flags |= imgui.ConfigFlags_.nav_enable_keyboard
-        self.regular = self.io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto-Regular.ttf"), 20.0)
+        self.regular = self.io.fonts.add_font_from_file_ttf(str(FONTS / REGULAR), 20.0)
         self.reading = False  # the page is text that is longer than the screen
         self.scroll = 0.0  # screens to scroll on
         self.bold = self.io.fonts.add_font_from_file_ttf(str(FONTS / "Roboto-Bold.ttf"), 20.0)

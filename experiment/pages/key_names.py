@@ -6,7 +6,7 @@ from string import ascii_lowercase, digits
 
 KEY_NAMES = {
     **{name.upper(): name for name in ("left", "right", "up", "down", "space", "backspace")},
-    **{name.upper(): name for name in ("delete", "escape", "tab", "f1", "home", "end")},
+    **{name.upper(): name for name in ("delete", "escape", "tab", "f1", "f2", "home", "end")},
     **{name.upper(): name for name in ("pageup", "pagedown")},
     **dict.fromkeys(("RETURN", "ENTER", "NUM_ENTER"), "enter"),
     **dict.fromkeys(("LSHIFT", "RSHIFT"), "shift"),

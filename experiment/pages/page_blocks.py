@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import floor, log10
 
 from imgui_bundle import imgui
 
@@ -40,6 +41,12 @@ COLORS = {
     "wrong": rgba(0.75, 0.07, 0.07),
     "paper": rgba(*PAPER),
     "pale": rgba(0.90, 0.93, 0.97),
+}
+
+PALE = {  # of a button that is not what is usually meant
+    imgui.Col_.button: COLORS["paper"],
+    imgui.Col_.button_hovered: COLORS["pale"],
+    imgui.Col_.button_active: COLORS["pale"],
 }
 
 
@@ -204,6 +211,7 @@ class Blocks:
         if field_.lines == 1:
             imgui.set_next_item_width(0.3 * room)
             _, text = imgui.input_text(name, text)
+            text = _stepped(field_, text) if field_.most is not None else text
         else:
             size = imgui.ImVec2(room, 0.05 * field_.lines * unit)
             _, text = imgui.input_text_multiline(name, text, size)
@@ -254,6 +262,32 @@ class Blocks:
             imgui.same_line()
             imgui.text_wrapped(self.texts.get(text))
         imgui.end_group()
+
+
+def _stepped(field_: TextField, text: str) -> str:
+    """Buttons beside a field for a number, for who has no keyboard at hand: held down, they go on.
+    The keyboard passes them by."""
+    assert field_.most is not None
+    span = field_.most - field_.least
+    far = 10.0 ** max(0, floor(log10(span)) - 1) if span > 20 else 1.0
+    far = max(far, 10.0) if span > 20 else far
+    steps = (-far, -1.0, 1.0, far) if far > 1 else (-1.0, 1.0)
+    for which, color in PALE.items():
+        imgui.push_style_color(which, color)
+    imgui.push_item_flag(imgui.ItemFlags_.no_nav, True)
+    imgui.push_item_flag(imgui.ItemFlags_.button_repeat, True)
+    for step in steps:
+        imgui.same_line(0, imgui.get_style().item_inner_spacing.x)
+        sign = "+" if step > 0 else "\u2212"
+        label = sign if abs(step) == 1 else f"{sign}{abs(step):g}"
+        if imgui.button(f"{label}##{field_.name}{step:g}"):
+            fine = text.strip() and field_.takes(text)
+            value = float(text.replace(",", ".")) + step if fine else max(field_.least, 0.0)
+            text = f"{min(max(value, field_.least), field_.most):.10g}"
+    imgui.pop_item_flag()
+    imgui.pop_item_flag()
+    imgui.pop_style_color(len(PALE))
+    return text
 
 
 def _option(text: str, name: str, chosen: bool) -> bool:

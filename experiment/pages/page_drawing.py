@@ -12,7 +12,7 @@ from imgui_bundle import imgui
 
 from seethrough.experiment.pages.form import Form, Setting
 from seethrough.experiment.pages.interface import SCREENS, Interface
-from seethrough.experiment.pages.page_blocks import COLORS, Blocks
+from seethrough.experiment.pages.page_blocks import COLORS, PALE, Blocks
 from seethrough.experiment.pages.pages import Picture
 from seethrough.experiment.pages.texts import Texts
 from seethrough.tasks.kit.hud import Inset
@@ -210,14 +210,7 @@ def _column(width: int, height: int) -> float:
 
 def _button(text: str, number: int) -> bool:
     """A button; the first is what is usually meant, and filled. Whether it was pressed."""
-    if number == 0:
-        colors = {imgui.Col_.text: COLORS["paper"]}
-    else:
-        colors = {
-            imgui.Col_.button: COLORS["paper"],
-            imgui.Col_.button_hovered: COLORS["pale"],
-            imgui.Col_.button_active: COLORS["pale"],
-        }
+    colors = PALE if number else {imgui.Col_.text: COLORS["paper"]}
     for which, color in colors.items():
         imgui.push_style_color(which, color)
     pressed = imgui.button(f"{text}##button{number}")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from importlib import resources
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, short, shown, unknown
 from seethrough.tasks.kit.own_texts import flat
+from seethrough.tasks.kit.world import Texts as OwnTexts
 
 
 def languages() -> tuple[str, ...]:
@@ -20,7 +21,13 @@ def languages() -> tuple[str, ...]:
 class Texts:
     """All texts of a session, in one language. Lookup of an unknown key raises KeyError."""
 
-    def __init__(self, language: str, replaced: Mapping[str, str] | None = None) -> None:
+    def __init__(
+        self,
+        language: str,
+        replaced: Mapping[str, str] | None = None,
+        own: Mapping[str, str] | None = None,
+    ) -> None:
+        """`own`: what to show instead of a study's own words, which have no names."""
         folder = resources.files("seethrough.experiment.pages")
         file = folder.joinpath("languages", f"{language}.toml")
         if not file.is_file():
@@ -33,6 +40,7 @@ class Texts:
             if key not in self._texts:
                 raise InputError(f"texts.{short(key)}: {self.unknown(key)}")
             self._texts[key] = text
+        self._own = dict(own or {})
 
     def __getitem__(self, key: str) -> str:
         return self._texts[key]
@@ -40,7 +48,8 @@ class Texts:
     def get(self, key: str) -> str:
         """The text, or the key itself for what needs no translation: letters, numbers, the names
         of a study's own models and levels."""
-        return self._texts.get(key, key.removeprefix("kind.").removeprefix("name."))
+        plain = key.removeprefix("kind.").removeprefix("name.")
+        return self._texts.get(key) or self._own.get(plain, plain)
 
     def fill(self, key: str, values: Iterable[tuple[str, str | float]] = ()) -> str:
         """The text with its {placeholders} filled; values that are keys are looked up too."""
@@ -64,6 +73,18 @@ class Texts:
             key, known or (f"{t}.…" if t not in self._texts else t for t in tables), "text"
         )
 
+    def place(self, key: str) -> int:
+        """Where a text stands among all."""
+        return list(self._texts).index(key)
+
+    def of_others(self, used: Mapping[str, Set[str]]) -> dict[str, bool]:
+        """Text of a plug-in → whether that is one of these, by kind."""
+        found: dict[str, bool] = {}
+        for kind, name, texts in _each_plugin():
+            for key in texts.get("en", {}):
+                found[key] = found.get(key, False) or name in used[kind]
+        return found
+
     def keys(self) -> frozenset[str]:
         """Every key there is."""
         return frozenset(self._texts)
@@ -72,11 +93,17 @@ class Texts:
 def _of_plugins(language: str) -> dict[str, str]:
     """What plug-ins of every kind bring along; in English what they have no other of."""
     found: dict[str, str] = {}
+    for _, _, texts in _each_plugin():
+        found |= {**texts.get("en", {}), **texts.get(language, {})}
+    return found
+
+
+def _each_plugin() -> Iterator[tuple[str, str, OwnTexts]]:
+    """(kind, name, texts) of each that brings some along."""
     for kind in ("technique", "task", "world", "question"):
         for name in registry.known(kind):
             try:
                 texts = registry.get(kind, name).texts
             except registry.PluginError:
                 continue  # a study that uses it is refused: this one may not
-            found |= texts.get("en", {}) | texts.get(language, {})
-    return found
+            yield kind, name, texts

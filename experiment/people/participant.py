@@ -6,7 +6,7 @@ visible strongly enough. It is a tool for planning studies, never evidence about
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 
 import numpy as np
@@ -28,6 +28,8 @@ from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 from seethrough.tasks.kit.skills.strategy import Play
 from seethrough.tasks.kit.skills.sweep import Sweep, sweep_of
+from seethrough.tasks.kit.unsure import BUTTON
+from seethrough.tasks.kit.unsure import KEY as UNSURE
 
 
 class SimulatedParticipant:
@@ -47,6 +49,7 @@ class SimulatedParticipant:
         self._sweep: Sweep | None = None
         self._task, self._began = "", 0.0
         self._mood: Mood | None = None
+        self._blind = True  # has seen no target in this trial
 
     def about(self, seed: int) -> dict[str, object]:
         """What a sidecar says of it, so that anybody can simulate it again."""
@@ -64,6 +67,7 @@ class SimulatedParticipant:
         self._mood = mood_for(self.person, task, now)
         self.effects = self._mood.effects
         self._strategy = self._sweep = None
+        self._blind = True
         self._task, self._began = task, now
         self.opinions.begin(task)
 
@@ -81,6 +85,7 @@ class SimulatedParticipant:
         `drawn_with` is the technique (its parameters) and `aspect` the width of the view over its
         height: hands that work the technique search with it first.
         """
+        look = self._seeing(look, view)
         if self._strategy is None and self._sweep is None:
             self._sweep = sweep_of(self._begun(task, now), drawn_with, aspect)
         sweep = self._sweep
@@ -100,12 +105,25 @@ class SimulatedParticipant:
             return next(self._strategy)
         try:
             events = self._strategy.send(glance)
+            if BUTTON in glance.view.hud and self._blind and _answers(events):
+                time = events[-1].time
+                events = [KeyPress(time, UNSURE), KeyRelease(time + 0.1, UNSURE)]
         except StopIteration:
             # The answer did not count (a key lost, a limit changed): press enter again.
             now = glance.now
             events = [KeyPress(now + 1.0, "enter"), KeyRelease(now + 1.1, "enter")]
         self.opinions.spent(self._task, events[-1].time - self._began)
         return events
+
+    def _seeing(self, look: Callable[[], Visibility], view: View) -> Callable[[], Visibility]:
+        """A look that remembers whether any target showed."""
+
+        def seeing() -> Visibility:
+            seen = look()
+            self._blind &= not seen.pixels[view.scene.targets].any()
+            return seen
+
+        return seeing
 
     def answer(self, page: Page) -> tuple[dict[str, str], float]:
         """Read and fill in a page: answers by name, and the seconds it took."""
@@ -116,3 +134,8 @@ class SimulatedParticipant:
             self.begin_trial(task, now)
         assert self._mood is not None
         return self._mood
+
+
+def _answers(events: Sequence[Event]) -> bool:
+    """Whether they confirm an answer."""
+    return any(isinstance(event, KeyPress) and event.key == "enter" for event in events)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Protocol
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.experiment.session.strangers import called
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Own
 from seethrough.tasks.kit.base import View
@@ -47,9 +49,11 @@ class SimulatedInput:
     def events(self, view: View) -> list[Event]:
         """The participant's next events, and a Tick at the time of the last."""
         display = self.display
-        events = self.participant.events(
-            view, display.look, self.clock.now(), self._task, display.technique, display.aspect
-        )
+        play = partial(
+            self.participant.events, view, display.look, self.clock.now(), self._task,
+            display.technique, display.aspect,
+        )  # fmt: skip
+        events = called("task", self._task, "simulate", play)
         end = max([e.time for e in events], default=self.clock.now())
         self.clock.advance(end)
         ticked = bool(events) and isinstance(events[-1], Tick) and events[-1].time == end

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
@@ -108,6 +108,14 @@ class Question(Protocol):
 
     def simulate(self, p: Any, page: Page, person: Respondent) -> Answers:
         """How a simulated person fills in a page."""
+
+
+@runtime_checkable
+class Weighs(Protocol):
+    """A kind some of whose items only lead to others: the report leaves them out."""
+
+    def behind(self, p: Any) -> tuple[str, ...]:
+        """The names of these items."""
 
 
 class OnOnePage:

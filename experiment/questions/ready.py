@@ -1,6 +1,5 @@
 """Ready-made questions, each a page of one or several kinds. Sources: ratings Elmqvist2009 §VI-G;
-NASA-TLX raw (Hart & Staveland 1988, public domain); SUS (Brooke 1996, free to use with its
-name)."""
+SUS (Brooke 1996, free to use with its name)."""
 
 from __future__ import annotations
 
@@ -21,8 +20,6 @@ from seethrough.tasks.kit.world import NO_TEXTS, Texts
 OLDEST = 120  # years; what is above is a slip of the finger
 RATED = ("rating.low", "rating.high")
 RATINGS = ("efficiency", "ease", "enjoy")
-TLX = ("mental", "physical", "temporal", "performance", "effort", "frustration")
-TLX_ITEMS = tuple(f"tlx_{name}" for name in TLX)
 SUS_ITEMS = 10
 
 
@@ -112,14 +109,6 @@ def _ratings(asking: Asking) -> tuple[Part, ...]:
     return tuple(_likert(item, f"rating.{item}", RATED) for item in RATINGS)
 
 
-def _tlx(asking: Asking) -> tuple[Part, ...]:
-    """Without weights: six scales of 21 steps, each 0–20."""
-    ends = dict.fromkeys(TLX, ("tlx.low", "tlx.high")) | {"performance": ("tlx.good", "tlx.bad")}
-    return tuple(
-        _likert(f"tlx_{i}", f"tlx.{i}", ends[i], points=21, reverse=(f"tlx_{i}",)) for i in TLX
-    )
-
-
 def _sus(asking: Asking) -> tuple[Part, ...]:
     """Ten statements, 0 to 4; their sum, even ones reversed, times 2.5 (Brooke 1996)."""
     numbers = range(1, SUS_ITEMS + 1)
@@ -180,7 +169,6 @@ READY: Mapping[str, Ready] = {
         Ready("demographics", "demographics", _demographics),
         Ready("ratings", "rating", _ratings, "Elmqvist2009 §VI-G"),
         Ready("comparison", "comparison", _comparison),
-        Ready("tlx", "tlx", _tlx, "Hart and Staveland 1988"),
         Ready("sus", "sus", _sus, "Brooke 1996"),
         Ready("remarks", "remarks", _remarks),
     )
@@ -197,4 +185,5 @@ def question(name: str) -> Question:
 
 def one_page(name: str, **about: str) -> Page:
     """The page of a ready-made question about these levels."""
-    return READY[name].pages(NoParameters(), Asking(name, about))[0]
+    kind = question(name)
+    return kind.pages(kind.Parameters(), Asking(name, about))[0]

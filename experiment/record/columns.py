@@ -52,7 +52,9 @@ TRIALS = (
     Column("task", "text", "what was to be done: a task's name, as T1 count"),
     Column("scene", "text", "which scene: a name of the study's set, or the stream it came from"),
     Column("targets", "integer", "number of targets in the scene"),
-    Column("answer", "text", "the participant's answer, as given"),
+    Column(
+        "answer", "text", "the participant's answer, as given; unknown: left by \"I don't know\""
+    ),
     Column("truth", "text", "the right answer"),
     Column(
         "correct",
@@ -108,9 +110,16 @@ QUESTIONNAIRE = (
         "age (years), gender, "
         "color_plate_1 … 4 (1: read), tlx_… (0–20), sus_1 … sus_10 (0–4), sus (0–100), remarks",
     ),
+    Column(
+        "after_trial",
+        "integer",
+        "the trial that it was asked after, if it was: of a task set, its last",
+        added=3,
+    ),
+    Column("after_task", "text", "the task of that trial", added=3),
     Column("value", "number", "the answer as a number"),
     _TEXT,
-)
+)  # fmt: skip
 
 NOTES = (
     *_WHO,
@@ -172,6 +181,12 @@ def columns_in(table: str, header: Sequence[str]) -> tuple[Column, ...]:
     return _after(
         found, MEASURES_AFTER, tuple(Column(n, "number", f"measure {n}") for n in measures)
     )
+
+
+def measures_among(columns: Sequence[Column]) -> list[Column]:
+    """Those of a trial table's columns that are measures of tasks besides what ours measure."""
+    own = set(_own("trials", [column.name for column in columns], MEASURES_AFTER))
+    return [column for column in columns if column.name in own]
 
 
 def factors_in(header: Sequence[str]) -> tuple[str, ...]:

@@ -61,4 +61,5 @@ class Recorder(Protocol):
         """A note of the experimenter's: on disk when this returns."""
 
     def close(self, status: str) -> None:
-        """The session ended: `complete`, `left`, `time limit` or `display lost`."""
+        """The session ended: `complete`, `left`, `time limit`, `display lost` or `plug-in
+        failed`."""

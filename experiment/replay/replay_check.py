@@ -8,7 +8,6 @@ from dataclasses import asdict
 
 from seethrough.experiment.display.driver import open_context
 from seethrough.experiment.display.stage import Stage
-from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.record_files import cell
 from seethrough.experiment.replay.replayer import Frame, Recorded
 
@@ -36,12 +35,12 @@ class Pictures:
     """Draws frames as the session did."""
 
     def __init__(self, recorded: Recorded) -> None:
-        self._recorded, study = recorded, recorded.study
+        self._recorded = recorded
         context = open_context()
         driver = context.info["GL_RENDERER"]
         if driver != recorded.driver:
             print(f"recorded with {recorded.driver}, drawn with {driver}: pictures may differ")
-        texts = Texts(study.study.language, study.texts)
+        texts = recorded.texts
         self._stage = Stage(context, recorded.size, texts, recorded.samples)
         self._target = context.framebuffer([context.texture(recorded.size, 4)])
 

@@ -20,11 +20,15 @@ from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, folder_of
+from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.hand import Hand
+from seethrough.experiment.session.options import as_asked
 from seethrough.experiment.study.config import Study, parse
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.own_model_files import kept
+from seethrough.experiment.study.plugin_files import kept as kept_plugins
 from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.experiment.study.translations import texts_of
 from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
@@ -54,6 +58,11 @@ class Recorded:
     def technique(self) -> Any:
         """What the trial was drawn with."""
         return self.study.part(self.trial.levels).technique
+
+    @property
+    def texts(self) -> Texts:
+        """What the participant read, in their language."""
+        return texts_of(self.study, self.study.part(self.trial.levels).study.language)
 
     @property
     def look(self) -> Look:
@@ -124,6 +133,7 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
         display = provenance["display"]
         width, height = (int(v) for v in display["size"].split("x"))
         samples = int(display.get("samples", 0))
+        kept_plugins(provenance["study"], data)
         study = parse(provenance["study"], str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
@@ -150,7 +160,7 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
 
 def replay(recorded: Recorded) -> Iterator[Frame]:
     """Every frame of the trial, in order, ending with the frame it ended on."""
-    task = TASKS[recorded.trial.task]
+    task = as_asked(TASKS[recorded.trial.task], recorded.study, recorded.trial)
     aspect = recorded.size[0] / recorded.size[1]
     state = StudyScenes(recorded.study).begin(task, recorded.trial, aspect)
     *shown, last = _frames(recorded.camera)

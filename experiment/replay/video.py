@@ -9,7 +9,6 @@ import numpy as np
 from seethrough.experiment.display.driver import open_context
 from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.replay.replayer import Recorded, replay
 
 RATE = 30
@@ -24,8 +23,7 @@ def write_video(recorded: Recorded, path: Path) -> None:
             "--video: needs the package imageio-ffmpeg; install the extra `video`"
         ) from None
     context = open_context()
-    study = recorded.study
-    stage = Stage(context, recorded.size, Texts(study.study.language, study.texts))
+    stage = Stage(context, recorded.size, recorded.texts)
     texture = context.texture(recorded.size, 4)
     target = context.framebuffer([texture])
     width, height = recorded.size

@@ -15,8 +15,10 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.study import Study
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.base import NoParameters, Outcome, View
 from seethrough.tasks.kit.events import Event, Tick
+from seethrough.tasks.kit.measure import Measure
+from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS
 
 NOTHING = View(Scene(()), look_at(np.array([0.0, 0.0, 9.0]), np.zeros(3)))
 FRAME = 0.5  # s
@@ -34,7 +36,14 @@ def played(study: Study, slot: int) -> list[TrialRecord]:
 class _Task:
     """Any task, answered by the first event."""
 
-    title = instruction = ""
+    name = code = version = source = title = instruction = ""
+    worlds: tuple[str, ...] = ()
+    measures: tuple[Measure, ...] = ()
+    Parameters, texts = NoParameters, NO_TEXTS
+    simulate, takes = None, NO_KEYS
+
+    def begin(self, made: object, setting: object, aspect: float) -> bool:
+        return False
 
     def view(self, state: bool) -> View:
         return NOTHING
@@ -65,8 +74,8 @@ class _Tasks(Mapping[str, Any]):
 class _NoScenes:
     """Begins a trial without a scene."""
 
-    def begin(self, task: Any, trial: Any, aspect: float) -> bool:
-        return False
+    def begin(self, task: Any, trial: Any, aspect: float) -> object:
+        return task.begin(None, None, aspect)
 
 
 class _Hand:

@@ -11,6 +11,7 @@ from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.factors import ALONE, Levels
 from seethrough.experiment.study.study import Study
+from seethrough.experiment.study.translations import own_words
 
 Pairs = tuple[tuple[str, str], ...]  # factor and level
 
@@ -60,13 +61,15 @@ def hands(study: Study, trial: Trial) -> Iterable[Paragraph]:
         yield Paragraph(f"{technique.technique.controls}{walking}")
 
 
-def named(study: Study, page: Page, pairs: Iterable[tuple[str, str]]) -> Page:
+def named(study: Study, page: Page, pairs: Iterable[tuple[str, str]], language: str) -> Page:
     """A page about some levels, with the study's words for each: in its title where there is no
     text of that name, and wherever it names a level."""
     said = {f"name.{level}": name(study, factor, level) for factor, level in pairs}
     title = page.title
     if page.about and not known(study, title):
-        title = ", ".join(study.factor(f).level(level).label or level for f, level in page.about)
+        told = own_words(study, language)
+        labels = [study.factor(f).level(level).label or level for f, level in page.about]
+        title = ", ".join(told.get(label, label) for label in labels)
         title = title[:1].upper() + title[1:]
     return replace(page, title=title, blocks=tuple(_block(block, said) for block in page.blocks))
 

@@ -12,7 +12,6 @@ from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.display import Input
 from seethrough.experiment.display.interrupt import check
 from seethrough.experiment.display.window import Window
-from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import going_on, starting_point
@@ -22,6 +21,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.own_model_files import keep
+from seethrough.experiment.study.translations import texts_of
 from seethrough.tasks.catalog import TASKS
 
 if TYPE_CHECKING:
@@ -51,8 +51,8 @@ def play_in_window(
     if start.session > 1:
         print(going_on(study, start), file=sys.stderr, flush=True)
     part = study.session_part(start.slot)
-    texts = Texts(part.study.language, study.texts)
-    window = Window(part.display, texts, clock, study.study.title)
+    texts = texts_of(study, part.study.language)
+    window = Window(part.display, texts, clock, texts.get(study.study.title))
     window.stage.pilot = source == "pilot"
     if not refresh.fits(window.measured, window.declared):
         print(f"display: {refresh.said(window.measured, window.declared)}", file=sys.stderr)
@@ -80,6 +80,7 @@ def play_in_window(
             say,
             period=window.period,
             waiting=window.waiting,
+            explores=watched is None,
             flip_within=lambda: window.flip_within,
         )
         return run_session(study, start.slot, world, start.done, start.given)

@@ -6,13 +6,14 @@ on at the first page without an answer.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
+from math import inf
+from typing import Any, NamedTuple, Protocol
 from zlib import crc32
 
-from seethrough.experiment.display.display import Input
+from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.questions.choice.choice_question import ChoiceParameters
 from seethrough.experiment.questions.kit import Asking, Row
 from seethrough.experiment.questions.ranking.ranking_question import RankingParameters
@@ -20,18 +21,37 @@ from seethrough.experiment.questions.ready import question
 from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
+from seethrough.experiment.session.moments import QUESTION_STREAM, Asked, Moment, asked_at, in_order
+from seethrough.experiment.session.strangers import called
 from seethrough.experiment.study.described import each_of
 from seethrough.experiment.study.design import PARTICIPANT, generator
 from seethrough.experiment.study.factors import Levels
+from seethrough.experiment.study.question_table import Wanted
 from seethrough.experiment.study.reading import Question
 from seethrough.experiment.study.study import Study
 from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import WORLDS
 
-Item = tuple[str, Pairs]  # item, and factor and level of what it is about
-Given = Mapping[Item, str]  # values of the items that were answered
-QUESTION_STREAM = 999_999  # in the names of questions' streams: no trial has it
+Item = tuple[str, Pairs]  # item, and factor and level of what it is about; the trial, if it is one
+
+
+class Said(NamedTuple):
+    """An answer: its value and its text."""
+
+    value: str
+    text: str = ""
+
+
+Given = Mapping[Item, Said]  # what was answered, in that order
+TRIAL = "after_trial"  # the column that says after which one it was asked
 COLOR_CHECK = "color_check"  # its stream has no further word
+
+
+class Asks(Protocol):
+    """Whoever fills pages in."""
+
+    def ask(self, page: Page) -> Answers:
+        """Show a page until it is answered. Raises Leave if the session is to end."""
 
 
 @dataclass(frozen=True)
@@ -39,14 +59,16 @@ class Step:
     """A page. Its rows are written at once, in order: one of `last` says that it was answered."""
 
     last: tuple[Item, ...]
-    ask: Callable[[Input, Given], list[Row]]
+    ask: Callable[[Asks, Given], list[Row]]
+    shown: Callable[[Given], bool] = lambda given: True
 
 
 @dataclass(frozen=True)
 class Planned:
     """A question that a study asks: `name` is its table's, `use` its kind or ready-made question,
     `about` the levels that it is asked for, by factor, `of` those that it compares, of a `factor`;
-    `cells` are those that it is meant for."""
+    `cells` are those that it is meant for, `mark` what rows say of when it was asked, `given` what
+    earlier answers have to be."""
 
     name: str
     use: str
@@ -55,24 +77,43 @@ class Planned:
     parameters: Any = None
     factor: str = ""
     cells: tuple[Levels, ...] = ()
+    mark: Mapping[str, str] = field(default_factory=dict)
+    given: Mapping[str, Wanted] = field(default_factory=dict)
 
 
-def asked(steps: Iterator[Step], person: Input, given: Given | None = None) -> Iterator[list[Row]]:
-    """The rows of each page once it is answered, those in `given` left out. Raises Leave."""
-    known = dict(given or {})
+def asked(
+    steps: Iterator[Step], person: Asks, known: dict[Item, Said] | None = None
+) -> Iterator[list[Row]]:
+    """The rows of each page once it is answered; those in `known` are left out, and all go into it.
+    Raises Leave."""
+    known = {} if known is None else known
     for step in steps:
-        if any(item in known for item in step.last):
+        if any(item in known for item in step.last) or not step.shown(known):
             continue
         # A power failure may have cut a page's rows short: those that are there stand.
         rows = [row for row in step.ask(person, known) if item_of(row) not in known]
-        known |= {item_of(row): row["value"] for row in rows}
+        known |= {item_of(row): said_in(row) for row in rows}
         yield rows
 
 
 def item_of(row: Row) -> Item:
     """What tells a participant's answers apart."""
-    about = ((k, v) for k, v in row.items() if v and k not in RESERVED)
+    about = ((k, v) for k, v in row.items() if v and (k == TRIAL or k not in RESERVED))
     return row["item"], tuple(sorted(about))
+
+
+def said_in(row: Row) -> Said:
+    """The answer in a row."""
+    return Said(row["value"], row.get("text", ""))
+
+
+def of_trials(known: Given, numbers: Collection[int]) -> dict[Item, Said]:
+    """What was answered, but for what was asked after other trials than these."""
+    return {
+        (item, about): said
+        for (item, about), said in known.items()
+        if int(dict(about).get(TRIAL, 0)) in (0, *numbers)
+    }
 
 
 def before(study: Study, slot: int) -> Iterator[Step]:
@@ -85,20 +126,19 @@ def after(study: Study, slot: int = 1) -> Iterator[Step]:
     yield from _at("end", study, slot)
 
 
-def of_condition(study: Study, slot: int, at: Levels) -> Iterator[Step]:
-    """Every page that is asked after a condition: the levels of a trial of it."""
-    for name, asked_ in study.part(at).questions.items():
-        if asked_.when_asked == "condition" and asked_.meant_for(at):
-            about = dict(words.of_blocks(study, at))
-            yield from steps(_planned(study, name, asked_, about, (at,)), study, slot)
+def between(study: Study, slot: int, now: Moment, every: Sequence[Moment]) -> Iterator[Step]:
+    """Every page that is asked at a moment between trials, of `every` one of the session."""
+    for name, asked_, about in asked_at(study, slot, now, every):
+        planned = _planned(study, name, asked_, about, (now.levels,))
+        yield from steps(replace(planned, mark=now.mark), study, slot)
 
 
 def _at(when: str, study: Study, slot: int) -> Iterator[Step]:
     plan = study.plan
     cells = [plan.levels(c) for c in plan.groups[plan.group_of(slot)[0]].cells]
-    for name, question_ in study.questions.items():
-        if question_.when_asked != when:
-            continue
+    every = study.questions.items()
+    here: list[Asked] = [(name, q, {}) for name, q in every if q.when_asked == when]
+    for name, question_, _ in in_order(study, slot, here):
         meant = tuple(at for at in cells if study.part(at).questions[name].meant_for(at))
         each = each_of(study, question_)
         for about in dict.fromkeys(tuple((f, at[f]) for f in each) for at in meant):
@@ -125,7 +165,8 @@ def _planned(
         )
     elif use == "comparison" and not (of and words.known(study, f"{factor}.{of[1]}")):
         use, parameters, name = "choice", _preference(of), "preference"
-    return Planned(name, use, about, of, parameters, factor, cells)
+    given = asked_.table.given
+    return Planned(name, use, about, of, parameters, factor, cells, given=given)
 
 
 def _preference(of: tuple[str, ...]) -> ChoiceParameters:
@@ -153,23 +194,59 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
         stream=partial(generator, study.study.seed, stream),
         study=StudyPlaces(study, planned.cells),
     )
-    cell = tuple(sorted(planned.about.items()))
+    at = {**planned.about, **{k: v for k, v in planned.mark.items() if k == TRIAL}}
+    cell = tuple(sorted(at.items()))
     pairs = [*planned.about.items(), *((planned.factor, level) for level in planned.of)]
 
+    language = study.session_part(slot).study.language
+
     def step(number: int) -> Step:
-        def ask(person: Input, given: Given) -> list[Row]:
-            known = {item: value for (item, at), value in given.items() if at == cell}
+        def ask(person: Asks, given: Given) -> list[Row]:
+            known = {item: said.value for (item, at), said in given.items() if at == cell}
             now = replace(asking, given=known)
-            page = words.named(study, kind.pages(parameters, now)[number], pairs)
+            pages = called("question", planned.use, "pages", partial(kind.pages, parameters, now))
+            page = words.named(study, pages[number], pairs, language)
             page = replace(page, simulate=partial(kind.simulate, parameters, page))
-            rows = kind.rows(parameters, now, number, person.ask(page))
-            return [{**row, **planned.about} for row in rows]
+            answer = partial(kind.rows, parameters, now, number, person.ask(page))
+            rows = called("question", planned.use, "rows", answer)
+            return [{**row, **planned.about, **planned.mark} for row in rows]
 
         last = kind.last(parameters, asking, number)
-        return Step(tuple((item, cell) for item in last), ask)
+        return Step(tuple((item, cell) for item in last), ask, partial(holds, planned.given, at))
 
     for number in range(kind.count(parameters)):
         yield step(number)
+
+
+def holds(wanted: Mapping[str, Wanted], at: Mapping[str, str], given: Given) -> bool:
+    """Whether earlier answers are what a question wants: to each item the last one that is about no
+    other level than `at` has, nor about another trial."""
+    return all(_is(one, _last(item, at, given)) for item, one in wanted.items())
+
+
+def _last(item: str, at: Mapping[str, str], given: Given) -> Said | None:
+    found = [
+        said
+        for (name, about), said in given.items()
+        if name == item and all(at.get(factor, level) == level for factor, level in about)
+    ]
+    return found[-1] if found else None
+
+
+def _is(wanted: Wanted, said: Said | None) -> bool:
+    """Whether an answer is what is wanted: a number or one between limits, a text, or one of
+    several."""
+    if said is None:
+        return False
+    if isinstance(wanted, tuple):
+        return any(_is(one, said) for one in wanted)
+    if isinstance(wanted, str):
+        return wanted in said
+    if not said.value:
+        return False
+    if isinstance(wanted, Mapping):
+        return bool(wanted.get("least", -inf) <= float(said.value) <= wanted.get("most", inf))
+    return bool(float(said.value) == wanted)
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import folder_of, next_free
 from seethrough.experiment.record.chain import ANSWERS_TABLE
 from seethrough.experiment.record.record_files import whole_rows
-from seethrough.experiment.session.questionnaire import Given, Item, item_of
+from seethrough.experiment.session.questionnaire import Given, Item, Said, item_of, said_in
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, session_for
 
@@ -131,11 +131,12 @@ def _completed(table: Path) -> list[int]:
 
 
 def _given(folder: Path) -> Given:
-    """What was answered in the sessions so far, the first answer to each item."""
-    given: dict[Item, str] = {}
+    """What was answered in the sessions so far, the last answer to each item."""
+    given: dict[Item, Said] = {}
     for table in sorted(folder.glob(f"*{ANSWERS_TABLE}")):
         for row in _rows(table, ("item", "value")):
-            given.setdefault(item_of(row), row["value"])
+            given.pop(item_of(row), None)  # asked again after a trial that was played again
+            given[item_of(row)] = said_in(row)
     return given
 
 

@@ -8,18 +8,22 @@ offscreen, and in tests.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import partial
 
 from seethrough.experiment.display.display import DisplayLost, Leave
 from seethrough.experiment.pages.pages import Page, Paragraph, Picture, PlanPicture, Values
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import levels, questionnaire
-from seethrough.experiment.session.questionnaire import Given, Step
+from seethrough.experiment.session.moments import Moment, moments_of
+from seethrough.experiment.session.questionnaire import Given, Item, Said, Step
+from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TaskSet, Trial, session_for
 from seethrough.tasks.kit.base import Basics, Task
+from seethrough.tasks.kit.unsure import UNKNOWN
 from seethrough.tasks.worlds.building.building_parameters import METRES
 
 
@@ -34,7 +38,7 @@ def run_session(
     done: frozenset[int] = frozenset(),
     given: Given | None = None,
 ) -> str:
-    """Run a slot's session: `complete`, `left` or `time limit`. Raises DisplayLost.
+    """Run a slot's session: `complete`, `left` or `time limit`. Raises DisplayLost, PluginFailed.
 
     Trials numbered in `done` are not played again, and what was answered in `given` is not asked
     again (experiment/session/resume.py).
@@ -48,6 +52,9 @@ def run_session(
     except DisplayLost:
         status = "display lost"
         raise
+    except PluginFailed:
+        status = "plug-in failed"
+        raise
     except Leave:
         pass  # the caller and the record are told by the status
     finally:
@@ -59,33 +66,53 @@ def _run(study: Study, slot: int, world: Surroundings, done: frozenset[int], giv
     start = world.clock.now()
     task_sets = session_for(slot, study.plan)
     total = sum(len(s.trials) for s in task_sets)
+    # What was asked after trials that are played again is asked again.
+    asker = _Asker(study, slot, world, questionnaire.of_trials(given, done), moments_of(task_sets))
     world.display.progress(len(done) / total)
     world.input.ask(_page("welcome"))
     if not done:
-        _ask(questionnaire.before(study, slot), world, given)
+        asker.ask(questionnaire.before(study, slot))
     run = TrialRun(study, world)
     block = None
     for task_set in task_sets:
         remaining = tuple(t for t in task_set.trials if t.number not in done)
-        if not remaining:
-            continue
-        if block not in (None, remaining[0].block):
+        for trial in task_set.trials:
+            if trial.number in done:  # it may have been broken off before what is asked after it
+                asker.between("trial", trial)
+        if remaining and block not in (None, remaining[0].block):
             world.input.ask(_page("pause"))
-        block = remaining[0].block
-        _run_task_set(study, TaskSet(task_set.training, remaining), task_sets, run)
-        if _ends_block(task_set, task_sets):
-            _ask(questionnaire.of_condition(study, slot, task_set.trials[0].levels), world, given)
-        if _over(world.clock.now() - start, study.session.limit):
+        if remaining:
+            block = remaining[0].block
+            _run_task_set(study, TaskSet(task_set.training, remaining), total, run, asker)
+        for when in ("task_set", "condition"):
+            asker.between(when, task_set.trials[-1])
+        if remaining and _over(world.clock.now() - start, study.session.limit):
             world.input.ask(_page("time"))
             raise TimeIsUp
-    _ask(questionnaire.after(study, slot), world, given)
+    asker.ask(questionnaire.after(study, slot))
     world.input.ask(_page("thanks"))
 
 
-def _ask(steps: Iterator[Step], world: Surroundings, given: Given) -> None:
-    """Each page's answers are on disk before the next page is shown."""
-    for rows in questionnaire.asked(steps, world.input, given):
-        world.recorder.answers(rows)
+@dataclass(frozen=True)
+class _Asker:
+    """Asks what a study asks, and knows what was answered."""
+
+    study: Study
+    slot: int
+    world: Surroundings
+    known: dict[Item, Said]
+    moments: tuple[Moment, ...]
+
+    def ask(self, steps: Iterator[Step]) -> None:
+        """Each page's answers are on disk before the next page is shown."""
+        for rows in questionnaire.asked(steps, self.world.input, self.known):
+            self.world.recorder.answers(rows)
+
+    def between(self, when: str, trial: Trial) -> None:
+        """What is asked after a trial, or a task set or condition that it ends."""
+        for now in self.moments:
+            if now.when == when and now.trial == trial.number:
+                self.ask(questionnaire.between(self.study, self.slot, now, self.moments))
 
 
 def _page(name: str) -> Page:
@@ -93,11 +120,11 @@ def _page(name: str) -> Page:
 
 
 def _run_task_set(
-    study: Study, task_set: TaskSet, task_sets: tuple[TaskSet, ...], run: TrialRun
+    study: Study, task_set: TaskSet, total: int, run: TrialRun, asker: _Asker
 ) -> None:
     world = run.world
-    total = sum(len(s.trials) for s in task_sets)
-    world.input.ask(_instruction(study, task_set.trials[0], len(task_sets), run))
+    sets = sum(m.when == "task_set" for m in asker.moments)
+    world.input.ask(_instruction(study, task_set.trials[0], sets, run))
     _train(study, task_set, run)
     for trial in task_set.trials:
         again = True
@@ -106,6 +133,7 @@ def _run_task_set(
             world.recorder.trial_ends(record)
             world.progress(record)
             again = record.repeat
+        asker.between("trial", trial)
         world.display.progress(trial.number / total)
 
 
@@ -113,6 +141,8 @@ def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
     """The training trials, each with feedback, until the study's limit or criterion."""
     world, practice = run.world, study.part(task_set.trials[0].levels).practice
     limit = practice.limit
+    if practice.explore and world.explores:
+        run.play(run.scenes.exploring(task_set.trials[0]), practice.explore)
     right: list[bool] = []
     began = world.clock.now()
     for trial in task_set.training:
@@ -126,11 +156,6 @@ def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
         world.input.ask(_feedback(record))
     if task_set.training:
         world.input.ask(_page("ready"))
-
-
-def _ends_block(task_set: TaskSet, task_sets: tuple[TaskSet, ...]) -> bool:
-    block = task_set.trials[0].block
-    return [s for s in task_sets if s.trials[0].block == block][-1] is task_set
 
 
 def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
@@ -162,6 +187,8 @@ def _feedback(record: TrialRecord) -> Page:
     if outcome is None:
         return Page("feedback", "feedback.title", (Paragraph("feedback.time"),))
     values: Values = (("answer", outcome.answer), ("truth", outcome.truth))
+    if outcome.answer == UNKNOWN:
+        return Page("feedback", "feedback.title", (Paragraph("feedback.unsure"),))
     text = "feedback.right" if outcome.correct else "feedback.wrong"
     if outcome.distance is not None:
         text = "feedback.distance" if outcome.correct else "feedback.other_room"

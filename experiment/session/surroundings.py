@@ -26,4 +26,5 @@ class Surroundings:
     scenes: StudyScenes | None = None  # others than the study's own
     period: float | None = None  # s, of the display, where it was measured
     waiting: Callable[[Callable[[], Any]], Any] = lambda work: work()  # says so, then does it
+    explores: bool = False  # whether who plays looks around first, as people do who are let
     flip_within: Callable[[], float] = lambda: 0.0  # s: the last flip may have been so much earlier

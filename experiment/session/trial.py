@@ -12,13 +12,15 @@ from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, TextField
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import viewpoint
 from seethrough.experiment.session.hand import Hand
+from seethrough.experiment.session.options import as_asked, with_confidence
+from seethrough.experiment.session.strangers import called
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
-from seethrough.tasks.kit.base import Outcome, View
+from seethrough.tasks.kit.base import Outcome, Task, View
 from seethrough.tasks.kit.events import (
     Event,
     FocusChange,
@@ -31,6 +33,7 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
+from seethrough.tasks.kit.explore import EXPLORE
 from seethrough.tasks.kit.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
@@ -106,20 +109,27 @@ class TrialRun:
         """What the trial is drawn with."""
         return self.study.part(trial.levels).technique
 
+    def task(self, trial: Trial) -> Task:
+        """The trial's task, with what the study lets one say of it."""
+        if trial.task == EXPLORE.name:
+            return EXPLORE
+        return as_asked(self.world.tasks[trial.task], self.study, trial)
+
     def look(self, trial: Trial) -> Look:
         """How the trial's scene looks."""
         return self.study.part(trial.levels).look
 
     def begin(self, trial: Trial) -> Any:
         """The task's first state, from the trial's own stream."""
-        task = self.world.tasks[trial.task]
-        return self.scenes.begin(task, trial, self.world.display.aspect)
+        aspect = self.world.display.aspect
+        begin = partial(self.scenes.begin, self.task(trial), trial, aspect)
+        return called("world", trial.world, "make", begin)
 
     def preview(self, trial: Trial) -> View:
         """What the instruction page shows: a scene of the task that is no trial's scene, seen from
         where it shows what is asked for."""
         example = self.scenes.example(trial)
-        task, state = self.world.tasks[trial.task], self.begin(example)
+        task, state = self.task(trial), self.begin(example)
         view = task.view(state)
         camera = viewpoint.best(view.scene, task.example(state, PICTURE_ASPECT))
         shown = View(view.scene, camera, tuple(e for e in view.hud if isinstance(e, Inset)))
@@ -142,7 +152,7 @@ class TrialRun:
                     break
             if not running.ended:
                 running.show()
-        return running.record()
+        return with_confidence(running.record(), self.study, world)
 
 
 def _interrupts(event: Event) -> TypeGuard[KeyPress]:
@@ -160,8 +170,9 @@ class Running:
     """A trial while it runs."""
 
     def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
-        self._world, self._task = run.world, run.world.tasks[trial.task]
+        self._world, self._task = run.world, run.task(trial)
         self._technique = run.technique(trial)
+        self._technique_name = run.study.part(trial.levels).technique_name
         display = run.study.part(trial.levels).display
         look, aspect = run.look(trial), run.world.display.aspect
         self._hand = Hand(self._technique, aspect, look, display.height)
@@ -192,7 +203,8 @@ class Running:
     def show(self) -> None:
         """Show the view as it is now and note the frame."""
         self.view = self._viewed()
-        flip = self._world.display.show(self.view, self._technique)
+        show = partial(self._world.display.show, self.view, self._technique)
+        flip = called("technique", self._technique_name, "drawing", show)
         if self._watch.frames == 0:
             self.first, self._first_within = flip, self._world.flip_within()
         if not self._watch.seen:
@@ -241,7 +253,8 @@ class Running:
         if not isinstance(event, Tick):
             self._within = event.within
         event = self._hand.pointed(event, self.view)
-        used = self._hand.on_event(event, self.view)
+        told = partial(self._hand.on_event, event, self.view)
+        used = called("technique", self._technique_name, "on_event", told)
         state = self._state if used else self._task.on_event(self._state, event)
         if state is not self._state:
             self._state, self._outcome = state, self._task.outcome(state)

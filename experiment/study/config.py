@@ -15,11 +15,13 @@ from seethrough.experiment.study.design import number_of, scene_names
 from seethrough.experiment.study.migrate import is_old, migrated
 from seethrough.experiment.study.own_model_files import beside
 from seethrough.experiment.study.parser import Parser
+from seethrough.experiment.study.plugin_files import taken
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_errors import study_error
 from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
 from seethrough.experiment.study.study_items import lacking_items
 from seethrough.experiment.study.toml_file import read_toml
+from seethrough.experiment.study.translations import unshowable_texts, with_translations
 
 __all__ = ["Study", "find", "load", "parse", "shipped"]
 
@@ -53,14 +55,14 @@ def _is_there(path: Path) -> bool:
         return False
 
 
-def load(name: str) -> Study:
+def load(name: str, translated: bool = True) -> Study:
     """Read and check a study. Raises InputError: of each fault file, key, value and what was
-    expected."""
+    expected. `translated`: with the texts of its own languages, which all have to be there."""
     path = find(name)
-    table = read_toml(path)
     faults: list[str] = []
     more = 0
     study = None
+    table = taken(read_toml(path), path)
     try:
         study = parse(table, str(path))
     except InputError as error:
@@ -75,6 +77,9 @@ def load(name: str) -> Study:
     if faults or study is None:
         raise gathered(faults, more)
     study = dataclasses.replace(study, texts={**study.texts, **texts})
+    if lines := unshowable_texts(study, str(path)):
+        raise gathered(lines)
+    study = with_translations(study, path) if translated else study
     study = study.with_places(lambda place: beside(place, path))
     lacking = lacking_items(study)
     if lacking:

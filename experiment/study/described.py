@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from seethrough.experiment.questions.kit import Asking
+from seethrough.experiment.questions.kit import Asking, Weighs
 from seethrough.experiment.questions.likert.likert_question import LikertParameters
 from seethrough.experiment.questions.ready import Ready, question
 from seethrough.experiment.study.factors import ALONE, Factor
 from seethrough.experiment.study.reading import STARTS, Question
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.measure import TIME
+from seethrough.tasks.kit.measure import CONFIDENCE, TIME
 
 
 def design_entry(study: Study) -> dict[str, Any]:
@@ -23,7 +23,7 @@ def design_entry(study: Study) -> dict[str, Any]:
     return {
         "factors": [_factor(study, factor) for factor in study.factors],
         "excluded": [dict(levels) for levels in study.excluded],
-        "tasks": [_task(task, margins) for task in study.tasks()],
+        "tasks": [_task(study, task, margins) for task in study.tasks()],
         "predictions": [
             {k: v for k, v in said.items() if v not in (None, "")}
             for said in analysis["predictions"]
@@ -37,6 +37,10 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
     """The factors for each of whose levels a question is asked once."""
     if asked.table.each is not None:
         return asked.table.each
+    if asked.when_asked in ("task_set", "condition"):
+        return tuple(f.name for f in study.factors if f.block)
+    if asked.when_asked == "trial":
+        return tuple(f.name for f in study.factors if f.block or f.mixed)
     if asked.use == "ratings":
         return tuple(f.name for f in study.factors if f.block)
     if asked.use in ("tlx", "sus"):
@@ -46,24 +50,28 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
 
 def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
     """A question's items, but of what is asked at the start: for which levels, together with which,
-    of how many points. What is added up stands for its parts."""
+    of how many points. What is added up stands for its parts; items of one scale are together."""
     if asked.use in STARTS:
         return []
-    said = question(asked.use).items(asked.parameters, name)
+    kind = question(asked.use)
+    said = kind.items(asked.parameters, name)
     parts = {p.score: list(p.asked(name)) for p in _scales(asked, name) if p.score}
     added = {item for own in parts.values() for item in own}
+    added |= {*kind.behind(asked.parameters)} if isinstance(kind, Weighs) else set()
     known = {item: words for item, words in said.items() if item not in added}
     turned = [item for p in _scales(asked, name) for item in p.reverse]
     each = list(each_of(study, asked))
     compared = asked.table.of or next((f.name for f in study.factors if f.block), "")
     items = []
-    for item, words in known.items():
-        scale = re.search(r"\((-?\d+)–(-?\d+)\)$", words)
+    scales = {item: re.search(r"\((-?\d+)–(-?\d+)\)$", words) for item, words in known.items()}
+    spans = [scale and scale[0] for scale in scales.values()]
+    first = next((span for span in spans if span), None)
+    for (item, scale), span in zip(scales.items(), spans, strict=True):
         items.append({
             "name": item,
             "label": item.replace("_", " "),
             "each": each,
-            "group": name if len(known) > 1 else "",
+            "group": name if len(known) > 1 and span in (None, first) else "",
             "of": compared if asked.use == "comparison" and item == "preference" else "",
             **({"points": int(scale[2]) - int(scale[1]) + 1, "low": int(scale[1])}
                if scale else {}),
@@ -96,9 +104,10 @@ def _factor(study: Study, factor: Factor) -> dict[str, Any]:
     return said
 
 
-def _task(name: str, margins: dict[str, float]) -> dict[str, Any]:
+def _task(study: Study, name: str, margins: dict[str, float]) -> dict[str, Any]:
     task = TASKS[name]
-    measures = [measure.as_dict() for measure in (TIME, *task.measures)]
+    asked = any(part.limits.options(name).confidence for part in study.parts.values())
+    measures = [m.as_dict() for m in (TIME, *task.measures, *[CONFIDENCE] * asked)]
     for measure in measures:
         own = margins.get(measure["column"], measure["margin"])
         measure["margin"] = margins.get(measure["name"], own)

@@ -18,11 +18,11 @@ from seethrough import registry
 from seethrough.experiment.errors import shown
 from seethrough.experiment.study import plugins
 from seethrough.experiment.study.factor_tables import FACTOR_KEYS
+from seethrough.experiment.study.question_table import QuestionTable
 from seethrough.experiment.study.study_tables import (
     TABLES,
     MarginsTable,
     PredictionTable,
-    QuestionTable,
     TaskTable,
 )
 from seethrough.renderer.declared import Key, allowed, declared

@@ -31,13 +31,14 @@ def migrated_text(text: str) -> str:
     questions = questions_of(dict(plain.get("session", {})), factors)
     parts: list[str] = []
     moved: dict[str, list[str]] = {"practice": [], "task": []}
+    said: dict[str, list[str]] = {}
     for key, item in old.body:
         if key is None:
             parts.append(item.as_string())
         elif key.key in OLD_TABLES:
             parts.append(_renamed(key.key, item))
         elif key.key in GONE:
-            parts.append(_table(key.key, item, moved, base.get(key.key, {})))
+            parts.append(_table(key.key, item, moved, base.get(key.key, {}), said))
             parts += [_factors(factors)] if key.key == "design" else []
         else:
             parts.append(_text({key: item}))
@@ -45,8 +46,7 @@ def migrated_text(text: str) -> str:
         parts += [_header("design", base["design"]), _factors(factors)]
     parts += [_header(name, part) for name, part in base.items() if name != "design"]
     parts += [f"[{name}]\n{''.join(lines)}" for name, lines in moved.items() if lines]
-    asked = [f"{name} = {_inline(own)}\n" for name, own in questions.items()]
-    parts.append("[questions] # in this order\n" + "".join(asked))
+    parts.append("[questions] # in this order\n" + _questions(questions, said))
     return "\n".join(part.rstrip("\n") + "\n" for part in parts if part.strip())
 
 
@@ -64,21 +64,56 @@ def _renamed(name: str, item: Any) -> str:
     return re.sub(rf"^(\s*\[\[?){name}(?=[\].])", rf"\g<1>{new}", _text({name: item}), flags=re.M)
 
 
-def _table(name: str, item: Any, moved: dict[str, list[str]], base: Mapping[str, Any]) -> str:
-    """What of a table stays; entries that move go into `moved` under the names they have now."""
+def _questions(questions: Mapping[str, Any], said: Mapping[str, list[str]]) -> str:
+    """A line each, with what was said about it and about the pages at the end."""
+    lines = said.get("questionnaire", [])
+    for name, own in questions.items():
+        lines = [*lines, *said.get(name, []), f"{name} = {_inline(own)}\n"]
+    return "".join(lines)
+
+
+def _table(
+    name: str, item: Any, moved: dict[str, list[str]], base: Mapping[str, Any],
+    said: dict[str, list[str]],
+) -> str:  # fmt: skip
+    """What of a table stays; entries that move go into `moved` under the names they have now, with
+    the comments above them, and of those that are gone the comments alone into `said`."""
     stays = [f"{key} = {_inline(value)}\n" for key, value in base.items()]
+    above: list[str] = []
     for key, value in item.value.body:
         if key is None:
-            stays.append(value.as_string())
-        elif (name, key.key) in MOVED:
-            table, new = MOVED[name, key.key]
-            line = re.sub(rf"^\s*{key.key}\s*=", f"{new} =", _text({key: value}))
-            (stays if table == name else moved[table]).append(line)
-        elif key.key not in GONE[name]:
-            stays.append(_text({key: value}))
+            above.append(value.as_string())
+            continue
+        gone = key.key in GONE[name]
+        table, new = MOVED.get((name, key.key), (name, key.key))
+        line = re.sub(rf"^\s*{key.key}\s*=", f"{new} =", _text({key: value}))
+        own = next((i for i in range(len(above), 0, -1) if not above[i - 1].strip()), 0)
+        if gone or table != name:  # only the comments that stand right above it are about it
+            stays += above[:own]
+            kept = said.setdefault(key.key, []) if gone else moved[table]
+            kept += above[own:]
+            if gone:
+                _tell(key.key, line, said)
+            else:
+                kept.append(line)
+        else:
+            stays += [*above, line]
+        above = []
+    stays += above
     text = "".join(stays)
     comment = item.trivia.comment and f" {item.trivia.comment}"
     return f"[{name}]{comment}\n{text}" if text.strip() else ""
+
+
+def _tell(key: str, text: str, said: dict[str, list[str]]) -> None:
+    """The comments of an entry that is gone: of an array's line, about what stands in that line."""
+    for line in text.splitlines():
+        plain = re.sub(r'"[^"]*"', lambda found: "_" * len(found[0]), line)
+        at = plain.find("#")
+        if at >= 0:
+            names = re.findall(r'"(\w+)"', line[:at])
+            about = names[0] if len(names) == 1 and key == "questionnaire" else key
+            said.setdefault(about, []).append(f"{line[at:].rstrip()}\n")
 
 
 def _header(name: str, part: Mapping[str, Any]) -> str:

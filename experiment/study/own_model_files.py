@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from seethrough.experiment.errors import InputError, gathered, one_line, shown
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.model_files import check_files
+from seethrough.experiment.study.plugin_files import keep as keep_plugins
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.own_models import READER, OwnModel, kept_as, mesh_of, packed, read
 from seethrough.tasks.kit.world import FileFaults, FileWorld, World
@@ -91,7 +92,9 @@ def beside(parameters: Any, path: Path) -> Any:
 
 
 def keep(study: Study, data: Path) -> None:
-    """Put the meshes into the data folder, for replays on any machine. Raises InputError."""
+    """Put the meshes, and the code that the study brings along, into the data folder, for replays
+    on any machine. Raises InputError."""
+    keep_plugins(study.plugins(), data)
     for path, content in _kept_files(study, data / FOLDER):
         try:
             make_folder(path.parent)

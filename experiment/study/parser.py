@@ -18,11 +18,13 @@ from seethrough.experiment.study.factors import (
     every_cell,
 )
 from seethrough.experiment.study.parameter_tables import MISSING, Fault
+from seethrough.experiment.study.question_checks import unfit_questions
 from seethrough.experiment.study.reading import read
 from seethrough.experiment.study.scopes import sections
 from seethrough.experiment.study.study import Study
 
 MOST_CELLS = 10_000
+DESCRIBED = ("plugins", "translations")  # what a sidecar says besides
 
 
 class Parser:
@@ -46,7 +48,7 @@ class Parser:
         self.faults += [
             Fault(name, value, known=("factors", *sections()))
             for name, value in self.base.items()
-            if name not in sections()
+            if name not in (*sections(), *DESCRIBED)
         ]
         if "study" not in self.base:
             self.faults.append(Fault("study", MISSING, "a table, [study]"))
@@ -65,13 +67,13 @@ class Parser:
             return None, self.faults
         cells = every_cell(factors, excluded)
         parts, unfit = parts_of(self.base, factors, cells)
-        more = unfit or [*self._of_all(found, factors, excluded, cells), *_outlast(found, parts)]
+        more = unfit or [*self._of_all(found, factors, excluded, parts), *_outlast(found, parts)]
         if more:
             return None, more
         return Study(
             found["study"], factors, found["design"], found["practice"], found["display"],
             found["session"], found["questions"], found["analysis"], texts, tables,
-            found["look"], parts, excluded,
+            found["look"], parts, excluded, self.base.get("translations", {}),
         ), []  # fmt: skip
 
     def _read(self, section: str) -> Any:
@@ -115,7 +117,7 @@ class Parser:
 
     def _of_all(
         self, found: Mapping[str, Any], factors: tuple[Factor, ...], excluded: tuple[Levels, ...],
-        cells: tuple[Cell, ...],
+        parts: Mapping[Cell, Part],
     ) -> list[Fault]:  # fmt: skip
         """What no table can know alone."""
         plan = Design(factors, {}, found["design"].order, found["study"].participants,
@@ -125,19 +127,7 @@ class Parser:
             expected = f"at least one for each of {len(plan.groups)} groups"
             faults.append(Fault("study.participants", plan.people, expected))
         names = [f.name for f in factors]
-        for name, question in found["questions"].items():
-            for key, said in (("each", question.table.each or ()), ("only", question.table.only),
-                              ("of", (question.table.of,) * bool(question.table.of))):  # fmt: skip
-                faults += [Fault(f"questions.{name}.{key}", own, known=tuple(names))
-                           for own in said if own not in names]  # fmt: skip
-            for own, levels in question.table.only.items():
-                factor = next((f for f in factors if f.name == own), None)
-                wanted = (levels,) if isinstance(levels, str) else levels
-                faults += [
-                    Fault(f"questions.{name}.only.{own}", level, known=factor.names)
-                    for level in wanted
-                    if factor is not None and level not in factor.names
-                ]
+        faults += unfit_questions(factors, found["questions"], parts)
         for number, said in enumerate(found["analysis"].predictions):
             where = f"analysis.predictions[{number}]"
             if said.contrast and said.contrast not in names:

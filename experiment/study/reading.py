@@ -13,13 +13,9 @@ from pydantic import ValidationError
 
 from seethrough.experiment.study import plugins
 from seethrough.experiment.study.parameter_tables import MISSING, Fault, Faults, built
+from seethrough.experiment.study.question_table import QuestionTable
 from seethrough.experiment.study.study_errors import faults_of
-from seethrough.experiment.study.study_tables import (
-    TABLES,
-    QuestionTable,
-    Table,
-    TaskTable,
-)
+from seethrough.experiment.study.study_tables import TABLES, Table, TaskTable
 from seethrough.renderer.look.look import Look
 
 
@@ -35,15 +31,20 @@ class Chosen:
 
 @dataclass(frozen=True)
 class Limits:
-    """What [task] says: the most time for a trial of each task (s; 0: none), their parameters."""
+    """What [task] says: what holds for `every` task, what some say of themselves (`own`: keys of
+    TaskTable by task), and their parameters."""
 
-    limit: float = 0.0
-    limits: Mapping[str, float] = field(default_factory=dict)
+    every: TaskTable = field(default_factory=TaskTable)
+    own: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     tables: Mapping[str, Any] = field(default_factory=dict)
 
+    def options(self, task: str) -> TaskTable:
+        """What holds for a task's trials."""
+        return self.every.model_copy(update=dict(self.own.get(task, {})))
+
     def of(self, task: str) -> float:
-        """The limit of a task's trials."""
-        return self.limits.get(task, self.limit)
+        """The most time for a task's trials (s; 0: no limit)."""
+        return self.options(task).limit
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ class Question:
 
     @property
     def when_asked(self) -> str:
-        """start, condition or end."""
+        """start, trial, task_set, condition or end."""
         return self.table.when or ("start" if self.use in STARTS else "end")
 
     def meant_for(self, at: Mapping[str, str]) -> bool:
@@ -143,21 +144,23 @@ def _limits(table: Mapping[str, Any]) -> Read:
     known = plugins.names("task")
     plain = {k: v for k, v in table.items() if k not in known}
     value, faults = model("task", TaskTable, plain)
-    limits, tables = {}, {}
+    said: dict[str, Mapping[str, object]] = {}
+    tables: dict[str, Any] = {}
     for name in (k for k in table if k in known):
         own = table[name]
         if not isinstance(own, Mapping):
             faults.append(Fault(f"task.{name}", own, f"a table, [task.{name}]"))
             continue
-        limit, found = model(f"task.{name}", TaskTable, {k: own[k] for k in own if k == "limit"})
+        common = {k: v for k, v in own.items() if k in TaskTable.model_fields}
+        options, found = model(f"task.{name}", TaskTable, common)
         faults += found
-        if "limit" in own and limit is not None:
-            limits[name] = limit.limit
+        if common and options is not None:
+            said[name] = {k: getattr(options, k) for k in common}
         tables[name], found = parameters(
-            "task", name, {k: v for k, v in own.items() if k != "limit"}
+            "task", name, {k: v for k, v in own.items() if k not in common}
         )
         faults += found
-    return (None if faults else Limits(value.limit, limits, tables)), faults
+    return (None if faults else Limits(value, said, tables)), faults
 
 
 def _questions(table: Mapping[str, Any]) -> Read:
@@ -171,9 +174,10 @@ def _questions(table: Mapping[str, Any]) -> Read:
         common = {k: v for k, v in own.items() if k in QuestionTable.model_fields}
         value, wrong = model(where, QuestionTable, common)
         faults += wrong
-        use = (value.use if value else "") or name
+        said = own.get("use")
+        use = said if isinstance(said, str) and said else name
         if use not in plugins.names("question"):
-            key = f"{where}.use" if value is not None and value.use else where
+            key = f"{where}.use" if said else where
             faults.append(Fault(key, use, known=plugins.names("question")))
             continue
         kinds, wrong = parameters(

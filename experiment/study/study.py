@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+from seethrough import registry
 from seethrough.experiment.study.cells import Part
 from seethrough.experiment.study.design import Design, Trial
 from seethrough.experiment.study.factors import Cell, Factor, Levels
@@ -24,7 +25,7 @@ from seethrough.experiment.study.study_tables import (
 )
 from seethrough.renderer.look.look import Look
 from seethrough.tasks.catalog import TASKS, WORLDS
-from seethrough.tasks.kit.base import Setting
+from seethrough.tasks.kit.base import NoParameters, Setting
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,8 @@ class Study:
 
     `design`, `practice`, `display`, `questions` and `study` are as the base of the study has them;
     a level may say otherwise of its cells. `tables` are the base's technique, world and task, and
-    `look` is the base's.
+    `look` is the base's. `translations` are the texts of languages of its own, by their files, as
+    experiment/study/translations.py reads them.
     """
 
     study: StudyTable
@@ -49,6 +51,7 @@ class Study:
     look: Look
     parts: Mapping[Cell, Part] = field(hash=False)
     excluded: tuple[Levels, ...] = field(hash=False)
+    translations: Mapping[str, Mapping[str, str]] = field(default_factory=dict, hash=False)
 
     @cached_property
     def plan(self) -> Design:
@@ -67,7 +70,8 @@ class Study:
     def setting(self, trial: Trial) -> Setting:
         """Where and how a trial's task is set."""
         part = self.part(trial.levels)
-        own = part.limits.tables.get(trial.task) or TASKS[trial.task].Parameters()
+        plain = TASKS[trial.task].Parameters if trial.task in TASKS else NoParameters
+        own = part.limits.tables.get(trial.task) or plain()
         return Setting(WORLDS[part.world], part.place, own)
 
     def tasks(self) -> tuple[str, ...]:
@@ -112,6 +116,8 @@ class Study:
         ]
         plain = ("study", "design", "practice", "display", "session", "analysis")
         said = {name: json.loads(getattr(self, name).model_dump_json()) for name in plain}
+        if not self.practice.explore:
+            del said["practice"]["explore"]  # so a study of before is the same study
         if not self.design.tasks:
             del said["design"]["tasks"]  # every cell's levels say them
         return {
@@ -122,7 +128,27 @@ class Study:
             "task": _limits_table(self.tables["task"]),
             "questions": questions,
             "texts": dict(self.texts),
+            **({"plugins": self.plugins()} if self.plugins() else {}),
+            **({"translations": self.translations} if self.translations else {}),
         }
+
+    def plugins(self) -> list[dict[str, str]]:
+        """Each technique, world, task and kind of question in use that is not ours, with the hash
+        of its code; the file's name where the study brought it along."""
+        parts = self.parts.values()
+        questions = {q.use: q for part in parts for q in part.questions.values()}
+        used = {
+            "technique": [part.technique_name for part in parts],
+            "world": [part.world for part in parts],
+            "task": self.tasks(),
+            "question": [use for use in questions if use in registry.known("question")],
+        }
+        return [
+            {"kind": kind, "name": name, "file": origin.beside, "sha256": origin.sha256}
+            for kind, names in used.items()
+            for name in dict.fromkeys(names)
+            if (origin := registry.origin(kind, name)) is not None
+        ]
 
     def digest(self) -> str:
         """SHA-256 of the resolved study: two sessions with the same digest ran the same study."""
@@ -167,8 +193,8 @@ def _chosen_table(chosen: Any) -> dict[str, Any]:
 
 def _limits_table(limits: Any) -> dict[str, Any]:
     own = {
-        name: {**_plain(limits.tables[name])} | ({"limit": limits.limits[name]}
-        if name in limits.limits else {})
-        for name in limits.tables
-    }  # fmt: skip
-    return {"limit": limits.limit, **own}
+        name: {**_plain(limits.tables[name]), **limits.own.get(name, {})} for name in limits.tables
+    }
+    # What is off is not said: so a study of before is the same study.
+    asked = limits.every.model_dump(exclude_defaults=True)
+    return {"limit": limits.every.limit, **asked, **own}

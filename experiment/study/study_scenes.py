@@ -9,6 +9,7 @@ from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
 from seethrough.experiment.study.study_items import StudyItems
 from seethrough.tasks.kit.base import Setting, Task
+from seethrough.tasks.kit.explore import EXPLORE
 from seethrough.tasks.kit.world import OWN
 
 
@@ -22,7 +23,10 @@ class StudyScenes:
 
     def setting(self, trial: Trial) -> Setting:
         """Where and how a trial's task is set, and which item it asks for, if they are counted."""
-        return replace(self.study.setting(trial), item=self._items.of(trial))
+        setting = self.study.setting(trial)
+        if trial.task == EXPLORE.name:
+            return setting
+        return replace(setting, item=self._items.of(trial))
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
         """The first state of a trial."""
@@ -37,6 +41,13 @@ class StudyScenes:
         if key not in self._shared:
             self._shared[key] = task.make_scene(rng, setting)
         return self._shared[key]
+
+    def exploring(self, trial: Trial) -> Trial:
+        """What one looks around in before the practice: a place like this trial's, no trial's."""
+        return replace(
+            trial, in_set=0, task=EXPLORE.name, scene="explore", training=True,
+            stream=(*trial.stream[:-1], 3 * TRAINING_TRIAL),
+        )  # fmt: skip
 
     def example(self, trial: Trial) -> Trial:
         """A trial like this one whose scene no trial of the study uses: for instructions."""

@@ -24,6 +24,7 @@ EXCLUSIONS = ("timed_out", "focus_lost", "frames_missed", "too_fast")
 
 TASKS_SAID = f"an array of some of {', '.join(map(shown, registry.known('task')))}, each once"
 NAME = "1 to 32 letters and digits (A–Z, a–z, 0–9)"
+LANGUAGE = f'one of {", ".join(languages())}, or a file of texts beside the study, as "fr.toml"'
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
 
@@ -41,8 +42,8 @@ def _plain(value: str) -> str:
 
 
 def _language(value: str) -> str:
-    if value not in languages():
-        raise ValueError(f"one of {', '.join(languages())}")
+    if value not in languages() and not value.endswith(".toml"):
+        raise ValueError(LANGUAGE)
     return value
 
 
@@ -68,7 +69,7 @@ def _task(value: str) -> str:
     return value
 
 
-def _as_tuple(value: Any) -> Any:
+def as_tuple(value: object) -> object:
     """TOML has arrays, frozen tables have tuples."""
     return tuple(value) if isinstance(value, list) else value
 
@@ -104,7 +105,7 @@ class StudyTable(Table):
     language: Annotated[
         str, AfterValidator(_language),
         key("of all that participants read", scope=SESSION,
-            said=f"one of {', '.join(languages())}"),
+            said=LANGUAGE),
     ] = "en"  # fmt: skip
 
 
@@ -146,7 +147,7 @@ class DesignTable(Table):
             "to walk may be apart, as a share of their mean", gt=0, le=2),
     ] = 0.2  # fmt: skip
 
-    _arrays = field_validator("tasks", "redraw", "exclude", mode="before")(_as_tuple)
+    _arrays = field_validator("tasks", "redraw", "exclude", mode="before")(as_tuple)
     _unique = field_validator("tasks")(_once)
 
 
@@ -161,6 +162,11 @@ class PracticeTable(Table):
         key("most time for the practice trials of a task set; 0: no limit", "s", scope=BLOCK,
             ge=0, le=1e9),
     ] = 300.0  # fmt: skip
+    explore: Annotated[
+        float,
+        key("time to look around freely in a scene before the practice trials, which Enter ends; "
+            "0: none", "s", scope=BLOCK, ge=0, le=1e9),
+    ] = 0.0  # fmt: skip
     until: Annotated[
         tuple[int, int] | None,
         key("practise until so many of the last so many are right, as [3, 4]; none: `trials`",
@@ -170,7 +176,7 @@ class PracticeTable(Table):
         int, key("practice trials at most, with `until`", scope=BLOCK, ge=1, le=100)
     ] = 20
 
-    _arrays = field_validator("until", mode="before")(_as_tuple)
+    _arrays = field_validator("until", mode="before")(as_tuple)
 
     @field_validator("until")
     @classmethod
@@ -186,13 +192,19 @@ class PracticeTable(Table):
 
 
 class TaskTable(Table):
-    """[task]: what holds for each; a [task.NAME] may have a limit of its own."""
+    """[task]: what holds for each; a [task.NAME] may say otherwise of itself."""
 
     limit: Annotated[
         float,
         key("most time for a trial, then it counts as timed out; 0: no limit", "s", scope=BLOCK,
             ge=0, le=1e9),
     ] = 0.0  # fmt: skip
+    confidence: Annotated[
+        bool, key("after each answer, how sure one is of it: a measure of the task", scope=BLOCK)
+    ] = False
+    unsure: Annotated[
+        bool, key('whether a trial may be ended by "I don\'t know": a button, and F2', scope=BLOCK)
+    ] = False
 
 
 class DisplayTable(Table):
@@ -280,7 +292,7 @@ class PredictionTable(Table):
     combine: Annotated[Literal["all", "any"], key("of several measures")] = "all"
     reason: Annotated[str, key("why it is expected, for the report")] = ""
 
-    _arrays = field_validator("measure", mode="before")(_as_tuple)
+    _arrays = field_validator("measure", mode="before")(as_tuple)
 
 
 class AnalysisTable(Table):
@@ -313,42 +325,9 @@ class AnalysisTable(Table):
     ] = ()  # fmt: skip
 
     _arrays = field_validator("tests", "exclude", "pairwise", "predictions", mode="before")(
-        _as_tuple
+        as_tuple
     )
     _unique = field_validator("tests", "exclude", "pairwise")(_once)
-
-
-class QuestionTable(Table):
-    """[questions]: a named table each, asked in this order; the name is the kind or block to use,
-    unless `use` says another. A kind's own keys stand beside these."""
-
-    use: Annotated[str, key("the kind of question, or ready block; empty: its own name")] = ""
-    when: Annotated[
-        Literal["", "start", "condition", "end"],
-        key("when it is asked; empty: when such a block usually is", scope=BLOCK),
-    ] = ""
-    each: Annotated[
-        tuple[str, ...] | None,
-        key("once for each level of these factors; none: as such a block usually is",
-            said="an array of factors' names", scope=BLOCK),
-    ] = None  # fmt: skip
-    only: Annotated[
-        Mapping[str, str | tuple[str, ...]],
-        key("only for these levels", said="a table of factor and level, or levels", scope=BLOCK,
-            default_factory=dict),
-    ]  # fmt: skip
-    of: Annotated[str, key("the factor whose levels are compared")] = ""
-    off: Annotated[bool, key("not asked: a level may switch a question off", scope=BLOCK)] = False
-    file: Annotated[str, key("text file beside the study's, of a page to be agreed to")] = ""
-
-    _arrays = field_validator("each", mode="before")(_as_tuple)
-
-    @field_validator("only", mode="before")
-    @classmethod
-    def _levels(cls, value: Any) -> Any:
-        if not isinstance(value, Mapping):
-            return value
-        return {k: tuple(v) if isinstance(v, list) else v for k, v in value.items()}
 
 
 # The tables that are checked here, by their names; `factors` and those of plug-ins beside them.

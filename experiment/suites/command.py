@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from seethrough.experiment.errors import InputError, short, unknown
+from seethrough.experiment.study.plugin_files import from_path
+from seethrough.experiment.study.trust import TRUST
 
 
 def add_arguments(kind: str, parser: argparse.ArgumentParser) -> None:
@@ -12,7 +15,8 @@ def add_arguments(kind: str, parser: argparse.ArgumentParser) -> None:
     actions = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
     actions.add_parser("list", help=f"every {kind} there is, with its source")
     check = actions.add_parser("check", help=f"try every rule of a {kind} on one")
-    check.add_argument("name", metavar="NAME", help=f"name of a {kind}")
+    check.add_argument("name", metavar="NAME", help=f"name of a {kind}, or a file with one")
+    check.add_argument("--trust", action="store_true", help=TRUST)
 
 
 def run(kind: str, arguments: argparse.Namespace) -> int:
@@ -24,6 +28,8 @@ def run(kind: str, arguments: argparse.Namespace) -> int:
             for name, plugin in registry.every(kind).items():
                 print(f"{name:20s} {plugin.version:6s} {plugin.source}")
             return 0
+        if arguments.name.endswith(".py"):
+            return _check(kind, from_path(kind, Path(arguments.name)))
         if arguments.name not in registry.known(kind):
             said = unknown(arguments.name, registry.known(kind), kind)
             raise InputError(f"{kind} check {short(arguments.name)}: {said}")

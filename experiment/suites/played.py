@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import datetime
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -30,6 +32,7 @@ ASPECT = 4 / 3
 MOST_EVENTS = 20_000
 NEAR = 0.05  # view heights from a thing's middle that still hit it
 CLOCKS = ("time", "monotonic", "perf_counter", "process_time", "time_ns", "monotonic_ns")
+DATES = ("now", "utcnow", "today")
 KEYS = (*"0123456789ackrxyz", "left", "right", "up", "down", "enter", "space", "backspace", "tab")
 
 
@@ -47,20 +50,37 @@ class ReadsTheClock(Exception):
 
 
 @contextmanager
-def no_clock() -> Iterator[None]:
-    """Whoever asks what time it is, is found out."""
+def no_clock(plugin: object = None) -> Iterator[None]:
+    """Whoever asks what time it is, is found out; in the module of a `plugin` also where it has
+    taken a clock by another name, or a date."""
 
     def refuse(*_: Any) -> float:
         raise ReadsTheClock("expected the times of events, not the clock's")
 
-    kept = {name: getattr(time, name) for name in CLOCKS}
-    for name in CLOCKS:
-        setattr(time, name, refuse)
+    no_date = type("datetime", (datetime.datetime,), dict.fromkeys(DATES, refuse))
+    kept: list[tuple[object, str, object]] = [(time, n, getattr(time, n)) for n in CLOCKS]
+    clocks = {clock for _, _, clock in kept}
+    module = sys.modules.get(type(plugin).__module__)
+    for name, value in list(vars(module).items()) if module else ():
+        if value is datetime.datetime or (callable(value) and _among(value, clocks)):
+            kept.append((module, name, value))
+        elif value is datetime:
+            kept.append((datetime, "datetime", datetime.datetime))
+    for where, name, value in kept:
+        setattr(where, name, no_date if isinstance(value, type) else refuse)
     try:
         yield
     finally:
-        for name, clock in kept.items():
-            setattr(time, name, clock)
+        for where, name, value in kept:
+            setattr(where, name, value)
+
+
+def _among(value: object, clocks: set[object]) -> bool:
+    """Whether it is one of the clocks; what cannot be hashed is none."""
+    try:
+        return value in clocks
+    except TypeError:
+        return False
 
 
 def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> Any:

@@ -86,7 +86,7 @@ def asks_the_same_again(question: Any) -> Iterator[str]:
     """One participant meets the same pages whenever they are made; their number is known."""
     p = question.example
     for asking in _askings():
-        with no_clock():
+        with no_clock(question):
             one, two = (question.pages(p, asking) for _ in range(2))
         if len(one) != question.count(p):
             yield f"count = {question.count(p)}: but there are {len(one)} pages"

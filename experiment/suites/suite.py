@@ -14,8 +14,11 @@ from typing import Any, get_type_hints
 from seethrough import registry
 from seethrough.experiment.errors import one_line
 from seethrough.experiment.pages.texts import Texts, languages
+from seethrough.experiment.session.strangers import PluginFailed, limited
 from seethrough.experiment.suites.finding import Finding
 from seethrough.renderer.declared import Key, declared
+
+RULE_LIMIT = 60.0  # s: the slowest rule of ours takes a few
 
 Rule = Callable[[Any], Iterator[str]]
 
@@ -36,10 +39,13 @@ def findings(kind: str, name: str) -> Iterator[Finding]:
 def _tried(rule: Rule, plugin: Any) -> list[str]:
     found = []
     try:
-        for problem in rule(plugin):
-            found.append(one_line(problem))
-            if len(found) == 5:
-                break
+        with limited(RULE_LIMIT, "a rule"):
+            for problem in rule(plugin):
+                found.append(one_line(problem))
+                if len(found) == 5:
+                    break
+    except PluginFailed as error:
+        found.append(str(error))
     except Exception as error:  # a stranger's code may raise anything
         found.append(one_line(f"raised {type(error).__name__}: {error}"))
     return found

@@ -104,7 +104,7 @@ def reads_no_clock(task: Any) -> Iterator[str]:
     for given in _settings(task):
         state = begun(task, given, SEEDS[0])
         before = _global_stream()
-        with no_clock():
+        with no_clock(task):
             for event in anything(np.random.default_rng(1), 50):
                 state = task.on_event(state, event)
                 task.view(state)

@@ -48,7 +48,7 @@ def makes_the_same_place_again(world: Any) -> Iterator[str]:
     """One stream, one place; another stream, another one, unless it is from a file; nothing but the
     stream decides."""
     p = world.Parameters()
-    with no_clock():
+    with no_clock(world):
         one, two, other = (world.make(np.random.default_rng(s), p).scene for s in (1, 1, 2))
     if not np.array_equal(one.transforms, two.transforms):
         yield "one stream made two places"

@@ -133,11 +133,9 @@ class Basics:
 class Task(Protocol):
     """One task, without state of its own: states are frozen values that replace each other.
 
-    `code` is how a paper calls it (T1), `worlds` are those it can be set in (or
-    ANYWHERE), `measures` what it
-    measures beside the time, `title` and `instruction` the names of its texts, `takes` the keys
-    that it answers to beside those of its world ("key:enter"), and `simulate` how a simulated
-    person does it.
+    `code` is how a paper calls it (T1), `worlds` are those it can be set in (or ANYWHERE),
+    `measures` what it measures beside the time, `takes` the keys that it answers to beside those of
+    its world ("key:enter"), and `simulate` how a simulated person does it.
     """
 
     name: str
@@ -147,11 +145,17 @@ class Task(Protocol):
     worlds: tuple[str, ...]
     Parameters: Any
     measures: tuple[Measure, ...]
-    title: str
-    instruction: str
     takes: frozenset[str]
     texts: Texts
     simulate: Strategy
+
+    @property
+    def title(self) -> str:
+        """The name of the text above the instruction."""
+
+    @property
+    def instruction(self) -> str:
+        """The name of the text that says what to do."""
 
     def make_scene(self, rng: Generator, setting: Setting) -> Any:
         """A scene of a trial, with all that `begin` and the score need to know of it."""

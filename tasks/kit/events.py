@@ -4,7 +4,7 @@ An event happened at `time`, or up to `within` seconds later where that cannot b
 Positions are in view units: the origin is the upper left corner of the view, y points down and
 runs from 0 to 1, x from 0 to the aspect ratio. Times are seconds on the session's clock.
 Keys are lower-case names: "a"…"z", "0"…"9", "left", "right", "up", "down", "enter", "space",
-"backspace", "escape", "tab", "f1".
+"backspace", "escape", "tab", "f1", "f2".
 """
 
 from __future__ import annotations

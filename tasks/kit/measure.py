@@ -54,6 +54,8 @@ ABSOLUTE_ERROR = Measure(
     "absolute_error", "", "less", "count", "relative absolute", label="absolute relative error",
     column="count_error", pool=True, price=True,
 )  # fmt: skip
+# Of any task whose study asks for it.
+CONFIDENCE = Measure("confidence", "", "more", "ordinal", label="confidence")
 DISTANCE = Measure("distance", "units", "less", "ratio", label="distance", price=True)
 WRONG_CLICKS = Measure("wrong_clicks", "", "less", "count", label="wrong clicks", price=True)
 MISSES = Measure("misses", "", "less", "count", label="misses", price=True)

@@ -18,7 +18,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 
 OWN, SHARED, FILES = "own", "shared", "files"
-ANYWHERE = ("*",)  # the worlds of a task that takes any place with targets
+ANYWHERE: tuple[str, ...] = ("*",)  # the worlds of a task that takes any place with targets
 NO_KEYS: frozenset[str] = frozenset()
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
 NO_TEXTS: Texts = MappingProxyType({})

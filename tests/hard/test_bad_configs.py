@@ -13,6 +13,7 @@ from broken_configs import BASE, KINDS, case, toml
 
 from seethrough.experiment import cli
 from seethrough.experiment.errors import MOST
+from seethrough.experiment.study import trust
 
 CASES = int(os.environ.get("SEETHROUGH_CASES", "300"))
 
@@ -75,11 +76,15 @@ def test_what_the_cases_start_from_is_valid(tmp_path):
 
 def test_every_malformed_study_gets_a_line_a_fault(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv(trust.TOLD, "")
+    monkeypatch.setenv(trust.HOME, str(tmp_path.with_name("home")))
     path = tmp_path / "study.toml"
     wrong, valid = [], 0
     for number in range(CASES):
         broken = case(number)
         path.write_bytes(broken.data)
+        for name, data in broken.beside.items():
+            (tmp_path / name).write_bytes(data)
         try:
             status, out, err = check(path)
         except Exception as error:  # whatever it is, it would have been a traceback
@@ -90,8 +95,13 @@ def test_every_malformed_study_gets_a_line_a_fault(tmp_path, monkeypatch):
             valid += 1
         elif must_pass or status != 2 or not is_lines(err, broken.faults) or out:
             wrong.append((number, broken.kind, broken.what, status, out[:80], err[:300]))
-        elif list(tmp_path.iterdir()) != [path] or path.read_bytes() != broken.data:
+        elif {p.name for p in tmp_path.iterdir()} != {
+            path.name,
+            *broken.beside,
+        } or path.read_bytes() != broken.data:
             wrong.append((number, broken.kind, broken.what, "something was written"))
+        for name in broken.beside:
+            (tmp_path / name).unlink()
     print(f"{CASES} malformed studies, {valid} of them valid by chance, {len(wrong)} wrong")
     assert not wrong, "\n".join(map(str, wrong[:20]))
     assert valid < 2 * CASES / len(KINDS)  # what editors do is valid half the time

@@ -18,7 +18,7 @@ from seethrough.experiment import cli
 
 # CONVENTIONS.md has these words: a reader without this program can make the same seal.
 SHELL = (
-    "find dataset_description.json certificate.csv models data/human -type f "
+    "find dataset_description.json certificate.csv models plugins data/human -type f "
     "! -name '.*' 2>/dev/null | LC_ALL=C sort | tr '\\n' '\\0' | xargs -0 sha256sum | sha256sum"
 )
 

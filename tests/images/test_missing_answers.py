@@ -7,7 +7,10 @@ from screen import Screen, button, fields, seen
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.page_blocks import COLORS
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, TextField
-from seethrough.experiment.questions.ready import TLX_ITEMS, one_page
+from seethrough.experiment.questions.ready import one_page
+from seethrough.experiment.questions.tlx.tlx_question import TLX
+
+TLX_ITEMS = tuple(f"tlx_{name}" for name in TLX)
 
 RED = np.array([COLORS["wrong"] >> shift & 255 for shift in (0, 8, 16)])
 AGE = Page(

@@ -11,12 +11,13 @@ import copy
 import datetime
 import json
 import tomllib
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import broken_scenes
 import numpy as np
+from broken_own import OWN
 
 from seethrough.experiment.study.config import find
 from seethrough.experiment.study.keys import keys_of
@@ -52,6 +53,7 @@ class Case:
     data: bytes
     must_fail: bool = True
     faults: tuple[str, ...] = ()
+    beside: Mapping[str, bytes] = field(default_factory=dict)
 
 
 def case(number: int) -> Case:
@@ -334,6 +336,12 @@ def _scene(kind: str, rng: np.random.Generator) -> Case:
     return _done(kind, what, study)
 
 
+def _own(kind: str, rng: np.random.Generator) -> Case:
+    """Of what a study may bring along: broken_own.py."""
+    what, study, beside = OWN[kind](BASE, rng)
+    return replace(_done(kind, what, study), beside=beside)
+
+
 KINDS: dict[str, Callable[[str, np.random.Generator], Case]] = {
     "unknown key": _unknown_key,
     "wrong type": _wrong_type,
@@ -351,6 +359,7 @@ KINDS: dict[str, Callable[[str, np.random.Generator], Case]] = {
     "as saved": _as_saved,
     "twice": _twice,
     "scene": _scene,
+    **dict.fromkeys(OWN, _own),
 }
 
 

@@ -14,11 +14,10 @@ from seethrough.tasks.kit.world import NO_TEXTS, Texts
 class ChoiceParameters:
     """What a study may say of a choice."""
 
-    text: str = key(..., "what is asked")
+    text: str = key(..., "what is asked", shown=True)
     options: tuple[str, ...] = key(
         (), "what there is to choose from; none: the levels that are compared (`of`)",
-        said="an array of two or more texts, each once",
-    )  # fmt: skip
+        said="an array of two or more texts, each once", shown=True)  # fmt: skip
     names: tuple[str, ...] = key(
         (), "what the data call the options; none: as participants read them",
         said="an array of texts, one for each option",
@@ -28,7 +27,7 @@ class ChoiceParameters:
     several: bool = key(False, "whether more than one may be chosen")
     required: bool = key(True, "the page goes on only when it is answered")
     shuffle: bool = key(False, "whether each participant has the options in another order")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)

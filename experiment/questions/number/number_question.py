@@ -15,14 +15,16 @@ from seethrough.tasks.kit.world import Texts
 class NumberParameters:
     """What a study may say of a number."""
 
-    text: str = key(..., "what is asked")
+    text: str = key(..., "what is asked", shown=True)
     low: float = key(0.0, "the least it may be", low=-1e9, high=1e9)
     high: float = key(1_000_000.0, "the most it may be", low=-1e9, high=1e9)
     whole: bool = key(True, "whether it has to be a whole number")
     unit: str = key("", "what it counts, for those who read the data")
-    wrong: str = key("number.wrong", "what to say of anything else, with {answer} and {most} in it")
+    wrong: str = key(
+        "number.wrong", "what to say of anything else, with {answer} and {most} in it", shown=True
+    )
     required: bool = key(False, "the page goes on only when it is answered")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)

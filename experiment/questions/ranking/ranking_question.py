@@ -14,19 +14,27 @@ from seethrough.tasks.kit.world import NO_TEXTS, Texts
 class RankingParameters:
     """What a study may say of a ranking."""
 
-    text: str = key(..., "what is asked; 1 is first")
+    text: str = key(..., "what is asked; 1 is first", shown=True)
     options: tuple[str, ...] = key(
         (), "what is put in order; none: the levels that are compared (`of`)",
-        said="an array of two or more texts, each once",
-    )  # fmt: skip
+        said="an array of two or more texts, each once", shown=True)  # fmt: skip
+    shuffle: bool = key(False, "whether each participant has the options in another order")
     required: bool = key(True, "the page goes on only when all have a rank")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)
         if self.options and (len(self.options) < 2 or len(set(self.options)) < len(self.options)):
             expected = "an array of two or more texts, each once"
             raise ValueError(f"options = {list(self.options)!r}, expected {expected}")
+
+    def asked(self, asking: Asking) -> list[tuple[str, str]]:
+        """(text, name) of each option, in the order of this participant."""
+        texts = self.options or tuple(f"name.{level}" for level in asking.of)
+        found = list(zip(texts, self.options or asking.of, strict=True))
+        return (
+            [found[i] for i in asking.stream().permutation(len(found))] if self.shuffle else found
+        )
 
 
 class RankingQuestion(OnOnePage):
@@ -42,21 +50,23 @@ class RankingQuestion(OnOnePage):
 
     def blocks(self, p: RankingParameters, asking: Asking) -> tuple[Ranking, ...]:
         """All options; of levels, each speaks for itself."""
-        options = p.options or tuple(f"name.{level}" for level in asking.of)
-        prefer = () if p.options else asking.of
-        return (Ranking(asking.name, p.text, options, prefer, not p.required),)
+        options = p.asked(asking)
+        prefer = () if p.options else tuple(name for _, name in options)
+        texts = tuple(text for text, _ in options)
+        return (Ranking(asking.name, p.text, texts, prefer, not p.required),)
 
     def rows(
         self, p: RankingParameters, asking: Asking, number: int, answers: Answers
     ) -> list[Row]:
         """Each option's rank, a row each."""
         ranks = answers.get(asking.name, "").split(",")
-        names = p.options or asking.of
-        if len(ranks) != len(names) or "" in ranks:
+        shown = [name for _, name in p.asked(asking)]
+        if len(ranks) != len(shown) or "" in ranks:
             return []
+        rank_of = dict(zip(shown, ranks, strict=True))
         return [
-            row(f"{asking.name}_{n}", rank, text=name)
-            for n, (name, rank) in enumerate(zip(names, ranks, strict=True), start=1)
+            row(f"{asking.name}_{n}", rank_of[name], text=name)
+            for n, name in enumerate(p.options or asking.of, start=1)
         ]
 
     def last(self, p: RankingParameters, asking: Asking, number: int) -> tuple[str, ...]:

@@ -14,14 +14,17 @@ from seethrough.tasks.kit.world import NO_TEXTS, Texts
 class SliderParameters:
     """What a study may say of a slider."""
 
-    text: str = key(..., "what is asked")
+    text: str = key(..., "what is asked", shown=True)
     low: int = key(0, "the lowest value", low=-1_000_000, high=1_000_000)
     high: int = key(100, "the highest value", low=-1_000_000, high=1_000_000)
     ends: tuple[str, ...] = key(
-        ("question.low", "question.high"), "what the ends mean", said="an array of two texts"
+        ("question.low", "question.high"),
+        "what the ends mean",
+        said="an array of two texts",
+        shown=True,
     )
     required: bool = key(True, "the page goes on only when it was moved")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)

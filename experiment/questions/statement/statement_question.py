@@ -15,11 +15,11 @@ from seethrough.tasks.kit.world import NO_TEXTS, Texts
 class StatementParameters:
     """What a study may say of a statement."""
 
-    text: str = key(..., "what is to be read")
+    text: str = key(..., "what is to be read", shown=True)
     agree: bool = key(False, "whether it is to be agreed to; who does not ends the session")
-    yes: str = key("consent.yes", "the button of those who agree")
-    no: str = key("consent.no", "the button of those who do not")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    yes: str = key("consent.yes", "the button of those who agree", shown=True)
+    no: str = key("consent.no", "the button of those who do not", shown=True)
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)

@@ -14,10 +14,10 @@ from seethrough.tasks.kit.world import NO_TEXTS, Texts
 class TextParameters:
     """What a study may say of a free text."""
 
-    text: str = key(..., "what is asked")
+    text: str = key(..., "what is asked", shown=True)
     lines: int = key(5, "how high the field is", "lines", low=1, high=20)
     required: bool = key(False, "the page goes on only when something is written")
-    title: str = key("", "stands above the page; none: which levels it is about")
+    title: str = key("", "stands above the page; none: which levels it is about", shown=True)
 
     def __post_init__(self) -> None:
         check(self)

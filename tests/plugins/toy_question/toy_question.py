@@ -9,8 +9,8 @@ from seethrough.renderer.declared import check, key
 
 @dataclass(frozen=True)
 class Asked:
-    text: str = key(..., "what is asked")
-    title: str = key("toy_question.title", "stands above the page")
+    text: str = key(..., "what is asked", shown=True)
+    title: str = key("toy_question.title", "stands above the page", shown=True)
 
     def __post_init__(self):
         check(self)

@@ -108,7 +108,9 @@ def test_limits_that_follow_from_others_name_them():
 
 
 def test_language_lists_the_languages():
-    assert keys_of("study")["language"].allowed == "one of de, en"
+    assert keys_of("study")["language"].allowed == (
+        'one of de, en, or a file of texts beside the study, as "fr.toml"'
+    )
 
 
 def test_the_command_prints_the_page_or_a_table(capsys):

@@ -3,23 +3,26 @@
 import threading
 import time
 
+import numpy as np
 import pytest
 from every_page import begun, ended
 from every_page import marked as mark
+from scripted_session import ANSWERS, FakeDisplay, MemoryRecorder, ScriptedInput, study
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.waiting import PATIENCE, meanwhile
 from seethrough.experiment.pages.pages import PlanPicture
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.session.session import _feedback
+from seethrough.experiment.session.session import _feedback, run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
-from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.base import Outcome
-from seethrough.tasks.kit.events import KeyPress, Tick
+from seethrough.tasks.catalog import TASKS, WORLDS
+from seethrough.tasks.kit.base import Outcome, Setting
+from seethrough.tasks.kit.events import KeyPress, PointerPress, Tick
+from seethrough.tasks.kit.explore import EXPLORE
 from seethrough.tasks.kit.hud import Label
 
 STUDY = load("published")
@@ -150,3 +153,43 @@ def test_the_scene_is_made_while_the_world_waits():
     trial = next(t.trials[0] for t in SETS if t.trials[0].task == "count")
     views, _ = played(trial, waiting=waiting)
     assert [state.cloud.scene for state in made] == [views[0].scene]
+
+
+@pytest.mark.parametrize("explores", [True, False])
+def test_people_may_look_around_before_they_practise(explores):
+    """Until Enter, or for so long; in a scene that is no trial's; simulated people do not."""
+    config = study(practice={"trials": 1, "explore": 5.0}, design={"trials": 1, "tasks": ["count"]})
+    found = {}
+    for name, keys in (("enter", ["left", "enter"]), ("limit", ["left"])):
+        clock = SimulatedClock(100.0)
+        recorder = MemoryRecorder()
+        person = ScriptedInput(clock, {**ANSWERS, "explore": keys})
+        world = Surroundings(FakeDisplay(clock), person, clock, recorder, TASKS, explores=explores)
+        assert run_session(config, 1, world) == "complete"
+        found[name] = recorder
+        looked = [t for t in recorder.begun if t.task == "explore"]
+        assert len(looked) == (2 if explores else 0)
+        assert {t.stream for t in looked}.isdisjoint(t.stream for t in recorder.begun
+                                                     if t.task != "explore")  # fmt: skip
+        assert [r.trial.task for r in recorder.ended] == ["count", "count"]
+    if explores:
+        began = [[t.task for t in r.begun] for r in found.values()]
+        assert began[0] == began[1] == ["explore", "count", "count"] * 2
+
+
+def test_looking_around_moves_as_the_world_does():
+    """Orbiting turns by the arrow keys, and a click on the button is enough; walking captures the
+    pointer, so Enter is."""
+    for name, walks in (("abstract", False), ("building", True), ("scene", False)):
+        world = WORLDS[name]
+        place = world.Parameters()
+        made = world.make(np.random.default_rng(1), place)
+        start = EXPLORE.begin(made, Setting(world, place, None), 4 / 3)
+        view = EXPLORE.view(start)
+        assert view.captured == walks and view.scene.targets.any()
+        later = EXPLORE.on_event(EXPLORE.on_event(start, KeyPress(0.0, "left")), Tick(0.5))
+        assert not np.allclose(EXPLORE.view(later).camera.rotation, view.camera.rotation)
+        assert EXPLORE.outcome(later) is None
+        rect = start.button.rect if start.button else None
+        done = PointerPress(1.0, rect.x + 0.01, rect.y + 0.01) if rect else KeyPress(1.0, "enter")
+        assert EXPLORE.outcome(EXPLORE.on_event(later, done)) is not None

@@ -14,9 +14,12 @@ from seethrough.experiment.pages.pages import Choice, PlatePicture, Scale, TextF
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.questions.depth_test.depth_pairs import RATIO, depth_test
 from seethrough.experiment.questions.kit import Asking
-from seethrough.experiment.questions.ready import READY, TLX, question
+from seethrough.experiment.questions.ready import READY, question
+from seethrough.experiment.questions.tlx.tlx_question import TLX
 from seethrough.experiment.session import questionnaire
+from seethrough.experiment.session.questionnaire import Said
 from seethrough.experiment.study.config import find, load, parse
+from seethrough.experiment.study.described import design_entry
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 PUBLISHED = load("published")
@@ -135,7 +138,7 @@ def test_what_was_answered_is_not_asked_again_wherever_it_broke_off(seed):
     rows = rows_of(steps(), whole)
     # Page by page as a rule; after a power failure perhaps in the middle of a page.
     cut = int(np.random.default_rng(seed).integers(1, len(rows)))
-    given = {questionnaire.item_of(row): row["value"] for row in rows[:cut]}
+    given = {questionnaire.item_of(row): questionnaire.said_in(row) for row in rows[:cut]}
     person = Answers(age="28", remarks="fine")
     assert rows[:cut] + rows_of(steps(), person, given) == rows
     assert len(person.pages) < len(whole.pages)
@@ -176,13 +179,14 @@ def test_sus_scores_the_known_extremes_and_the_middle():
 def test_a_score_that_a_power_failure_cut_off_counts_the_answers_that_were_kept():
     """Of ten statements four were on disk; the page is asked again, and those four stand."""
     kept = {
-        (f"sus_{n}", (("transparency", "dynamic"),)): "4" if n % 2 else "0" for n in range(1, 5)
+        (f"sus_{n}", (("transparency", "dynamic"),)): Said("4" if n % 2 else "0")
+        for n in range(1, 5)
     }
     study = with_blocks("sus")
-    rows = rows_of(questionnaire.after(study, 1), Answers(), kept)
+    rows = rows_of(questionnaire.after(study, 1), Answers(), dict(kept))
     mine = {r["item"]: r["value"] for r in rows if r["transparency"] == "dynamic"}
     assert set(mine) == {f"sus_{n}" for n in range(5, 11)} | {"sus"}
-    both = {item: value for (item, *_), value in kept.items()} | mine
+    both = {item: said.value for (item, *_), said in kept.items()} | mine
     assert float(mine["sus"]) == sus_score(both)
     new = {f"sus_{n}": mine["sus_5"] for n in range(1, 11)}
     assert float(mine["sus"]) != sus_score(new)
@@ -287,3 +291,67 @@ def test_simulated_participants_judge_the_depth_of_what_is_in_the_picture():
     # Sixty fair coins come up right 42 times or more once in a thousand; the things that are out of
     # the picture, nearer ones of the same kinds among them, would bring it down to 20.
     assert sum(scores) >= 42
+
+
+def test_weighted_workload_is_as_hart_and_staveland_add_it_up():
+    """By hand: mental wins all of its 5 pairs, physical 4, …, frustration none, so the weights are
+    5, 4, 3, 2, 1, 0, and of ratings 20, 15, 10, 5, 0, 20 the workload is 5 · (100 + 60 + 30 + 10) /
+    15."""
+    kind = question("tlx")
+    p = kind.Parameters(weighted=True)
+    ratings = dict(zip(TLX, (20, 15, 10, 5, 0, 20), strict=True))
+    given = {f"tlx_{name}": str(value) for name, value in ratings.items()}
+    for seed in (1, 2):
+        asking = Asking("tlx", given=given, stream=lambda seed=seed: np.random.default_rng(seed))
+        first, second = kind.pages(p, asking)
+        assert [r["value"] for r in kind.rows(p, asking, 0, given)] == list(given.values())
+        answers = {}
+        for choice in second.asked:
+            names = [option.removeprefix("tlx.factor.") for option in choice.options]
+            answers[choice.name] = str(names.index(min(names, key=TLX.index)))
+        rows = {r["item"]: r["value"] for r in kind.rows(p, asking, 1, answers)}
+        assert [rows[f"tlx_weight_{name}"] for name in TLX] == list("543210")
+        assert float(rows["tlx_weighted"]) == pytest.approx(5 * 200 / 15, rel=1e-9)
+        assert len(second.asked) == 15 and [b.name for b in first.asked] == list(given)
+
+
+def test_items_of_a_scale_come_page_by_page_shuffled_and_add_up():
+    kind = question("likert")
+    names = tuple(f"i{n}" for n in range(7))
+    p = kind.Parameters(items=names, names=names, score="sum", per_page=3, shuffle=True, first=0)
+    asking = Asking("x", stream=lambda: np.random.default_rng(3))
+    pages = kind.pages(p, asking)
+    shown = [b.name for page in pages for b in page.blocks if isinstance(b, Scale)]
+    assert [len(page.asked) for page in pages] == [3, 3, 1] == [3, 3, kind.count(p) - 2]
+    assert shown != list(names) and sorted(shown) == list(names)
+    given = {}
+    for number, page in enumerate(pages):
+        now = Asking("x", given=given, stream=asking.stream)
+        rows = kind.rows(p, now, number, {b.name: b.name[1] for b in page.asked
+                                          if int(b.name[1]) < 5} | {b.name: "4" for b in page.asked
+                                          if int(b.name[1]) >= 5})  # fmt: skip
+        assert set(kind.last(p, now, number)) <= {r["item"] for r in rows}
+        given |= {r["item"]: r["value"] for r in rows}
+    assert float(given["sum"]) == 0 + 1 + 2 + 3 + 4 + 4 + 4
+
+
+def test_ranks_belong_to_their_options_however_they_are_shown():
+    kind = question("ranking")
+    p = kind.Parameters(text="?", options=("a", "b", "c", "d"), shuffle=True)
+    asking = Asking("x", stream=lambda: np.random.default_rng(5))
+    (block,) = kind.blocks(p, asking)
+    assert block.options != p.options
+    wanted = {"a": "3", "b": "1", "c": "4", "d": "2"}
+    answers = {"x": ",".join(wanted[option] for option in block.options)}
+    rows = kind.rows(p, asking, 0, answers)
+    assert [(r["item"], r["value"], r["text"]) for r in rows] == [
+        (f"x_{n}", wanted[o], o) for n, o in enumerate("abcd", start=1)
+    ]
+
+
+def test_pairs_and_weights_are_not_what_a_report_compares():
+    study = with_blocks("tlx")
+    table = study.resolved()
+    table["questions"] = [{"name": "tlx", "use": "tlx", "weighted": True}]
+    items = {item["name"]: item["group"] for item in design_entry(parse(table, "s"))["items"]}
+    assert items == {**{f"tlx_{name}": "tlx" for name in TLX}, "tlx_weighted": ""}

@@ -7,6 +7,7 @@ import pytest
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
+from seethrough.experiment.session.questionnaire import Said
 from seethrough.experiment.session.resume import already_done, going_on, past, starting_point
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.described import design_entry
@@ -87,7 +88,7 @@ def test_answers_of_all_sessions_so_far_are_known(tmp_path):
         table.write_bytes(table.read_bytes()[:-9])
     given = starting_point(STUDY, tmp_path, "human", "P01", 9).given
     here = (("scenario", "abstract"), ("transparency", "dynamic"))
-    assert given == {("ease", here): "3", ("enjoy", here): "4"}
+    assert given == {("ease", here): Said("3", "one\ntwo"), ("enjoy", here): Said("4")}
 
 
 def test_a_table_of_answers_without_its_columns_is_named(tmp_path):

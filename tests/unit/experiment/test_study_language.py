@@ -287,3 +287,29 @@ def test_a_record_of_before_there_were_factors_has_the_same_trials():
     assert made.places() == now.places()
     assert [p.technique for p in made.parts.values()] == [p.technique for p in now.parts.values()]
     assert list(made.questions) == list(now.questions)
+
+
+def test_migrating_keeps_what_was_said_of_questions():
+    """Above the lines, behind them, and within the array of pages; each at what it was about."""
+    plain = OLD.replace('consent = "mine.txt"\n', "")
+    text = plain.replace('questionnaire = ["ratings", "tlx", "depth_test"]\n', "").replace(
+        "[session]\n",
+        "[session] # of the session\n# first of all\n\n# the text of consent\n"
+        'consent = "consent.txt" # approved in May\n# how old\ndemographics = true\n'
+        "# after everything\nquestionnaire = [\n"
+        '  "ratings", # short ones\n  "comparison", "remarks", # both\n] # at the end\n',
+        1,
+    )
+    new = migrated_text(text)
+    tail = new[new.index("[questions]") :].splitlines()
+    assert tail[: tail.index("# short ones") + 2] == [
+        "[questions] # in this order", "# after everything", "# both", "# at the end",
+        "# the text of consent", "# approved in May", next(t for t in tail if "consent =" in t),
+        "# how old", next(t for t in tail if "demographics =" in t), "# short ones",
+        next(t for t in tail if "ratings =" in t),
+    ]  # fmt: skip
+    session = new[new.index("[session]") :].split("\n[")[0]
+    assert "# of the session" in session and "# first of all" in session
+    for said in ("consent", "how old", "after everything", "short ones", "approved"):
+        assert said not in session
+    assert tomllib.loads(new)["questions"]["ratings"]["when"] == "end"
