@@ -23,7 +23,7 @@ from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
-from seethrough.renderer.gpu.rules.rule_program import RulePrograms
+from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
@@ -171,7 +171,9 @@ class Layer:
         if name not in self._ruled:
             self._ruled[name] = PAINTERS[name](self._context, self._defines)
         painter = self._ruled[name]
-        self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
+        self._draws += painter.draw(
+            Ruled(table, frame, technique, state, shot, self._matrix), target
+        )
         self._passes += 1
         self.peeled = painter.found[::-1]
 
