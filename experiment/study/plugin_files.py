@@ -177,17 +177,24 @@ def from_path(kind: str, path: Path) -> str:
     return provide(own, path.resolve(), where)
 
 
-def keep(described: list[dict[str, str]], data: Path) -> None:
-    """Put the files that a study brought along into the data folder. Raises InputError."""
+def files_of(described: Sequence[Mapping[str, str]]) -> list[PluginFile]:
+    """The files among a study's plug-ins that it brought along."""
+    found = []
     for said in described:
         origin = registry.origin(said["kind"], said["name"])
-        if origin is None or not origin.beside:
-            continue
-        path = kept_as(said, data)
+        if origin is not None and origin.beside:
+            found.append(PluginFile(said["kind"], said["name"], origin.beside, origin.content))
+    return found
+
+
+def keep(described: list[dict[str, str]], data: Path) -> None:
+    """Put the files that a study brought along into the data folder. Raises InputError."""
+    for own in files_of(described):
+        path = kept_as({"kind": own.kind, "name": own.name, "sha256": own.sha256}, data)
         try:
             make_folder(path.parent)
             if not path.exists():
-                write_new(path, origin.content)
+                write_new(path, own.content)
         except FileExistsError:
             pass  # another station kept it first
         except OSError as error:
