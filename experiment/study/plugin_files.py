@@ -112,7 +112,7 @@ def _take(own: PluginFile, path: Path, where: str, tried: bool = False) -> None:
 def provide(own: PluginFile, path: Path, where: str) -> str:
     """Run the file and make its plug-in known by its name. Raises InputError."""
     constant = registry.KINDS[own.kind].constant
-    module = ModuleType(f"seethrough_own_{own.kind}_{own.name}")
+    module = ModuleType(f"seethrough_own_{own.sha256[:16]}")  # the same in every process
     module.__file__ = str(path)
     sys.modules[module.__name__] = module  # dataclasses look there
     try:
