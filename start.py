@@ -293,7 +293,7 @@ def install_packages(extras: str, keep_open: tuple[int, ...]) -> None:
     # pip would do this on one core; a file that is not for this Python may fail to compile.
     run_logged([PYTHON, "-m", "compileall", "-q", "-j", "0", folder], "compiling them")
     # Else the first session would wait for it. Without OpenGL it fails, and what draws will say so.
-    run_logged([PYTHON, "-m", "seethrough.experiment.warm"], "compiling what draws: half a minute")
+    run_logged([PYTHON, "-m", "seethrough.experiment.session.warm"], "compiling what draws: 30 s")
 
 
 @contextlib.contextmanager

@@ -7,7 +7,6 @@ module and `published/` know it by name.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from seethrough.analysis.design import (
     ABSOLUTE,
@@ -49,7 +48,7 @@ ITEMS = (
 ACCURACY = ("count_error", "absolute_error", "distance", "correct")
 
 
-def design_before(config: Mapping[str, Any]) -> Design:
+def design_before(config: Mapping[str, object]) -> Design:
     """The design of a study of then; `config`: the resolved study of its sidecars.
 
     Raises DataError where its margins make no sense.
@@ -98,7 +97,7 @@ def _predictions() -> tuple[Prediction, ...]:
     )  # fmt: skip
 
 
-def _margins(table: Any) -> dict[str, float]:
+def _margins(table: object) -> dict[str, float]:
     """The declared margins, checked: a ratio above 1 for times, else above 0 in the own unit."""
     if not isinstance(table, Mapping):
         raise DataError(f"analysis.margins = {table!r}: expected a table")
@@ -112,13 +111,13 @@ def _margins(table: Any) -> dict[str, float]:
     }
 
 
-def _number(name: str, value: Any, above: float) -> float:
+def _number(name: str, value: object, above: float) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not above < value < 1e300:
         raise DataError(f"analysis.{name} = {value!r}: expected a number above {above:g}")
     return float(value)
 
 
-def planned_trials(design: Mapping[str, Any]) -> int | None:
+def planned_trials(design: Mapping[str, object]) -> int | None:
     """How many trials each was to do, by a config of then; None where it does not say."""
     each, levels, tasks = (design.get(k) for k in ("trials", "transparency", "tasks"))
     if isinstance(each, int) and isinstance(levels, Sequence) and isinstance(tasks, Sequence):

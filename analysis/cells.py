@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from seethrough.analysis.stats.arrays import Array
 
 
 @dataclass(frozen=True, slots=True)

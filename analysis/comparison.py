@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from seethrough.analysis import equivalence
-from seethrough.analysis.cells import Array, Cells
+from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast
 from seethrough.analysis.equivalence import Margin
 from seethrough.analysis.page.blocks import Cited, Column, Table
 from seethrough.analysis.stats.anova import repeated_measures
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import holm
 from seethrough.analysis.stats.paired import paired, ratio_of_means, within_halfwidths
 from seethrough.analysis.stats.ties import is_constant
@@ -21,8 +21,10 @@ from seethrough.analysis.stats.undefined import (
     ONE_PARTICIPANT,
     Number,
     Undefined,
+    either_in,
     is_defined,
     no_interval,
+    number_in,
 )
 
 NO_RATIO = "differences of z scores have no ratio"
@@ -53,7 +55,7 @@ class Pair:
     where: str = ""
 
     @property
-    def about(self) -> dict[str, Any]:
+    def about(self) -> dict[str, object]:
         """What of a row is no column: whose it is, for what is said of it."""
         return {"of": self.of, "where": self.where, "level": self.contrast and self.contrast.key}
 
@@ -115,7 +117,7 @@ def _correlation(x: Array, y: Array) -> Number:
     return float(np.clip(np.corrcoef(x, y)[0, 1], -1.0, 1.0))
 
 
-def _f_columns(first: Array, second: Array) -> dict[str, Any]:
+def _f_columns(first: Array, second: Array) -> dict[str, object]:
     """The one-factor ANOVA of two conditions."""
     effect = repeated_measures(np.stack([first, second], axis=1), ["level"])["level"]
     return {
@@ -130,7 +132,7 @@ def _f_columns(first: Array, second: Array) -> dict[str, Any]:
     }
 
 
-def _paired_columns(first: Array, second: Array) -> dict[str, Any]:
+def _paired_columns(first: Array, second: Array) -> dict[str, object]:
     result = paired(first, second)
     return {
         "difference": result.difference,
@@ -156,7 +158,7 @@ def compare(measures: Sequence[Pair]) -> Table:
             if m.ratio_scale
             else (Undefined(NO_RATIO), no_interval(NO_RATIO))
         )
-        row: dict[str, Any] = {
+        row: dict[str, object] = {
             **m.about,
             "measure": m.key,
             "label": m.label,
@@ -201,9 +203,9 @@ def compare_logs(measures: Sequence[Pair]) -> Table:
                 "n": len(first),
                 "geometric_baseline": float(np.exp(first.mean())),
                 "geometric_level": float(np.exp(second.mean())),
-                "ratio": float(np.exp(-pair["difference"])),
-                "ratio_low": _exp(pair["difference_high"]),
-                "ratio_high": _exp(pair["difference_low"]),
+                "ratio": float(np.exp(-number_in(pair, "difference"))),
+                "ratio_low": _exp(either_in(pair, "difference_high")),
+                "ratio_high": _exp(either_in(pair, "difference_low")),
                 **_f_columns(first, second),
                 **pair,
                 **equivalence.log_equivalence(first, second, m.margin),
@@ -225,14 +227,17 @@ def _exp(value: Number) -> Number:
     return float(np.exp(-value)) if is_defined(value) else value
 
 
-def add_holm(rows: Sequence[dict[str, Any]], measures: Sequence[Pair], column: str = "p") -> None:
+def add_holm(
+    rows: Sequence[dict[str, object]], measures: Sequence[Pair], column: str = "p"
+) -> None:
     """Holm's p of `column` within each family; empty for a measure of no family."""
     by_key = {m.key: m.family for m in measures}
     for row in rows:
-        row["p_holm"] = row[column] if by_key[row["measure"]] else None
+        row["p_holm"] = row[column] if by_key[str(row["measure"])] else None
     for family in {f for f in by_key.values() if f}:
-        inside = [r for r in rows if by_key[r["measure"]] == family and is_defined(r[column])]
-        for row, p in zip(inside, holm([r[column] for r in inside]), strict=True):
+        own = [r for r in rows if by_key[str(r["measure"])] == family]
+        inside = [r for r in own if is_defined(r[column])]
+        for row, p in zip(inside, holm([number_in(r, column) for r in inside]), strict=True):
             row["p_holm"] = p
 
 
@@ -322,15 +327,15 @@ LOG_MORE = f"label n difference sd_difference t ges pes shapiro_w shapiro_p {_EQ
 MORE_TITLE = "Differences, ratios, normality of the differences, equivalence"
 
 
-def decisive(row: Mapping[str, Any]) -> tuple[str, Number]:
+def decisive(row: Mapping[str, object]) -> tuple[str, Number]:
     """The column that decides whether a row shows a difference, and its p: Holm's in a family.
 
     Friedman's tests are decided by their exact p.
     """
     for column in ("p_holm", "p_exact"):
         if row.get(column) is not None:
-            return column, row[column]
-    return "p", row["p"]
+            return column, either_in(row, column)
+    return "p", either_in(row, "p")
 
 
 def corrected(table: Table, key: str) -> list[str | Cited]:

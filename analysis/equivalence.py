@@ -8,13 +8,12 @@ is declared in the study, before there are data. A margin taken from the data is
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from seethrough.analysis.cells import Array
 from seethrough.analysis.design import Measured
 from seethrough.analysis.page.blocks import Cited, Column, Table, say
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.paired import Equivalence, ratio_within, tost
 from seethrough.analysis.stats.undefined import Undefined, is_defined
 
@@ -46,7 +45,7 @@ COLUMNS = (
 )
 
 
-def equivalence(first: Array, second: Array, margin: Margin | None) -> dict[str, Any]:
+def equivalence(first: Array, second: Array, margin: Margin | None) -> dict[str, object]:
     """The columns for n people's values under baseline and level."""
     if margin is None:
         return _row(None, Undefined(NO_MARGIN))
@@ -56,7 +55,7 @@ def equivalence(first: Array, second: Array, margin: Margin | None) -> dict[str,
     return _row(tost(first - second, margin.value, scale), margin.value, margin.more)
 
 
-def log_equivalence(first: Array, second: Array, margin: Margin | None) -> dict[str, Any]:
+def log_equivalence(first: Array, second: Array, margin: Margin | None) -> dict[str, object]:
     """The same for logarithms: the ratio of geometric means between 1 / margin and margin."""
     if margin is None:
         return _row(None, Undefined(NO_MARGIN))
@@ -76,7 +75,7 @@ def _row(
     margin: float | Undefined,
     more: bool = False,
     ends: tuple[float | Undefined, float | Undefined] | None = None,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     if test is None:
         return dict.fromkeys((c.name for c in COLUMNS), margin)
     low, high = ends or test.interval90

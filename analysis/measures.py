@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.cells import Array, Cells, level_codes, means, people, sums, table_of
+from seethrough.analysis.cells import Cells, level_codes, means, people, sums, table_of
 from seethrough.analysis.design import ABSOLUTE, RELATIVE, Design, Factor, Measured
+from seethrough.analysis.stats.arrays import Array
 
 TASK = "task"
 

@@ -6,12 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from seethrough.analysis.design import Design
+    from seethrough.analysis.page.blocks import Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +51,8 @@ def load(data: str | PathLike[str], source: str | None = None) -> Loaded:
     import pandas as pd
 
     from seethrough.analysis.exclude import apply_rules
+    from seethrough.analysis.load.plan import make_plan
     from seethrough.analysis.load.study import load_study
-    from seethrough.analysis.plan import make_plan
 
     study = load_study(Path(data), source)
     plan = make_plan(study)
@@ -88,14 +89,14 @@ def results(
     return {table.key: _frame(table) for table in tables_of(report)}
 
 
-def _frame(table: Any) -> pd.DataFrame:
+def _frame(table: Table) -> pd.DataFrame:
     """A report's table as a data frame."""
     import pandas as pd
 
     from seethrough.analysis.stats.undefined import Undefined
 
     names = [column.name for column in table.columns]
-    rows: dict[str, list[Any]] = {name: [] for name in names}
+    rows: dict[str, list[object]] = {name: [] for name in names}
     why: dict[tuple[str, str], str] = {}
     for row in table.rows:
         for name in names:

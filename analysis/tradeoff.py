@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.cells import Array, Cells, level_codes, sums
+from seethrough.analysis.cells import Cells, level_codes, sums
 from seethrough.analysis.comparison import SIDES
 from seethrough.analysis.design import Contrast, Design, Factor, Measured, Task
 from seethrough.analysis.measures import TASK, cells_of, levels_present, wrong
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import t_two_sided
 from seethrough.analysis.stats.ties import is_constant
 from seethrough.analysis.stats.undefined import Interval, Number, Undefined, no_interval

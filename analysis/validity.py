@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from seethrough.analysis.cells import Array, Cells, level_codes, means, sums, table_of
+from seethrough.analysis.cells import Cells, level_codes, means, sums, table_of
 from seethrough.analysis.comparison import Pair, pair_of
 from seethrough.analysis.design import Contrast, Design, Factor
 from seethrough.analysis.exclude import focus_lost
 from seethrough.analysis.measures import levels_present
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.within import TermTest, dummies, one_way, term_tests
 
 

@@ -13,21 +13,21 @@ from seethrough.experiment.errors import InputError
 HELP = "measure accuracy against time"
 
 # Each module has figures(), which gives {figure, scene, value, unit, must, aim, met} one by one.
-BENCHES = (
-    "accuracy",
-    "design",
-    "effects",
-    "looks",
-    "ordering",
-    "ordering_accuracy",
-    "predictions",
-    "session",
-    "simulate",
-    "speed",
-    "statistics",
-    "techniques",
-    "worlds",
-)
+BENCHES = {
+    "accuracy": "drawing.accuracy",
+    "design": "sessions.design",
+    "effects": "sessions.effects",
+    "looks": "drawing.looks",
+    "ordering": "orderings.ordering",
+    "ordering_accuracy": "orderings.ordering_accuracy",
+    "predictions": "sessions.predictions",
+    "session": "sessions.session",
+    "simulate": "sessions.simulate",
+    "speed": "drawing.speed",
+    "statistics": "inference.statistics",
+    "techniques": "drawing.techniques",
+    "worlds": "drawing.worlds",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
     if args.figure is not None and args.figure.suffix not in (".svg", ".png"):
         raise InputError(f"--figure = {args.figure}: expected a name that ends in .svg or .png")
     try:
-        module = importlib.import_module(f"seethrough.benchmarks.{args.bench}")
+        module = importlib.import_module(f"seethrough.benchmarks.{BENCHES[args.bench]}")
     except ModuleNotFoundError as error:
         raise InputError(f"bench {args.bench}: {error}; expected it to be installed") from error
     if args.figure is not None and not hasattr(module, "chart"):

@@ -17,13 +17,13 @@ from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Page
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.questions.ready import one_page
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.questionnaire import after, asked, before
 from seethrough.experiment.session.session import _feedback, _instruction, _page
 from seethrough.experiment.session.trial import LEAVE, MENU, TrialRun
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import Trial, session_for
+from seethrough.experiment.study.ready import one_page
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome

@@ -12,7 +12,7 @@ from typing import NoReturn
 from seethrough.analysis.errors import DataError
 from seethrough.experiment import streams
 from seethrough.experiment.errors import InputError, one_line, unknown
-from seethrough.experiment.study import trust
+from seethrough.renderer.errors import CannotDraw
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
@@ -66,6 +66,8 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     """A parser that knows every command's name, and the arguments of the one in `argv`."""
+    from seethrough.experiment.files import trust  # a command's matter: this module knows none
+
     parser = _Parser(prog="seethrough", description="User studies of occlusion management.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     chosen = next((a for a in argv if not a.startswith("-")), None)
@@ -119,12 +121,16 @@ def _run(words: Sequence[str]) -> int:
     try:
         arguments = _parser(words).parse_args(words)
         if getattr(arguments, "trust", False):
+            from seethrough.experiment.files import trust
+
             trust.trust_everything()
         return int(arguments.run(arguments) or 0)
     except InputError as error:
         return _failed(error.lines, 2)
     except DataError as error:
         return _failed(error.shown(), 2)
+    except CannotDraw as error:
+        return _failed([str(error)], 2)
     except OSError as error:
         if error.filename is None:
             raise

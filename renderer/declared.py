@@ -5,9 +5,27 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from types import UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from types import EllipsisType, UnionType
+from typing import (
+    ClassVar,
+    Protocol,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
+
+Value = TypeVar("Value")
+
+
+class Declares(Protocol):
+    """Parameters: a frozen dataclass whose fields declare themselves."""
+
+    __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[object]]]
+
+    def __init__(self, **values: object) -> None: ...
 
 
 @dataclasses.dataclass(frozen=True)
@@ -15,7 +33,7 @@ class Of:
     """A limit that follows from other parameters, and how one says it, with their `names`."""
 
     said: str
-    value: Callable[[Mapping[str, Any]], float]
+    value: Callable[[Mapping[str, float]], float]
 
     @property
     def names(self) -> set[str]:
@@ -38,18 +56,34 @@ class Key:
     shown: bool = False  # whether participants read it: a text that a study's language translates
 
 
-def key(default: Any, meaning: str, unit: str = "", **more: Any) -> Any:
-    """A field of a frozen dataclass with what is declared of it; default ... for none."""
-    given = {} if default is ... else {"default": default}
-    return dataclasses.field(**given, metadata={"key": Key(meaning, unit, **more)})
+def key(
+    default: Value | EllipsisType,
+    meaning: str,
+    unit: str = "",
+    *,
+    low: float | None = None,
+    high: float | Of | None = None,
+    choices: tuple[str, ...] = (),
+    point: bool = False,
+    said: str = "",
+    shown: bool = False,
+) -> Value:
+    """A field of a frozen dataclass with what is declared of it; default ... for none.
+
+    Its type is the value's, as that of `dataclasses.field` is.
+    """
+    metadata = {"key": Key(meaning, unit, low, high, choices, point, said, shown)}
+    if isinstance(default, EllipsisType):
+        return dataclasses.field(metadata=metadata)
+    return dataclasses.field(default=default, metadata=metadata)
 
 
-def declared(cls: Any) -> dict[str, Key]:
+def declared(cls: type[Declares]) -> dict[str, Key]:
     """Name → declaration of the parameters that a study may set, in their order."""
     return {f.name: f.metadata["key"] for f in dataclasses.fields(cls) if "key" in f.metadata}
 
 
-def allowed(hint: Any, said: Key, values: Mapping[str, Any] | None = None) -> str:
+def allowed(hint: object, said: Key, values: Mapping[str, object] | None = None) -> str:
     """What a value of this type may be, in words: "a number from 0 to 1". With the values of all
     parameters, limits that follow from others come with their value."""
     plain, optional = _plain(hint)
@@ -62,7 +96,7 @@ def allowed(hint: Any, said: Key, values: Mapping[str, Any] | None = None) -> st
     return f"{words}, or no such key" if optional else words
 
 
-def _words(plain: Any, said: Key, values: Mapping[str, Any] | None) -> str:
+def _words(plain: object, said: Key, values: Mapping[str, object] | None) -> str:
     if get_origin(plain) is tuple:
         inner = get_args(plain)
         if _many(plain):
@@ -70,16 +104,21 @@ def _words(plain: Any, said: Key, values: Mapping[str, Any] | None) -> str:
         if said.point:
             return f"[x, y], numbers{_limits(said, values)}"
         return f"[lowest, highest], {'whole ' * (inner[0] is int)}numbers{_limits(said, values)}"
-    kinds = {int: "a whole number", float: "a number", bool: "true or false", str: "text"}
+    kinds: dict[object, str] = {
+        int: "a whole number",
+        float: "a number",
+        bool: "true or false",
+        str: "text",
+    }
     return f"{kinds[plain]}{_limits(said, values)}"
 
 
-def _limits(said: Key, values: Mapping[str, Any] | None) -> str:
+def _limits(said: Key, values: Mapping[str, object] | None) -> str:
     high = said.high
     if said.low is None or high is None:
         return ""
     if isinstance(high, Of):
-        most = high.said if values is None else f"{high.said} ({high.value(values):g})"
+        most = high.said if values is None else f"{high.said} ({_most(high, values):g})"
     else:
         most = _number(high)
     return f" from {_number(said.low)} to {most}"
@@ -91,8 +130,8 @@ def _number(value: float) -> str:
 
 
 def problems(
-    cls: Any, values: Mapping[str, Any], wrong: Iterable[str] = ()
-) -> Iterator[tuple[str, Any, str]]:
+    cls: type[Declares], values: Mapping[str, object], wrong: Iterable[str] = ()
+) -> Iterator[tuple[str, object, str]]:
     """(name, value, what was expected) of each of the values that is not allowed.
 
     Types have been checked, but for those of numbers. What is `wrong` already is not looked at, nor
@@ -110,7 +149,7 @@ def problems(
         yield name, value, allowed(hints[name], said, values)
 
 
-def check(parameters: Any, owner: str = "") -> None:
+def check(parameters: Declares, owner: str = "") -> None:
     """Raise ValueError, one line for the first parameter that is not allowed."""
     values = {f.name: getattr(parameters, f.name) for f in dataclasses.fields(parameters)}
     for name, value, expected in problems(type(parameters), values):
@@ -118,14 +157,14 @@ def check(parameters: Any, owner: str = "") -> None:
         raise ValueError(f"{owner and f'{owner}: '}{name} = {shown!r}, expected {expected}")
 
 
-def _fits(value: Any, hint: Any, said: Key, values: Mapping[str, Any]) -> bool:
+def _fits(value: object, hint: object, said: Key, values: Mapping[str, object]) -> bool:
     plain, _ = _plain(hint)
     if said.choices:
-        found: Sequence[Any] = value if _many(plain) else (value,)
+        found = value if _many(plain) and isinstance(value, tuple) else (value,)
         return bool(found) and len(set(found)) == len(found) and set(found) <= {*said.choices}
     if said.low is None:
         return True
-    high = said.high.value(values) if isinstance(said.high, Of) else said.high
+    high = _most(said.high, values) if isinstance(said.high, Of) else said.high
     kind = get_args(plain)[0] if get_origin(plain) is tuple else plain
     if get_origin(plain) is not tuple:
         return _within(value, kind, said.low, high)
@@ -135,12 +174,20 @@ def _fits(value: Any, hint: Any, said: Key, values: Mapping[str, Any]) -> bool:
     return inside and (said.point or value[0] <= value[1])
 
 
-def _within(value: Any, kind: type, low: float, high: Any) -> bool:
-    number = isinstance(value, int) if kind is int else isinstance(value, int | float)
-    return number and not isinstance(value, bool) and math.isfinite(value) and low <= value <= high
+def _most(high: Of, values: Mapping[str, object]) -> float:
+    """A limit that follows from the numbers among other parameters."""
+    return high.value({n: v for n, v in values.items() if isinstance(v, int | float)})
 
 
-def _plain(hint: Any) -> tuple[Any, bool]:
+def _within(value: object, kind: object, low: float, high: float | None) -> bool:
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return False
+    if kind is int and not isinstance(value, int):
+        return False
+    return math.isfinite(value) and low <= value and (high is None or value <= high)
+
+
+def _plain(hint: object) -> tuple[object, bool]:
     """The type without None, and whether None was among it."""
     if get_origin(hint) in (Union, UnionType):
         inner = [h for h in get_args(hint) if h is not type(None)]
@@ -148,5 +195,5 @@ def _plain(hint: Any) -> tuple[Any, bool]:
     return hint, False
 
 
-def _many(hint: Any) -> bool:
+def _many(hint: object) -> bool:
     return get_origin(hint) is tuple and Ellipsis in get_args(hint)

@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from seethrough import registry
 from seethrough.tasks.kit.base import Setting, Task
-from seethrough.tasks.kit.world import ANYWHERE, NO_KEYS, World
+from seethrough.tasks.kit.world import ANYWHERE, NO_KEYS, World, WorldParameters
 
 Plugin = TypeVar("Plugin")
 
@@ -49,7 +49,7 @@ def taken(plugin: Task | World) -> frozenset[str]:
     return found
 
 
-def setting(task: Task, place: object = None, own: object = None) -> Setting:
+def setting(task: Task, place: WorldParameters | None = None, own: object = None) -> Setting:
     """A task in its first world, or in the one whose parameters are given; else with defaults."""
     worlds = [WORLDS[name] for name in worlds_of(task)]
     world = next((w for w in worlds if place is None or isinstance(place, w.Parameters)), None)

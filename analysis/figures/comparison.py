@@ -8,7 +8,9 @@ import numpy as np
 
 from seethrough.analysis.comparison import Pair
 from seethrough.analysis.design import Factor
-from seethrough.analysis.figures.style import (
+from seethrough.analysis.page.blocks import Figure, Table
+from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.page.style import (
     FAINT,
     INK,
     LEVEL,
@@ -22,9 +24,7 @@ from seethrough.analysis.figures.style import (
     picked,
     zero_line,
 )
-from seethrough.analysis.page.blocks import Figure, Table
-from seethrough.analysis.page.numbers import significant
-from seethrough.analysis.stats.undefined import Number, is_defined
+from seethrough.analysis.stats.undefined import Number, either_in, is_defined, number_in
 
 HEIGHT = 210
 
@@ -42,7 +42,7 @@ def bars_and_differences(
 ) -> Figure:
     """Means with Cousineau–Morey intervals, and each participant's paired difference beside."""
     alt = f"Bars of means with intervals, beside dots of paired differences. {_means(measures)}."
-    halves = [tests.row(m.key)["within_half"] for m in measures]
+    halves = [either_in(tests.row(m.key), "within_half") for m in measures]
     left = _bars(measures, halves, axis, "95 % within-participant interval ±")
     left["title"] = "Means, 95 % within-participant intervals"
     right = {
@@ -96,7 +96,8 @@ def _differences(measures: Sequence[Pair], tests: Table) -> list[Spec]:
         spread = -0.16 + 0.32 * turn / max(1, len(gaps) - 1)
         dots += [{"x": i + float(s), "y": float(g)} for s, g in zip(spread, gaps, strict=True)]
         row = tests.row(m.key)
-        mean, low, high = (row[f"difference{end}"] for end in ("", "_low", "_high"))
+        mean = number_in(row, "difference")
+        low, high = row["difference_low"], row["difference_high"]
         tip = f"{m.label}: mean difference {significant(mean)} {m.unit}".rstrip()
         if is_defined(low) and is_defined(high):
             tip += f", 95 % interval {significant(low)} to {significant(high)}"
@@ -134,7 +135,7 @@ def _ratings(where: str, measures: Sequence[Pair], tests: Table, points: str) ->
         row = tests.row(m.key)
         sides = zip((-0.2, 0.2), m.names, ("baseline", "level"), strict=True)
         for side, level, of in sides:
-            mean, sd = row[f"mean_{of}"], row[f"sd_{of}"]
+            mean, sd = number_in(row, f"mean_{of}"), row[f"sd_{of}"]
             tip = f"{m.label}, {level}: mean {significant(mean)}"
             if is_defined(sd):
                 tip += f", SD {significant(sd)}"
@@ -174,8 +175,8 @@ def effect_sizes(key: str, title: str, tests: Table) -> Figure:
             "dz": row["dz"],
             "low": row["dz_low"],
             "high": row["dz_high"],
-            "tip": f"{row['label']}: d_z = {significant(row['dz'])}, 95 % interval "
-            f"{significant(row['dz_low'])} to {significant(row['dz_high'])}",
+            "tip": f"{row['label']}: d_z = {significant(number_in(row, 'dz'))}, 95 % interval "
+            f"{significant(number_in(row, 'dz_low'))} to {significant(number_in(row, 'dz_high'))}",
         }
         for i, row in enumerate(r for r in tests.rows if is_defined(r["dz"]))
     ]

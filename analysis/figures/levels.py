@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.figures.style import (
+from seethrough.analysis.measures import TASK
+from seethrough.analysis.page.blocks import Figure
+from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.page.style import (
     Spec,
     categories,
     in_rows,
@@ -16,9 +20,6 @@ from seethrough.analysis.figures.style import (
     level_colour,
     number,
 )
-from seethrough.analysis.measures import TASK
-from seethrough.analysis.page.blocks import Figure
-from seethrough.analysis.page.numbers import significant
 from seethrough.analysis.stats.paired import mean_interval, within_halfwidths
 from seethrough.analysis.stats.undefined import is_defined
 
@@ -44,9 +45,9 @@ def level_means(key: str, title: str, axis: str, cells: Cells, context: Context)
             rows = _means(own, members)
             if rows:
                 panels.append((name, rows))
-                told += [f"{name}, {r['at']}: {significant(r['mean'])}" for r in rows]
-    top = max((r["high"] for _, rows in panels for r in rows), default=1.0)
-    low = min((r["low"] for _, rows in panels for r in rows), default=0.0)
+                told += [f"{name}, {r.at}: {significant(r.mean)}" for r in rows]
+    top = max((r.high for _, rows in panels for r in rows), default=1.0)
+    low = min((r.low for _, rows in panels for r in rows), default=0.0)
     domain = [min(0.0, low), top]
     names = _colours(cells)
     drawn = [_panel(name, rows, axis, domain, names) for name, rows in panels]
@@ -62,7 +63,20 @@ def _colours(cells: Cells) -> tuple[str, ...]:
     return factors[-1] if factors else ("all",)
 
 
-def _means(cells: Cells, members: np.ndarray) -> list[dict[str, Any]]:
+@dataclass(frozen=True)
+class _Mean:
+    """A cell's mean with its interval: `at` its levels in words, of the `first` factor and the
+    last (`level`)."""
+
+    at: str
+    first: str
+    level: str
+    mean: float
+    low: float
+    high: float
+
+
+def _means(cells: Cells, members: np.ndarray) -> list[_Mean]:
     """Each cell's mean, interval and places, of who has every cell that anybody has."""
     index = list(np.ndindex(*cells.values.shape[1:]))
     flat = cells.values.reshape(len(cells.values), -1)[members]
@@ -82,30 +96,33 @@ def _means(cells: Cells, members: np.ndarray) -> list[dict[str, Any]]:
             half = halves[column]
             low, high = (mean - half, mean + half) if is_defined(half) else (half, half)
         ends = (low, high) if is_defined(low) and is_defined(high) else (mean, mean)
-        rows.append({"at": " ".join(levels) or "all", "first": levels[0] if levels else "all",
-                     "level": levels[-1] if levels else "all", "mean": mean,
-                     "low": ends[0], "high": ends[1]})  # fmt: skip
+        levels = levels or ["all"]
+        rows.append(_Mean(" ".join(levels), levels[0], levels[-1], mean, *ends))
     return rows
 
 
 def _panel(
-    name: str, rows: list[dict[str, Any]], axis: str, domain: list[float], levels: tuple[str, ...]
+    name: str,
+    rows: list[_Mean],
+    axis: str,
+    domain: list[float],
+    levels: tuple[str, ...],
 ) -> Spec:
     """Levels of the first factor along x, those of the last in colour and side by side."""
-    firsts = list(dict.fromkeys(r["first"] for r in rows))
-    several = len({r["level"] for r in rows}) > 1 and any(r["first"] != r["level"] for r in rows)
+    firsts = list(dict.fromkeys(r.first for r in rows))
+    several = len({r.level for r in rows}) > 1 and any(r.first != r.level for r in rows)
     shown = list(levels) if several else firsts
     points, ends = [], []
     for r in rows:
-        step = (levels.index(r["level"]) - (len(levels) - 1) / 2) * 0.5 / len(levels)
-        x = firsts.index(r["first"]) + (step if several else 0.0)
-        level = r["level"] if several else r["first"]
+        step = (levels.index(r.level) - (len(levels) - 1) / 2) * 0.5 / len(levels)
+        x = firsts.index(r.first) + (step if several else 0.0)
+        level = r.level if several else r.first
         tip = (
-            f"{name}, {r['at']}: mean {significant(r['mean'])}, 95 % interval "
-            f"{significant(r['low'])} to {significant(r['high'])}"
+            f"{name}, {r.at}: mean {significant(r.mean)}, 95 % interval "
+            f"{significant(r.low)} to {significant(r.high)}"
         )
-        points.append({"x": x, "y": r["mean"], "level": level, "tip": tip})
-        ends.append({"x": x, "low": r["low"], "high": r["high"], "level": level})
+        points.append({"x": x, "y": r.mean, "level": level, "tip": tip})
+        ends.append({"x": x, "low": r.low, "high": r.high, "level": level})
     along = {"field": "x", **categories(firsts)}
     scale = {"domain": domain, "nice": True, "zero": False}
     colour = {"color": level_colour(shown)}

@@ -7,7 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.analysis.figures.style import (
+from seethrough.analysis.page.blocks import Figure
+from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.page.style import (
     FAINT,
     Spec,
     in_rows,
@@ -17,8 +19,6 @@ from seethrough.analysis.figures.style import (
     number,
     picked,
 )
-from seethrough.analysis.page.blocks import Figure
-from seethrough.analysis.page.numbers import significant
 from seethrough.analysis.tradeoff import Change
 
 SIDE = 150

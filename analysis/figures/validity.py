@@ -3,35 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import pandas as pd
 
-from seethrough.analysis.figures.style import layer, layers, level_colour, number
 from seethrough.analysis.page.blocks import Figure
 from seethrough.analysis.page.numbers import significant
+from seethrough.analysis.page.style import layer, layers, level_colour, number
 
 
 def learning_figure(key: str, curve: pd.DataFrame, levels: Sequence[str]) -> Figure:
     """Geometric mean time by position, a line per level."""
-    rows: list[dict[str, Any]] = [
+    places = [int(trial) for trial in curve["trial_in_set"]]
+    names, times = [str(level) for level in curve["level"]], [float(t) for t in curve["time"]]
+    points = list(zip(names, places, times, strict=True))
+    rows = [
         {
             "level": level,
-            "trial": int(trial),
-            "time": float(time),
-            "tip": f"{level}, trial {int(trial)}: geometric mean {significant(float(time))} s",
+            "trial": trial,
+            "time": time,
+            "tip": f"{level}, trial {trial}: geometric mean {significant(time)} s",
         }
-        for level, trial, time in zip(
-            curve["level"].astype("str"), curve["trial_in_set"], curve["time"], strict=True
-        )
+        for level, trial, time in points
     ]
     told = "; ".join(
-        f"{level}: " + ", ".join(f"trial {r['trial']} {significant(r['time'])} s" for r in own[:12])
+        f"{level}: " + ", ".join(f"trial {n} {significant(time)} s" for n, time in own[:12])
         for level in levels
-        if (own := [r for r in rows if r["level"] == level])
+        if (own := [(n, time) for name, n, time in points if name == level])
     )
     alt = f"Lines of geometric mean time by position in the task set. {told}."
-    places = sorted({r["trial"] for r in rows})
+    places = sorted(set(places))
     encoding = {
         "x": number("trial", "trial in its task set", axis={"values": places, "format": "d"},
                     scale={"domain": [places[0] - 0.2, places[-1] + 0.2], "nice": False}),

@@ -18,9 +18,8 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from seethrough.analysis.load.files import AGAIN, MARKS
+from seethrough.analysis.load.files import AGAIN, MARKS, table_in
 
 COLUMN = "chain"
 LONGEST_CELL = 2**31 - 1  # characters: Python's own limit of 131,072 is less than a remark may have
@@ -47,14 +46,14 @@ def link(before: str, text: str) -> str:
     return hashlib.sha256((before + text).encode("utf-8", "replace")).hexdigest()
 
 
-def start_of(sidecar: Mapping[str, Any], header: str) -> str:
+def start_of(sidecar: Mapping[str, object], header: str) -> str:
     """Where a chain starts: the sidecar, but for `chain.start` itself, and the header."""
-    chain = {key: value for key, value in sidecar["chain"].items() if key != "start"}
+    chain = {key: value for key, value in table_in(sidecar, "chain").items() if key != "start"}
     plain = json.dumps({**sidecar, "chain": chain}, sort_keys=True, ensure_ascii=False)
     return link(plain, header)
 
 
-def seal_of(end: Mapping[str, Any]) -> str:
+def seal_of(end: Mapping[str, object]) -> str:
     """The end file's hash of itself, but for `seal`."""
     plain = {key: value for key, value in end.items() if key != "seal"}
     return link("", json.dumps(plain, sort_keys=True, ensure_ascii=False))
@@ -86,7 +85,7 @@ def is_chained(data: bytes) -> bool:
     return any(head.rpartition(s)[2].strip('"') == COLUMN for s in SEPARATORS)
 
 
-def check_table(name: str, data: bytes, sidecar: Mapping[str, Any]) -> Table:
+def check_table(name: str, data: bytes, sidecar: Mapping[str, object]) -> Table:
     """A table with a chain, row by row, against the sidecar that the chain starts from."""
     text, marks = _decoded(data)
     lines = list(_lines(text))
@@ -145,7 +144,7 @@ def _split(text: str) -> Iterator[str]:
         yield text[start:]
 
 
-def _row_problems(name: str, lines: list[str], sidecar: Mapping[str, Any]) -> Iterator[str]:
+def _row_problems(name: str, lines: list[str], sidecar: Mapping[str, object]) -> Iterator[str]:
     """What of header and rows is not as it was written."""
     header = lines[0].removesuffix("\n") if lines else ""
     if header.rpartition(",")[2] != COLUMN:
@@ -172,10 +171,10 @@ def _cells(lines: list[str]) -> tuple[Mapping[str, str], ...]:
     return tuple(dict(zip(header, row, strict=False)) for row in rows)
 
 
-def _last(lines: list[str], sidecar: Mapping[str, Any]) -> str:
+def _last(lines: list[str], sidecar: Mapping[str, object]) -> str:
     if len(lines) > 1:
         return lines[-1].removesuffix("\n").rpartition(",")[2]
-    return str(sidecar["chain"]["start"])
+    return str(table_in(sidecar, "chain")["start"])
 
 
 def _as_recorded(text: str) -> str | None:

@@ -11,11 +11,10 @@ import hashlib
 import json
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BufferedReader
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.errors import DataError
 
@@ -109,7 +108,7 @@ def named(path: Path, data: Path) -> str:
     return path.relative_to(data).as_posix() if path.is_relative_to(data) else str(path)
 
 
-def read_json(path: Path, data: Path) -> dict[str, Any]:
+def read_json(path: Path, data: Path) -> dict[str, object]:
     """A JSON object in UTF-8, each key once. Raises DataError."""
     raw, shown = read_bytes(path, data), named(path, data)
     for mark, what in MARKS.items():
@@ -127,9 +126,25 @@ def read_json(path: Path, data: Path) -> dict[str, Any]:
     return value
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def table_in(entry: Mapping[str, object], name: str) -> Mapping[str, object]:
+    """A table within one, of JSON or TOML. Raises KeyError, TypeError where there is none."""
+    found = entry[name]
+    if not isinstance(found, Mapping):
+        raise TypeError(f"{name} = {found!r}: expected a table")
+    return found
+
+
+def list_in(entry: Mapping[str, object], name: str) -> Sequence[object]:
+    """An array within a table. Raises KeyError, TypeError where there is none."""
+    found = entry[name]
+    if not isinstance(found, list):
+        raise TypeError(f"{name} = {found!r}: expected an array")
+    return found
+
+
+def _once(pairs: list[tuple[str, object]]) -> dict[str, object]:
     """A JSON object; of a key that is there twice each reader would take another value."""
-    made: dict[str, Any] = {}
+    made: dict[str, object] = {}
     for key, value in pairs:
         if key in made:
             raise ValueError(f"the key {key[:40]!r} is there twice")

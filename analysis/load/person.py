@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeGuard
+from typing import TypeGuard
 
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load.chain import (
@@ -35,6 +35,7 @@ from seethrough.analysis.load.files import (
     read_bytes,
     read_json,
     sha256_of,
+    table_in,
 )
 
 TRIALS_TABLE, SIDECAR, END = "_trials_data.csv", "_trials_data.json", "_end.json"
@@ -58,7 +59,7 @@ class Session:
     table: Source | None = None
     answers: Source | None = None
     notes: Source | None = None
-    sidecar: Mapping[str, Any] | None = None
+    sidecar: Mapping[str, object] | None = None
     status: str = ""
     chain: ChainState | None = None
     traces: tuple[str, ...] = ()
@@ -263,7 +264,7 @@ class Folder:
     def _follows(self, session: Session, before: Session | None) -> Iterator[str]:
         """That a session goes on where the one before it ended, and holds what that one left."""
         assert session.sidecar is not None
-        chain = session.sidecar["chain"]
+        chain = table_in(session.sidecar, "chain")
         last = before.chain.last if before is not None and before.chain is not None else ""
         if chain.get("follows", "") != last:
             yield f"{table_name(session)}: does not follow the session before it"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TypeGuard, TypeVar
 
 from seethrough.analysis import design as d
 from seethrough.analysis.errors import DataError
@@ -13,8 +13,11 @@ from seethrough.analysis.load.schema import FIXED
 ENTRY = "design"
 _NUMBER = (int, float)
 
+Value = TypeVar("Value")
+Default = TypeVar("Default")
 
-def read_design(entry: Any, where: str) -> d.Design:
+
+def read_design(entry: object, where: str) -> d.Design:
     """The design that a sidecar holds; `where` names the file. Raises DataError."""
     reader = _Reader(where)
     made = reader.design(entry)
@@ -30,39 +33,41 @@ class _Reader:
         self.where = where
         self.lines: list[str] = []
 
-    def wrong(self, path: str, value: Any, expected: str) -> None:
+    def wrong(self, path: str, value: object, expected: str) -> None:
         self.lines.append(f"{self.where}: {path} = {value!r}: expected {expected}")
 
     def value(
-        self, table: Mapping[str, Any], path: str, key: str, default: Any,
-        fits: Callable[[Any], bool], expected: str,
-    ) -> Any:  # fmt: skip
+        self, table: Mapping[str, object], path: str, key: str, default: Default,
+        fits: Callable[[object], TypeGuard[Value]], expected: str,
+    ) -> Value | Default:  # fmt: skip
         """`table[key]`, or `default` where it is not there; a line where it does not fit."""
-        found = table.get(key, default)
-        if found is None and default is None:
-            return None
+        found = table.get(key)
+        if found is None and (default is None or key not in table):
+            return default
         if not fits(found):
             self.wrong(f"{path}.{key}", found, expected)
             return default
         return found
 
-    def text(self, table: Mapping[str, Any], path: str, key: str, default: str | None = "") -> str:
+    def text(
+        self, table: Mapping[str, object], path: str, key: str, default: str | None = ""
+    ) -> str:
         if default is None and key not in table:
             self.lines.append(f"{self.where}: {path}.{key}: missing")
             return ""
-        found: str = self.value(
-            table, path, key, default or "", lambda v: isinstance(v, str), "a text"
-        )
-        return found
+        return self.value(table, path, key, default or "", _is_text, "a text")
 
     def choice(
-        self, table: Mapping[str, Any], path: str, key: str, known: Sequence[str], default: str
+        self, table: Mapping[str, object], path: str, key: str, known: Sequence[str], default: str
     ) -> str:
-        expected = f"one of {', '.join(known)}"
-        found: str = self.value(table, path, key, default, lambda v: v in known, expected)
-        return found
+        def fits(value: object) -> TypeGuard[str]:
+            return value in known
 
-    def tables(self, table: Mapping[str, Any], path: str, key: str) -> Iterator[tuple[str, Any]]:
+        return self.value(table, path, key, default, fits, f"one of {', '.join(known)}")
+
+    def tables(
+        self, table: Mapping[str, object], path: str, key: str
+    ) -> Iterator[tuple[str, Mapping[str, object]]]:
         """The tables of an array, each with its path."""
         found = table.get(key, [])
         if not isinstance(found, list):
@@ -74,7 +79,7 @@ class _Reader:
             else:
                 self.wrong(f"{path}.{key}[{i}]", inner, "a table")
 
-    def texts(self, table: Mapping[str, Any], path: str, key: str) -> tuple[str, ...]:
+    def texts(self, table: Mapping[str, object], path: str, key: str) -> tuple[str, ...]:
         found = table.get(key, [])
         if isinstance(found, str):
             return (found,)
@@ -83,7 +88,7 @@ class _Reader:
             return ()
         return tuple(found)
 
-    def design(self, entry: Any) -> d.Design:
+    def design(self, entry: object) -> d.Design:
         if not isinstance(entry, Mapping):
             self.wrong(ENTRY, entry, "a table")
             return d.NO_DESIGN
@@ -124,7 +129,7 @@ class _Reader:
 
         return tuple(replace(t, measures=tuple(map(own, t.measures))) for t in tasks)
 
-    def factor(self, table: Mapping[str, Any], path: str) -> d.Factor:
+    def factor(self, table: Mapping[str, object], path: str) -> d.Factor:
         name = self.text(table, path, "name", None)
         if name in FIXED:
             self.wrong(f"{path}.name", name, "a name that is no fixed column")
@@ -132,12 +137,13 @@ class _Reader:
         if len(levels) < 1 or len(set(levels)) < len(levels):
             self.wrong(f"{path}.levels", list(levels), "levels, each once")
             levels = tuple(dict.fromkeys(levels)) or ("?",)
-        numbers = self.value(
-            table, path, "numbers", None,
-            lambda v: isinstance(v, list) and len(v) == len(levels)
-            and all(isinstance(x, _NUMBER) and not isinstance(x, bool) for x in v),
-            "a number for each level",
-        )  # fmt: skip
+
+        def fits(value: object) -> TypeGuard[list[float]]:
+            if not isinstance(value, list) or len(value) != len(levels):
+                return False
+            return all(_is_number(x) and not _is_bool(x) for x in value)
+
+        numbers = self.value(table, path, "numbers", None, fits, "a number for each level")
         labels = table.get("labels") or {}
         if not isinstance(labels, Mapping):
             self.wrong(f"{path}.labels", labels, "a table")
@@ -158,7 +164,7 @@ class _Reader:
             {k: tuple(v) for k, v in tasks.items()} if tasks else None,
         )
 
-    def task(self, table: Mapping[str, Any], path: str) -> d.Task:
+    def task(self, table: Mapping[str, object], path: str) -> d.Task:
         return d.Task(
             self.text(table, path, "name", None),
             self.text(table, path, "code"),
@@ -166,7 +172,7 @@ class _Reader:
             self.text(table, path, "label"),
         )
 
-    def measure(self, table: Mapping[str, Any], path: str) -> d.Measured:
+    def measure(self, table: Mapping[str, object], path: str) -> d.Measured:
         name = self.text(table, path, "name", None)
         log = self.value(table, path, "log", False, _is_bool, "true or false")
         above = 1 if log else 0
@@ -186,23 +192,21 @@ class _Reader:
             self.value(table, path, "digits", 2 if log else 3, _is_digits, "0 to 9"),
         )
 
-    def margin(self, table: Mapping[str, Any], path: str, above: float) -> float | None:
-        found: float | None = self.value(
-            table, path, "margin", None,
-            lambda v: isinstance(v, _NUMBER) and not isinstance(v, bool) and above < v < 1e300,
-            f"a number above {above:g}",
-        )  # fmt: skip
-        return found
+    def margin(self, table: Mapping[str, object], path: str, above: float) -> float | None:
+        def fits(value: object) -> TypeGuard[float]:
+            return _is_number(value) and not _is_bool(value) and above < value < 1e300
+
+        return self.value(table, path, "margin", None, fits, f"a number above {above:g}")
 
     def cell(
-        self, table: Mapping[str, Any], path: str, known: Mapping[str, Sequence[str]]
+        self, table: Mapping[str, object], path: str, known: Mapping[str, Sequence[str]]
     ) -> Mapping[str, str]:
         for name, level in table.items():
             if level not in known.get(name, ()):
                 self.wrong(f"{path}.{name}", level, f"a level of {name}")
         return {str(k): str(v) for k, v in table.items()}
 
-    def items(self, entry: Mapping[str, Any]) -> tuple[d.Item, ...] | None:
+    def items(self, entry: Mapping[str, object]) -> tuple[d.Item, ...] | None:
         if "items" not in entry:
             return None
         return tuple(
@@ -212,15 +216,15 @@ class _Reader:
                 self.texts(t, p, "each"),
                 self.text(t, p, "group"),
                 self.text(t, p, "of"),
-                self.value(t, p, "points", None, lambda v: isinstance(v, int), "a number"),
-                self.value(t, p, "low", 0, lambda v: isinstance(v, _NUMBER), "a number"),
+                self.value(t, p, "points", None, _is_whole, "a number"),
+                self.value(t, p, "low", 0, _is_number, "a number"),
                 self.texts(t, p, "parts"),
                 self.texts(t, p, "reverse"),
             )
             for p, t in self.tables(entry, ENTRY, "items")
         )
 
-    def prediction(self, table: Mapping[str, Any], path: str, made: d.Design) -> d.Prediction:
+    def prediction(self, table: Mapping[str, object], path: str, made: d.Design) -> d.Prediction:
         name = self.text(table, path, "name", None)
         margin = table.get("margin")
         ratio = table.get("ratio")
@@ -249,16 +253,28 @@ class _Reader:
             self.choice(table, path, "expect", d.EXPECT, "different"),
             level or self.text(table, path, "level"),
             {k: float(v) for k, v in margin.items()} if margin else None,
-            self.value(table, path, "value", None, lambda v: isinstance(v, _NUMBER), "a number"),
+            self.value(table, path, "value", None, _is_number, "a number"),
             self.choice(table, path, "combine", ("all", "any"), "all"),
             ratio is not None,
             self.text(table, path, "reason"),
         )
 
 
-def _is_bool(value: Any) -> bool:
+def _is_text(value: object) -> TypeGuard[str]:
+    return isinstance(value, str)
+
+
+def _is_number(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float)
+
+
+def _is_whole(value: object) -> TypeGuard[int]:
+    return isinstance(value, int)
+
+
+def _is_bool(value: object) -> TypeGuard[bool]:
     return isinstance(value, bool)
 
 
-def _is_digits(value: Any) -> bool:
+def _is_digits(value: object) -> TypeGuard[int]:
     return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= 9

@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,7 +16,7 @@ from seethrough.analysis.design import NO_DESIGN, Design
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load import schema
 from seethrough.analysis.load.chain import ChainState
-from seethrough.analysis.load.files import Source, is_there, read_bytes, read_json
+from seethrough.analysis.load.files import Source, is_there, list_in, read_bytes, read_json
 from seethrough.analysis.load.ledger import NO_LEDGER, Ledger
 from seethrough.analysis.load.person import REPAIR, table_name
 from seethrough.analysis.load.sidecar_design import ENTRY, read_design
@@ -47,7 +46,7 @@ class Study:
     source: str
     trials: pd.DataFrame
     questionnaire: pd.DataFrame
-    sidecars: Mapping[str, Mapping[str, Any]]
+    sidecars: Mapping[str, Mapping[str, object]]
     files: tuple[FileRead, ...]
     chains: tuple[ChainState, ...] = ()
     other_sources: tuple[str, ...] = ()
@@ -108,7 +107,7 @@ def load_study(folder: Path, source: str | None = None) -> Study:
     )
 
 
-def _design(sidecars: Mapping[str, Mapping[str, Any]]) -> Design:
+def _design(sidecars: Mapping[str, Mapping[str, object]]) -> Design:
     """The one design of all sessions; of data of before, what the adapter knows of them."""
     stated = {name: s[ENTRY] for name, s in sidecars.items() if ENTRY in s}
     if not stated:
@@ -129,7 +128,7 @@ def _sidecar(table: str) -> str:
     return f"{table.removesuffix('.csv')}.json"
 
 
-def config_of(sidecar: Mapping[str, Any]) -> Mapping[str, Any]:
+def config_of(sidecar: Mapping[str, object]) -> Mapping[str, object]:
     """The study's resolved config in a sidecar, `provenance.study`; empty if there is none."""
     provenance = sidecar.get("provenance")
     config = provenance.get("study") if isinstance(provenance, Mapping) else None
@@ -142,9 +141,9 @@ def _repairs(base: Path, folder: Path) -> tuple[str, ...]:
     for path in sorted(base.glob(f"*/*{REPAIR}")):
         mark = read_json(path, folder)
         try:
-            counts = ", ".join(f"session {c['session']} ({c['trials']} trials)"
-                               for c in mark["counts"])  # fmt: skip
-            out = ", ".join(str(number) for number in mark["left_out"]) or "the rest of it"
+            counted = [c for c in list_in(mark, "counts") if isinstance(c, Mapping)]
+            counts = ", ".join(f"session {c['session']} ({c['trials']} trials)" for c in counted)
+            out = ", ".join(map(str, list_in(mark, "left_out"))) or "the rest of it"
             lines.append(
                 f"{path.parent.name} was played twice at once: {counts} counts, session {out} does "
                 f"not; all of it is kept in {mark['as_it_was']} (repaired {mark['repaired']})"
@@ -186,7 +185,7 @@ def _records(sources: Iterable[Source], table: pd.DataFrame) -> list[FileRead]:
     ]
 
 
-def at(table: pd.DataFrame, index: Any) -> str:
+def at(table: pd.DataFrame, index: object) -> str:
     """`file: row N` of a table's row."""
     return f"{table.at[index, '_file']}: row {table.at[index, '_row']}"
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load import schema
@@ -25,7 +24,7 @@ class Whole:
     """Everything of one source; `problems` are lines, [] where all is as it was written."""
 
     folder: Path
-    about: Mapping[str, Any]
+    about: Mapping[str, object]
     source: str
     others: tuple[str, ...]
     people: list[Person] = field(default_factory=list)
@@ -82,7 +81,7 @@ def verified_person(folder: Path, source: str, participant: str) -> Person:
     return person
 
 
-def _description(folder: Path) -> dict[str, Any]:
+def _description(folder: Path) -> dict[str, object]:
     """The dataset's description; its presence is what makes a folder a dataset."""
     if not is_there(folder):
         raise DataError(f"{folder}: no such folder")

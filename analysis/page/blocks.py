@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TypeGuard
 
 from seethrough.analysis.page.numbers import show
 from seethrough.analysis.stats.undefined import Undefined
@@ -36,7 +36,7 @@ class Table:
     key: str
     title: str
     columns: tuple[Column, ...]
-    rows: tuple[Mapping[str, Any], ...]
+    rows: tuple[Mapping[str, object], ...]
     shown: tuple[str, ...] = ()
     note: str = ""
     source: str = ""
@@ -49,7 +49,7 @@ class Table:
     def column(self, name: str) -> Column:
         return next(c for c in self.columns if c.name == name)
 
-    def row(self, key: str) -> Mapping[str, Any]:
+    def row(self, key: str) -> Mapping[str, object]:
         """The row whose first column is `key`."""
         return next(r for r in self.rows if r[self.columns[0].name] == key)
 
@@ -63,12 +63,12 @@ class Table:
         text = show(row[column], style or self.style(row, self.column(column)))
         return Cited(row[column], text, self.file, key, column)
 
-    def style(self, row: Mapping[str, Any], column: Column) -> str:
+    def style(self, row: Mapping[str, object], column: Column) -> str:
         """How this row's number in `column` is shown."""
         kind = row.get("kind", "fixed")
         return f"{kind}{row['digits']}" if column.style == "own" else column.style
 
-    def text(self, row: Mapping[str, Any], column: Column) -> str:
+    def text(self, row: Mapping[str, object], column: Column) -> str:
         """A cell as the page has it: the number, and its interval where it has one."""
         value, style = row.get(column.name), self.style(row, column)
         shown = show(value, style)
@@ -84,7 +84,7 @@ class Table:
 class Cited:
     """A shown number and where it comes from: file, row and column."""
 
-    value: Any
+    value: object
     text: str
     file: str
     row: str
@@ -118,7 +118,7 @@ class Figure:
     key: str
     title: str
     alt: str
-    spec: Mapping[str, Any] = field(repr=False)
+    spec: Mapping[str, object] = field(repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +155,12 @@ class Report:
 def more(table: Table, title: str, shown: str) -> Fold:
     """Further columns of a table, behind a fold; what no row has is said once, below."""
     names = [n for n in shown.split() if not all(_gone(row.get(n)) for row in table.rows)]
-    gone = {str(row[n].reason) for n in shown.split() if n not in names for row in table.rows}
+    gone = {
+        str(row[n]).removeprefix("undefined: ")
+        for n in shown.split()
+        if n not in names
+        for row in table.rows
+    }
     view = replace(
         table,
         key=f"{table.key}_more",
@@ -167,11 +172,11 @@ def more(table: Table, title: str, shown: str) -> Fold:
     return Fold(title, (view,))
 
 
-def _gone(value: object) -> bool:
+def _gone(value: object) -> TypeGuard[Undefined]:
     return isinstance(value, Undefined)
 
 
-def row_texts(table: Table, row: Mapping[str, Any]) -> list[str]:
+def row_texts(table: Table, row: Mapping[str, object]) -> list[str]:
     """The cells of a row on the page; a reason for `undefined` is given once in a row."""
     said: set[str] = set()
     texts = []

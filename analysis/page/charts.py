@@ -11,13 +11,12 @@ import re
 from functools import cache
 from html import escape
 from pathlib import Path
-from typing import Any
 
 import vl_convert
 
-from seethrough.analysis.figures.style import FAINT, INK, PALETTE, RULE
+from seethrough.analysis.files.written import write_over
 from seethrough.analysis.page.blocks import Figure
-from seethrough.analysis.written import write_over
+from seethrough.analysis.page.style import FAINT, INK, PALETTE, RULE
 
 _VARIABLES = {
     INK: "var(--ink)",
@@ -26,7 +25,7 @@ _VARIABLES = {
     **{colour: f"var(--level-{i})" for i, colour in enumerate(PALETTE)},
 }
 _TEXT = {"labelColor": INK, "titleColor": INK, "labelFontSize": 11, "titleFontSize": 11}
-_CONFIG: dict[str, Any] = {
+_CONFIG: dict[str, object] = {
     "font": "Arial, Helvetica, Liberation Sans, sans-serif",
     "axis": {
         **_TEXT,
@@ -42,7 +41,7 @@ _CONFIG: dict[str, Any] = {
 PNG_SCALE = 2.0
 
 
-def whole(figure: Figure) -> dict[str, Any]:
+def whole(figure: Figure) -> dict[str, object]:
     """The figure's complete specification."""
     return {"description": figure.alt, "background": None, "config": _CONFIG, **figure.spec}
 
@@ -64,7 +63,7 @@ def _named(svg: str, figure: Figure) -> str:
     return svg.replace(">", f' role="img">{about}', 1)
 
 
-def _in_page(spec: dict[str, Any], svg: str) -> str:
+def _in_page(spec: dict[str, object], svg: str) -> str:
     """The drawing, and the specification that takes its place; colours follow light and dark."""
     # "</" would end the script element
     text = json.dumps(spec, ensure_ascii=False, separators=(",", ":")).replace("</", "<\\/")

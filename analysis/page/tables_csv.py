@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import Any
 
 from seethrough.analysis.page.blocks import Table
 from seethrough.analysis.stats.undefined import Undefined
 
 
-def cell(value: Any) -> str:
+def cell(value: object) -> str:
     """A value as the CSV has it; undefined quantities keep their reason."""
     if value is None:
         return ""

@@ -6,7 +6,8 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any
+
+from seethrough.analysis.load.files import table_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,17 +147,18 @@ def margins() -> dict[str, float]:
     return dict(study["analysis"]["margins"])
 
 
-def _moments(raw: dict[str, Any]) -> Moments:
-    return Moments(Printed(raw["mean"]), Printed(raw["sd"]), raw.get("assumed", False))
+def _moments(raw: Mapping[str, object]) -> Moments:
+    mean, sd = Printed(str(raw["mean"])), Printed(str(raw["sd"]))
+    return Moments(mean, sd, bool(raw.get("assumed", False)))
 
 
-def _measure(raw: dict[str, Any]) -> PublishedMeasure:
+def _measure(raw: dict[str, object]) -> PublishedMeasure:
     return PublishedMeasure(
-        raw["name"],
-        raw["label"],
-        raw["unit"],
-        _moments(raw["standard"]),
-        _moments(raw["dynamic"]),
-        Printed(raw["F"]),
-        Claim(raw["p"]),
+        str(raw["name"]),
+        str(raw["label"]),
+        str(raw["unit"]),
+        _moments(table_in(raw, "standard")),
+        _moments(table_in(raw, "dynamic")),
+        Printed(str(raw["F"])),
+        Claim(str(raw["p"])),
     )

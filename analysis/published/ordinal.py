@@ -6,14 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
 from seethrough.analysis.published.grim import fitting_scores, fitting_whole_numbers
 from seethrough.analysis.published.numbers import Claim, Published
 from seethrough.analysis.stats.ranks import Friedman, friedman
 from seethrough.analysis.stats.undefined import is_defined
 
-Array = NDArray[np.float64]
 Case = tuple[str, Friedman, bool]
 """What was arranged, its test, and whether its p prints as the paper's."""
 

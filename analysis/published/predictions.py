@@ -11,6 +11,7 @@ from seethrough.analysis.published.consistency import Finding
 from seethrough.analysis.published.numbers import Published
 from seethrough.analysis.sections.summary import places
 from seethrough.analysis.stats.distributions import t_upper
+from seethrough.analysis.stats.undefined import number_in
 
 ALPHA = 0.05
 
@@ -55,8 +56,8 @@ def equivalence_table(published: Published, tests: Table) -> Table:
     every = tuple(
         {
             **row,
-            "shown": _shown(row["p"], row["measure"]),
-            "no_worse": _shown(row["noninferior_p"], row["measure"]),
+            "shown": _shown(number_in(row, "p"), row["measure"]),
+            "no_worse": _shown(number_in(row, "noninferior_p"), row["measure"]),
         }
         for row in rows
     )
@@ -158,14 +159,14 @@ def _printed(published: Published) -> Table:
 def _faster(published: Published, tests: Table, findings: list[Finding]) -> Prose:
     multiple = next(f for f in findings if f.key == "multiplicity").detail.split(":")[0]
     overall = tests.row("time_overall")
-    supported = overall["difference"] > 0 and overall["p"] < ALPHA
+    supported = number_in(overall, "difference") > 0 and number_in(overall, "p") < ALPHA
     verdict = "not supported" if not supported else "supported"
     runs: list[str | Cited] = []
     for name in published.tasks:
         row, p = tests.row(name), tests.cite(name, "p_holm")
         words = "no difference shown"
-        if row["p_holm"] < ALPHA:
-            words = "faster" if row["difference"] > 0 else "slower"
+        if number_in(row, "p_holm") < ALPHA:
+            words = "faster" if number_in(row, "difference") > 0 else "slower"
         equals = "" if p.text.startswith(("<", ">")) else "= "
         runs += ["; " if runs else "", f"{row['label']} {words}, p {equals}", p]
     return say(
@@ -181,8 +182,8 @@ def _accurate(published: Published, tests: Table, printed: Table, equal: Table) 
     parts: dict[str, list[str | Cited]] = {"less": [], "more": []}
     for name in ("error_T1_T4", "error_T1", "error_T4", "distance_T3"):
         row = tests.row(name)
-        if row["p"] < ALPHA:
-            runs = parts["more" if row["difference"] > 0 else "less"]
+        if number_in(row, "p") < ALPHA:
+            runs = parts["more" if number_in(row, "difference") > 0 else "less"]
             runs += ["; " if runs else "", f"{row['label']}, ", *apa_f(tests, name)]
     said: list[str | Cited] = []
     for words, runs in parts.items():

@@ -10,11 +10,9 @@ import itertools
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
 from seethrough.analysis.published.numbers import Moments, PublishedMeasure
-
-Array = NDArray[np.float64]
+from seethrough.analysis.stats.arrays import Array
 
 
 def implied_r(n: int, m1: float, s1: float, m2: float, s2: float, f: float) -> float:

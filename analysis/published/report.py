@@ -6,7 +6,6 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
 from importlib.resources import files
-from typing import Any
 
 import numpy as np
 from numpy.random import Generator
@@ -194,7 +193,7 @@ def _recomputed(published: Published, tests: Table, compared: Table) -> Section:
     return Section("recomputed", "Published and recomputed", blocks)
 
 
-def _check_rows(findings: Sequence[Finding]) -> tuple[dict[str, Any], ...]:
+def _check_rows(findings: Sequence[Finding]) -> tuple[dict[str, object], ...]:
     return tuple(
         {"check": f.key, "question": f.question, "fits": f.fits, "detail": f.detail}
         for f in findings

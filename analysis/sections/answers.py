@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from seethrough.analysis.comparison import decisive
 from seethrough.analysis.design import Contrast, Prediction
@@ -27,7 +26,7 @@ class Answer:
     tests: int = 0
 
 
-def p_runs(table: Table, row: Mapping[str, Any], column: str) -> list[str | Cited]:
+def p_runs(table: Table, row: Mapping[str, object], column: str) -> list[str | Cited]:
     """` (p = .03)`, ` (Holm-corrected p = .03)` or ` (TOST p = .2)`."""
     p = table.cite(str(row[table.columns[0].name]), column)
     equals = "" if p.text.startswith(("<", ">", "undefined")) else "= "
@@ -58,7 +57,7 @@ def on_average(verdict: str, depending: bool) -> str:
 
 def rows_of(
     tables: Mapping[str, Table], contrast: Contrast
-) -> list[tuple[Table, Mapping[str, Any]]]:
+) -> list[tuple[Table, Mapping[str, object]]]:
     """A measure's rows of a contrast: over its tasks together first, in each task then."""
     for kind in ("logs", "tests", "ranks"):
         table = tables.get(kind)
@@ -70,7 +69,7 @@ def rows_of(
     return [(table, r) for r in table.rows if str(r["contrast"]).partition("/")[2] == contrast.key]
 
 
-def is_shown(row: Mapping[str, Any], alpha: float) -> bool:
+def is_shown(row: Mapping[str, object], alpha: float) -> bool:
     """Whether a row's deciding p shows a difference."""
     p = decisive(row)[1]
     return is_defined(p) and p < alpha

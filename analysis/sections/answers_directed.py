@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from seethrough.analysis.comparison import apa_f
 from seethrough.analysis.design import Contrast, Prediction
@@ -13,7 +12,7 @@ from seethrough.analysis.page.blocks import Cited, Prose, Table, say
 from seethrough.analysis.sections.answers import Answer, depends, on_average, p_runs
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.tables import cited_f
-from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.stats.undefined import either_in, is_defined, number_in
 
 WORDS = {"less": "slower", "more": "faster"}
 """What a level is called that goes against what was expected."""
@@ -32,7 +31,7 @@ def faster(
     key, row = str(own[0]["measure"]), own[0]
     if not is_defined(row["p"]):
         said = say(f"{start}{{}}.", logs.cite(key, "p"), kind="answer")
-        return Answer(prediction, said, "not answered", row["p"], 1)
+        return Answer(prediction, said, "not answered", either_in(row, "p"), 1)
     tasks = [r for r in own if r["p_holm"] is not None and is_defined(r["p_holm"])]
     tasks = [r for r in tasks if r["where"] != "overall"]
     differ = _interaction(tables.get(f"anova_{TASK}"), contrast, alpha)
@@ -53,16 +52,26 @@ def faster(
     return Answer(prediction, said, verdict, row["p"], 1)
 
 
-def _verdict(row: Any, tasks: Sequence[Any], differ: bool, alpha: float, expect: str) -> str:
+def _verdict(
+    row: Mapping[str, object],
+    tasks: Sequence[Mapping[str, object]],
+    differ: bool,
+    alpha: float,
+    expect: str,
+) -> str:
     """The overall test's verdict, and whether the tasks bear it out."""
     against = WORDS[expect]
     sign = 1 if expect == "less" else -1
-    if row["p"] >= alpha:
+    if number_in(row, "p") >= alpha:
         return "not shown"
-    if sign * (row["ratio"] - 1) > 0:
+    if sign * (number_in(row, "ratio") - 1) > 0:
         return f"contradicted: it is {against}"
-    other = [r for r in tasks if r["p_holm"] < alpha and sign * (r["ratio"] - 1) > 0]
-    unshown = [r for r in tasks if r["p_holm"] >= alpha]
+    other = [
+        r
+        for r in tasks
+        if number_in(r, "p_holm") < alpha and sign * (number_in(r, "ratio") - 1) > 0
+    ]
+    unshown = [r for r in tasks if number_in(r, "p_holm") >= alpha]
     if other or (differ and unshown):
         return "supported over all tasks together, not in each"
     return "supported"
@@ -90,15 +99,15 @@ def _interaction(table: Table | None, contrast: Contrast, alpha: float) -> list[
     ]
 
 
-def by_task(logs: Table, tasks: Sequence[Any], alpha: float) -> list[str | Cited]:
+def by_task(logs: Table, tasks: Sequence[Mapping[str, object]], alpha: float) -> list[str | Cited]:
     """In which tasks it is faster, slower, or neither, by Holm's p."""
     if len(tasks) < 2:
         return []
     runs: list[str | Cited] = [" By task (Holm-corrected): "]
     for i, row in enumerate(tasks):
         words = "no difference shown"
-        if row["p_holm"] < alpha:
-            words = "faster" if row["ratio"] < 1 else "slower"
+        if number_in(row, "p_holm") < alpha:
+            words = "faster" if number_in(row, "ratio") < 1 else "slower"
         p = logs.cite(str(row["measure"]), "p_holm")
         runs += ["; " if i else "", f"{row['label']} {words}, ratio "]
         runs += [logs.cite(str(row["measure"]), "ratio"), ", p "]

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import Any
 
 from seethrough.analysis.comparison import decisive
 from seethrough.analysis.design import Design, Prediction
 from seethrough.analysis.page.blocks import Cited, Table, say
 from seethrough.analysis.sections.answers import Answer, p_runs
 from seethrough.analysis.sections.context import Context
-from seethrough.analysis.stats.undefined import Number, is_defined
+from seethrough.analysis.stats.undefined import Number, either_in, is_defined, number_in
 from seethrough.analysis.tradeoff import price_of
 
 ACCURACY = (
@@ -41,7 +40,7 @@ def accurate(
                     runs = parts[words]
                     name = f"{measure.said}, {row['label']}"
                     runs += ["; " if runs else "", name, *p_runs(table, row, column)]
-                    decides.append(row["noninferior_p"])
+                    decides.append(either_in(row, "noninferior_p"))
     told = {words: runs for words, runs in parts.items() if runs}
     if not told:
         said = say(f"{start}not answered, no accuracy measure can be tested.", kind="answer")
@@ -63,7 +62,7 @@ def _tables(own: Mapping[str, Table]) -> list[Table]:
     return found[:1]
 
 
-def _is_asked(design: Design, prediction: Prediction, row: Mapping[str, Any]) -> bool:
+def _is_asked(design: Design, prediction: Prediction, row: Mapping[str, object]) -> bool:
     """Whether a row is of the prediction's contrast; other rows are of trends and the like."""
     key = row.get("level") or str(row.get("contrast", "")).partition("/")[2]
     known = [c for c in design.contrasts() if c.factor == prediction.contrast]
@@ -90,7 +89,7 @@ def _declared(design: Design, prediction: Prediction) -> str:
     )
 
 
-def verdict_of(design: Design, row: Mapping[str, Any], alpha: float) -> tuple[str, str]:
+def verdict_of(design: Design, row: Mapping[str, object], alpha: float) -> tuple[str, str]:
     """What a row says of accuracy, and the column of the p behind it; "" where nothing can be.
 
     A measure that everybody has alike says nothing here. A right-or-wrong one is read in the tasks
@@ -106,7 +105,7 @@ def verdict_of(design: Design, row: Mapping[str, Any], alpha: float) -> tuple[st
         if price is not None and price.name != measure.name:
             return "", ""
     more = measure is not None and measure.direction == "more"
-    difference = row.get("difference", row.get("estimate"))
+    difference = number_in(row, "difference" if "difference" in row else "estimate")
     no_worse = row["noninferior_p"]
     within = is_defined(no_worse) and no_worse < alpha
     if p < alpha and (difference < 0) == more:

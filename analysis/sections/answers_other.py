@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from seethrough.analysis.design import Contrast, Measured, Prediction
 from seethrough.analysis.page.blocks import Cited, Table, say
@@ -11,7 +10,7 @@ from seethrough.analysis.page.numbers import p_value
 from seethrough.analysis.sections.answers import Answer, depends, on_average, rows_of
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.stats.distributions import holm, t_upper
-from seethrough.analysis.stats.undefined import Number, is_defined
+from seethrough.analysis.stats.undefined import Number, either_in, is_defined, number_in
 
 
 def at_least(
@@ -33,8 +32,10 @@ def at_least(
             kind="answer",
         )
         return Answer(prediction, said, "not testable")
-    t = (row["mean"] - prediction.value) / (row["sd"] / row["n"] ** 0.5)
-    p = t_upper(t, row["n"] - 1)
+    t = (number_in(row, "mean") - prediction.value) / (
+        number_in(row, "sd") / number_in(row, "n") ** 0.5
+    )
+    p = t_upper(t, number_in(row, "n") - 1)
     verdict = "supported" if p < context.plan.alpha else "not shown"
     shown = p_value(p)
     said = say(
@@ -53,7 +54,7 @@ def compared(
 ) -> Answer:  # fmt: skip
     """Less, more, different or equivalent: every measure's tests of every contrast asked."""
     alpha = context.plan.alpha
-    tests: list[tuple[str, Table, Mapping[str, Any], Number, bool]] = []
+    tests: list[tuple[str, Table, Mapping[str, object], Number, bool]] = []
     for measure in (m for m in context.design.measures() if prediction.about(m)):
         for contrast in contrasts:
             found = rows_of(tables.get(measure.name, {}), contrast)
@@ -61,7 +62,7 @@ def compared(
             for table, row in pooled or found:
                 column = "tost_p" if prediction.expect == "equivalent" else _raw(row)
                 fits = _fits(measure, row, prediction.expect)
-                tests.append((column, table, row, row[column], fits))
+                tests.append((column, table, row, either_in(row, column), fits))
     if not tests:
         said = say(f"{start}not answered, nobody has what it needs.", kind="answer")
         return Answer(prediction, said, "not answered")
@@ -104,16 +105,16 @@ def _combined(several: bool, decides: float) -> str:
     )
 
 
-def _is_overall(row: Mapping[str, Any]) -> bool:
+def _is_overall(row: Mapping[str, object]) -> bool:
     return row.get("where") == "overall" or str(row.get("contrast", "")).startswith("overall/")
 
 
-def _raw(row: Mapping[str, Any]) -> str:
+def _raw(row: Mapping[str, object]) -> str:
     """The uncorrected p that decides: a stated prediction is a family of its own."""
     return "p_exact" if "p_exact" in row else "p"
 
 
-def _estimate(row: Mapping[str, Any]) -> str:
+def _estimate(row: Mapping[str, object]) -> str:
     if "contrast" in row:
         return "ratio" if row.get("ratio") is not None else "estimate"
     return "ratio" if "geometric_level" in row else "difference"
@@ -132,9 +133,9 @@ def _named(estimate: str) -> str:
     return {"ratio": "ratio", "estimate": "difference"}.get(estimate, estimate)
 
 
-def _fits(measure: Measured, row: Mapping[str, Any], expect: str) -> bool:
+def _fits(measure: Measured, row: Mapping[str, object], expect: str) -> bool:
     """Whether an estimate lies on the predicted side; differences are baseline − level."""
     if expect in ("different", "equivalent"):
         return True
-    difference = row.get("difference", row.get("estimate"))
+    difference = number_in(row, "difference" if "difference" in row else "estimate")
     return bool(difference > 0) == (expect == "less")

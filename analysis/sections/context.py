@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from seethrough.analysis.cells import Cells, Missing
 from seethrough.analysis.design import Design
 from seethrough.analysis.exclude import Excluded
+from seethrough.analysis.load.plan import Plan
 from seethrough.analysis.load.study import Study
 from seethrough.analysis.measures import groups_of
-from seethrough.analysis.plan import Plan
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,20 +7,20 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from seethrough.analysis.cells import Array, Cells
+from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast, Design, Factor, Measured
 from seethrough.analysis.equivalence import NO_MARGIN
 from seethrough.analysis.measures import TASK, groups_of, over_tasks
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Table, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.tables import design_at
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.contrasts import FEW, Estimate, estimate, trend, within_margin
 from seethrough.analysis.stats.distributions import holm
-from seethrough.analysis.stats.undefined import Number, Undefined, is_defined
+from seethrough.analysis.stats.undefined import Number, Undefined, is_defined, number_in
 
 COLUMNS = (
     Column("contrast", "contrast"),
@@ -60,7 +60,7 @@ OBSERVED = (
     "{} was brought along, not assigned: its groups may differ in anything else too, and no "
     "difference between them says why."
 )
-Row = dict[str, Any]
+Row = dict[str, object]
 """A row of the table: what a column has, numbers or why there are none."""
 CONTRAST, BETWEEN, DIFFERENCE, SIMPLE = "contrast", "between", "interaction", "simple effect"
 TRENDS = {1: "linear trend", 2: "quadratic trend"}
@@ -123,7 +123,7 @@ def _anova_of(anova: Mapping[str, Table], where: str) -> Table | None:
     return anova.get(f"anova_in_{where}") or anova.get("anova") or anova.get(f"anova_{TASK}")
 
 
-def _note(design: Design, rows: Sequence[Mapping[str, Any]]) -> str:
+def _note(design: Design, rows: Sequence[Mapping[str, object]]) -> str:
     notes = [WELCH] if design.groups else []
     if any(r["kind"] in TRENDS.values() for r in rows):
         notes.append(
@@ -132,7 +132,7 @@ def _note(design: Design, rows: Sequence[Mapping[str, Any]]) -> str:
         )
     if any(r["kind"] == SIMPLE for r in rows):
         notes.append("Simple effects: only where the interaction was found.")
-    small = sorted({r["least"] for r in rows if r["least"] < FEW})
+    small = sorted({number_in(r, "least") for r in rows if number_in(r, "least") < FEW})
     if design.groups and small:
         notes.append(f"Groups of fewer than {FEW} people: their p are rough (.05 to .10 for .05).")
     notes += [OBSERVED.format(f.name[:1].upper() + f.name[1:]) for f in design.groups
@@ -348,7 +348,7 @@ def _correct(rows: Sequence[Row], families: Sequence[str]) -> None:
     for family in dict.fromkeys(families):
         inside = [r for r, f in zip(rows, families, strict=True) if f == family]
         known = [r for r in inside if is_defined(r["p"])]
-        for row, p in zip(known, holm([r["p"] for r in known]), strict=True):
+        for row, p in zip(known, holm([number_in(r, "p") for r in known]), strict=True):
             row["p_holm"] = p
 
 
@@ -371,7 +371,7 @@ MOST = 8
 """Contrasts that sentences tell of; the table has all."""
 
 
-def _sentence(table: Table, row: Mapping[str, Any], measure: Measured, log: bool) -> Prose:
+def _sentence(table: Table, row: Mapping[str, object], measure: Measured, log: bool) -> Prose:
     key = str(row["contrast"])
     p = table.cite(key, "p_holm")
     ratio = log and row["ratio"] is not None

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from seethrough.analysis.comparison import Pair, compare, headed
 from seethrough.analysis.design import Design
-from seethrough.analysis.difficulty import (
+from seethrough.analysis.load.matching import (
     ONLY_BETWEEN,
     QUANTITIES,
     Balance,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 from seethrough.analysis.cells import Cells
 from seethrough.analysis.comparison import (
@@ -30,7 +29,7 @@ from seethrough.analysis.sections.contrasts import contrast_blocks
 from seethrough.analysis.sections.omnibus import omnibus
 from seethrough.analysis.sections.pairwise import pairwise_blocks
 from seethrough.analysis.sections.tables import cell_table, missing_note, of_people
-from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.stats.undefined import is_defined, number_in
 
 RAW = (
     "Times are skewed: where the two levels also differ in spread (s.d. of logarithms .8 and .3, "
@@ -175,7 +174,7 @@ def _pairs(
 
 
 def in_short(
-    said: Sequence[tuple[Pair, Mapping[str, Any], Prose]], context: Context, what: str
+    said: Sequence[tuple[Pair, Mapping[str, object], Prose]], context: Context, what: str
 ) -> list[Prose]:
     """Each contrast's sentence; of several contrasts only those that show something, and where
     nothing was found one line for all. `what`: the measure."""
@@ -272,7 +271,7 @@ def _log_sentence(tests: Table, logs: Table, m: Pair, context: Context) -> Prose
     name = "Over all tasks" if where == OVERALL else f"In {where}"
     if not is_defined(row["p"]):
         return say(f"{name}: {{}}.", logs.cite(m.key, "p"))
-    faster = "faster" if row["ratio"] < 1 else "slower"
+    faster = "faster" if number_in(row, "ratio") < 1 else "slower"
     _, deciding = decisive(row)
     shown = is_defined(deciding) and deciding < alpha
     verdict = f"participants were {faster} with {m.said[1]}"

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 import numpy as np
 
 from seethrough.analysis.design import Factor
+from seethrough.analysis.load.plan import digest
 from seethrough.analysis.load.study import config_of
 from seethrough.analysis.measures import answers, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Section, Table, say
 from seethrough.analysis.page.numbers import fixed
-from seethrough.analysis.plan import digest
 from seethrough.analysis.sections.context import Context
 
 AGE, GENDER = "age", "gender"
@@ -106,7 +105,7 @@ def _apparatus(context: Context) -> Prose | None:
     return say(f"Apparatus, as the sessions recorded it: {said}.") if said else None
 
 
-def _once(values: Iterable[Any]) -> str:
+def _once(values: Iterable[object]) -> str:
     """The distinct values, the first three."""
     return " or ".join(sorted({str(v) for v in values if v})[:3])
 

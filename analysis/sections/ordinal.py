@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -42,7 +41,7 @@ _OF_TWO = ("p_holm", "mean_", "sd_", "difference", "tost_", "noninferior_p", "lo
 """Columns that only a comparison of two conditions has."""
 
 
-def friedman_row(m: Pair, context: Context, purpose: int) -> dict[str, Any]:
+def friedman_row(m: Pair, context: Context, purpose: int) -> dict[str, object]:
     """Friedman's test of the two levels; for k = 2 its permutation p is the exact sign test's."""
     result = friedman(np.stack([m.first, m.second], axis=1), context.rng(purpose))
     return {
@@ -72,7 +71,7 @@ SHOWN = tuple("label n mean_baseline mean_level chi2 df p p_exact p_holm w tost_
 def friedman_table(
     key: str,
     title: str,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Mapping[str, object]],
     pairs: Sequence[Pair],
     shares: bool = False,
 ) -> Table:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.analysis.cells import Array, Cells
+from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast, Design, Factor, Measured
 from seethrough.analysis.measures import TASK, groups_of, over_tasks
 from seethrough.analysis.page.blocks import Block, Column, Table, say
@@ -24,11 +24,12 @@ from seethrough.analysis.sections.contrasts import (
     row_of,
 )
 from seethrough.analysis.sections.tables import design_at
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import holm
 from seethrough.analysis.stats.groups import kruskal_wallis
 from seethrough.analysis.stats.ranks import signed_rank
 from seethrough.analysis.stats.ties import slack
-from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.stats.undefined import is_defined, number_in
 
 KIND = "pair"
 NOTE = (
@@ -110,7 +111,7 @@ def _correct(rows: list[Row], families: list[str]) -> None:
         row["p_holm"] = row["p"]
     for family in dict.fromkeys(families):
         own = [r for r, f in zip(rows, families, strict=True) if f == family and is_defined(r["p"])]
-        for row, p in zip(own, holm([r["p"] for r in own]), strict=True):
+        for row, p in zip(own, holm([number_in(r, "p") for r in own]), strict=True):
             row["p_holm"] = p
 
 

@@ -12,6 +12,7 @@ from seethrough.analysis.page.blocks import Block, Column, Fold, Prose, Section,
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.stats.distributions import detectable
 from seethrough.analysis.stats.ranks import sign_test
+from seethrough.analysis.stats.undefined import number_in
 
 COUNTS = (
     Column("participant", "participant"),
@@ -231,7 +232,7 @@ def reach_sentence(found: Table) -> Prose:
     """What that means; a warning where the participants are few."""
     key = "paired test"
     cited = [found.cite(key, "n"), found.cite(key, "dz"), found.cite(key, "power")]
-    if found.row(key)["n"] >= FEW:
+    if number_in(found.row(key), "n") >= FEW:
         return say(
             "With {} participants a paired test finds a difference of d_z = {} in a share of {} of "
             "studies, and smaller ones less often: no difference shown is not none.",

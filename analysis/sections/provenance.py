@@ -5,13 +5,12 @@ from __future__ import annotations
 import platform
 from collections.abc import Iterable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any
 
 from seethrough.analysis.load.chain import ChainState
+from seethrough.analysis.load.plan import Plan, digest
 from seethrough.analysis.load.seal import seal
 from seethrough.analysis.load.study import Study, config_of
 from seethrough.analysis.page.blocks import Block, Column, Fold, Section, Table, say
-from seethrough.analysis.plan import Plan, digest
 from seethrough.analysis.sections.context import Context
 
 PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "vl-convert-python", "Jinja2")
@@ -98,7 +97,7 @@ def _unknown(study: Study) -> str:
     return "".join(f" {line}" for line in lines)
 
 
-def _recorded(sidecars: Iterable[Mapping[str, Any]]) -> list[dict[str, str]]:
+def _recorded(sidecars: Iterable[Mapping[str, object]]) -> list[dict[str, str]]:
     """Versions and driver that the sessions ran with, each distinct value once."""
     seen: dict[str, set[str]] = {}
     for sidecar in sidecars:
@@ -121,7 +120,7 @@ def _recorded(sidecars: Iterable[Mapping[str, Any]]) -> list[dict[str, str]]:
     ]
 
 
-def _flat(value: Any) -> str:
+def _flat(value: object) -> str:
     if isinstance(value, Mapping):
         return ", ".join(f"{k} {_flat(v)}" for k, v in sorted(value.items()))
     return str(value)

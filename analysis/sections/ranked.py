@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -90,7 +89,7 @@ def _between(
     context: Context, measure: Measured, cells: Cells, what: str, pairs: Sequence[Pair]
 ) -> list[Block]:
     """Kruskal and Wallis's test of each factor between people, on the person's mean."""
-    rows: list[dict[str, Any]] = []
+    rows: list[dict[str, object]] = []
     for number, factor in enumerate(context.design.groups):
         for i, task in enumerate(cells.factors[TASK]):
             row = _group_row(context, cells.pick(task=task), factor, 300 + 50 * number + i)
@@ -111,7 +110,7 @@ def _between(
 
 def _group_row(
     context: Context, cells: Cells, factor: Factor, purpose: int
-) -> dict[str, Any] | None:
+) -> dict[str, object] | None:
     flat = cells.values.reshape(len(cells.values), -1)
     level = flat[:, np.isfinite(flat).any(axis=0)].mean(axis=1)
     own = np.array(groups_of(context.study.trials, factor, cells.participants))

@@ -12,7 +12,7 @@ from seethrough.analysis.measures import ratings
 from seethrough.analysis.page.blocks import Block, Cited, Column, Table, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.stats.reliability import LEAST_ITEMS, reliability
-from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.stats.undefined import is_defined, number_in
 
 COLUMNS = (
     Column("scale", "scale"),
@@ -91,12 +91,12 @@ def _rows(context: Context, name: str, items: Sequence[Item]) -> list[dict[str, 
 
 
 def _sentence(table: Table, name: str) -> Block:
-    keys = sorted(_known(table, name), key=lambda k: float(table.row(k)["alpha"]))
+    keys = sorted(_known(table, name), key=lambda k: number_in(table.row(k), "alpha"))
     least, most = keys[0], keys[-1]
     runs: list[str | Cited] = [table.cite(least, "alpha", "bound2")]
     if len(keys) > 1:
         runs += [" to ", table.cite(most, "alpha", "bound2"), f" over {len(keys)} conditions"]
-    rough = table.row(least)["alpha"] < FAIR
+    rough = number_in(table.row(least), "alpha") < FAIR
     words = ": below .70 items hardly measure one thing, so that their mean or sum is rough" if (
         rough) else ""  # fmt: skip
     return say(f"Items of {name}: α = {{}}{words}.", runs)

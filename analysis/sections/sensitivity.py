@@ -8,7 +8,7 @@ from seethrough.analysis.page.blocks import Block, Column, Section, Table, say
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.robust import robust_blocks
 from seethrough.analysis.sections.scene_effects import scene_blocks
-from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.stats.undefined import is_defined, number_in
 from seethrough.analysis.tradeoff import speed_of
 
 COLUMNS = (
@@ -151,7 +151,7 @@ def _same(context: Context, fit: MixedEffect, logs: Table | None, several: bool)
     if logs is None or key is None or not is_defined(logs.row(key)["p"]) or not is_defined(fit.p):
         return ""
     alpha = context.plan.alpha
-    same = (logs.row(key)["p"] < alpha) == (fit.p < alpha)
+    same = (number_in(logs.row(key), "p") < alpha) == (fit.p < alpha)
     if same and fit.singular:
         return "The fit is singular, so that it does not count as agreement."
     return (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +16,16 @@ from seethrough.analysis.page.blocks import Cited, Column, Prose, Table, say
 from seethrough.analysis.page.numbers import bounded
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.stats.anova import Effect
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import bayes_factor_f, negligible_p
 from seethrough.analysis.stats.paired import mean_interval
-from seethrough.analysis.stats.undefined import ONE_PARTICIPANT, Number, Undefined, is_defined
+from seethrough.analysis.stats.undefined import (
+    ONE_PARTICIPANT,
+    Number,
+    Undefined,
+    is_defined,
+    number_in,
+)
 
 EFFECTS = (
     Column("effect", "effect"),
@@ -57,7 +63,7 @@ BAYES_NOTE = (
 EFFECTS_SHOWN = tuple("effect df1 df2 F p eps p_gg eps_hf p_hf ges pes bf10".split())
 
 
-def effect_row(effect: Effect) -> dict[str, Any]:
+def effect_row(effect: Effect) -> dict[str, object]:
     """An effect as a row of `EFFECTS`."""
     return {
         "effect": effect.name,
@@ -94,12 +100,12 @@ def effect_sentence(table: Table, effect: str, what: tuple[str, str], alpha: flo
     row = table.row(effect)
     if not is_defined(row["F"]):
         return say("{}: {}.", what[1], table.cite(effect, "F"))
-    words = what[0] if row["p_decisive"] < alpha else what[1]
+    words = what[0] if number_in(row, "p_decisive") < alpha else what[1]
     runs = cited_f(table, effect)
-    if row["df1"] > 1 and not row["few"]:
+    if number_in(row, "df1") > 1 and not row["few"]:
         runs += [" (Greenhouse–Geisser, ε = ", table.cite(effect, "eps", "bound2"), ")"]
     runs += [", η²G = ", table.cite(effect, "ges")]
-    if row["p_decisive"] >= alpha:
+    if number_in(row, "p_decisive") >= alpha:
         runs += ["; ", *not_found(table, effect, alpha)]
     return say("{}, {}.", words, runs)
 
@@ -240,7 +246,7 @@ def groups_in(
     return found
 
 
-def _spread(values: Any) -> Mapping[str, Any]:
+def _spread(values: Array) -> Mapping[str, object]:
     n = len(values)
     if n == 0:
         gone = Undefined("nobody has this cell")
@@ -257,7 +263,7 @@ def _spread(values: Any) -> Mapping[str, Any]:
     }
 
 
-def _geometric(log: Any) -> Number:
+def _geometric(log: Array | None) -> Number:
     """exp of the mean over participants of their trials' mean logarithm."""
     if log is None:
         return Undefined("only times have a geometric mean here")

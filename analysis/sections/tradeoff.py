@@ -7,16 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.analysis.cells import Array, Missing, people
+from seethrough.analysis.cells import Missing, people
 from seethrough.analysis.comparison import Pair, compare
 from seethrough.analysis.design import Factor
 from seethrough.analysis.figures.tradeoff import arrows
 from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
 from seethrough.analysis.sections.context import Context
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.ranks import sign_test
 from seethrough.analysis.stats.ties import difference_signs
-from seethrough.analysis.stats.undefined import Undefined, is_defined
+from seethrough.analysis.stats.undefined import Undefined, is_defined, number_in
 from seethrough.analysis.tradeoff import Change, accuracy_by_speed, changes, correlation, scores
 
 CHANGES = (
@@ -129,12 +130,13 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
     group = [
         name
         for name, row in rows.items()
-        if row["p_errors"] < alpha and row["faster_worse"] > row["faster_better"]
+        if number_in(row, "p_errors") < alpha
+        and number_in(row, "faster_worse") > number_in(row, "faster_better")
     ]
     gained = [
         name
         for name, row in rows.items()
-        if not isinstance(row["p"], Undefined) and row["p"] < alpha and row["r"] < 0
+        if is_defined(row["p"]) and number_in(row, "p") < alpha and number_in(row, "r") < 0
     ]
     verdicts = []
     if group:

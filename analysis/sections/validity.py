@@ -11,8 +11,8 @@ from seethrough.analysis.comparison import Pair, apa_f, compare
 from seethrough.analysis.design import Factor
 from seethrough.analysis.equivalence import no_difference
 from seethrough.analysis.figures.validity import learning_figure
+from seethrough.analysis.load.plan import Plan
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
-from seethrough.analysis.plan import Plan
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.difficulty import difficulty_blocks
 from seethrough.analysis.sections.tables import negligible, not_found

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import chi2_tail, f_tail, noncentral_f_interval
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
@@ -26,9 +26,6 @@ from seethrough.analysis.stats.undefined import (
     no_interval,
     spread_is_noise,
 )
-
-Array = NDArray[np.float64]
-
 
 NO_HF: Number = Undefined("not computed")
 

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import t_quantile, t_two_sided, t_upper
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
@@ -22,8 +22,6 @@ from seethrough.analysis.stats.undefined import (
     no_interval,
     spread_is_noise,
 )
-
-Array = NDArray[np.float64]
 
 LEAST = 3
 """People a group needs for a contrast between groups; two reject in .11 of studies, for .05."""

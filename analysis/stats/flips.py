@@ -6,6 +6,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.ties import STEPS
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
@@ -15,8 +16,6 @@ from seethrough.analysis.stats.undefined import (
     Undefined,
     spread_is_noise,
 )
-
-Array = NDArray[np.float64]
 
 MOST_EXACT = 18
 """People up to whom all 2ⁿ signs are tried."""

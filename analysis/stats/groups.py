@@ -12,11 +12,10 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import chi2_tail
 from seethrough.analysis.stats.ties import levels, slack
 from seethrough.analysis.stats.undefined import Number, Undefined
-
-Array = NDArray[np.float64]
 
 DRAWS = 20_000
 MOST_EXACT = 200

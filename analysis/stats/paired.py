@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import (
     bayes_factor_t,
     noncentral_t_interval,
@@ -27,8 +27,6 @@ from seethrough.analysis.stats.undefined import (
     no_interval,
     spread_is_noise,
 )
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

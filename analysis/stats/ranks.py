@@ -16,6 +16,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 from scipy import special
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import (
     chi2_tail,
     holm,
@@ -31,8 +32,6 @@ from seethrough.analysis.stats.undefined import (
     Undefined,
     no_interval,
 )
-
-Array = NDArray[np.float64]
 
 ALL_TIED = "every participant gives all conditions the same value"
 DRAWS = 20_000

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from seethrough.analysis.stats.arrays import Array
 
 STARTS = (1.0, 0.3, 0.05)
 """Diagonals of θ to start from: a term's s.d. over that of the residuals."""

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.analysis.stats.anova import Effect, contrast_scores, repeated_measures, tested
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
     EPS,
@@ -21,7 +22,6 @@ from seethrough.analysis.stats.undefined import (
     no_interval,
 )
 
-Array = NDArray[np.float64]
 Codes = NDArray[np.intp]
 
 EMPTY = "a group has nobody"

@@ -9,9 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.undefined import EPS
-
-Array = NDArray[np.float64]
 
 STEPS = 32
 """Roundings allowed for, in units of EPS times the largest value that a number was made from.

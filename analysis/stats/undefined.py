@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from numbers import Real
 from typing import TypeGuard
 
 import numpy as np
@@ -31,6 +33,20 @@ Interval = tuple[Number, Number]
 def is_defined(value: object) -> TypeGuard[float]:
     """Whether `value` is a number (not `Undefined`)."""
     return not isinstance(value, Undefined)
+
+
+def number_in(row: Mapping[str, object], name: str) -> float:
+    """A number that a row of a table is known to have. Raises TypeError for anything else."""
+    found = row[name]
+    if not isinstance(found, Real):
+        raise TypeError(f"{name} = {found!r}, expected a number")
+    return float(found)
+
+
+def either_in(row: Mapping[str, object], name: str) -> Number:
+    """A number of a row, or why there is none. Raises TypeError for anything else."""
+    found = row[name]
+    return found if isinstance(found, Undefined) else number_in(row, name)
 
 
 def no_interval(reason: str) -> Interval:

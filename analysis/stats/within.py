@@ -11,10 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import f_tail
 from seethrough.analysis.stats.undefined import EPS, Number, Undefined
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

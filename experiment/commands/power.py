@@ -7,7 +7,7 @@ import re
 from math import isinf
 from pathlib import Path
 
-from seethrough.analysis.written import write_over
+from seethrough.analysis.files.written import write_over
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import load
 

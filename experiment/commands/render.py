@@ -6,22 +6,23 @@ import argparse
 import re
 import tomllib
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import fields
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import SHORTCUTS
 from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Parameters
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.kit.controls import orbit, walk
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
@@ -49,7 +50,7 @@ def walkthrough(seed: int, aspect: float) -> tuple[Scene, Camera]:
 
 def models(seed: int, aspect: float) -> tuple[Scene, Camera]:
     """Every model of the library once: the contact sheet, the same for every seed."""
-    from seethrough.renderer.models.forms.sheet import contact_sheet_scene
+    from seethrough.renderer.models.sheet import contact_sheet_scene
 
     return contact_sheet_scene(aspect)
 
@@ -75,7 +76,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "scene", metavar="SCENE|STUDY",
         help=f"what to draw: {', '.join(sorted(SCENES))}, or each cell of a study",
     )  # fmt: skip
-    parser.add_argument("--technique", choices=registry.known("technique"), default="dynamic")
+    parser.add_argument(
+        "--technique", choices=registry.known("technique"),
+        help="dynamic transparency unless another is named",
+    )  # fmt: skip
     parser.add_argument("--out", required=True, type=Path, help="the picture, a .png file")
     parser.add_argument("--size", default="800x600", help="WIDTHxHEIGHT in pixels")
     parser.add_argument("--seed", type=int, default=1, help="of the scene, ≥ 0")
@@ -122,7 +126,8 @@ def run(args: argparse.Namespace) -> int:
     from seethrough.renderer.gpu.renderer import Renderer
 
     scene, camera = SCENES[args.scene](args.seed, size[0] / size[1])
-    technique = _given("set", named(args.technique), args.set)
+    own = named(args.technique) if args.technique else DynamicTransparency()
+    technique = _given("set", own, args.set)
     scene = dressed(scene, _given("look", PLAIN, args.look))
     unknown = sorted(set(args.without) - set(SHORTCUTS))
     if unknown:
@@ -161,7 +166,7 @@ def _study(args: argparse.Namespace, size: tuple[int, int], out: Path) -> int:
 
 def _given(option: str, base: Given, settings: list[str]) -> Given:
     """Parameters with `settings` ("key=value", values as in TOML or bare words)."""
-    values: dict[str, Any] = {}
+    values: dict[str, object] = {}
     known = {field.name for field in fields(base)}
     for text in settings:
         key, equals, value = text.partition("=")
@@ -169,13 +174,12 @@ def _given(option: str, base: Given, settings: list[str]) -> Given:
             wanted = ", ".join(sorted(known)) or "none, it has no parameters"
             raise InputError(f"--{option} = {text}: expected KEY=VALUE with one of {wanted}")
         try:
-            values[key] = tomllib.loads(f"value = {value}")["value"]
+            found = tomllib.loads(f"value = {value}")["value"]
+            values[key] = tuple(found) if isinstance(found, list) else found
         except tomllib.TOMLDecodeError:
             values[key] = value
-        if isinstance(values[key], list):
-            values[key] = tuple(values[key])
     try:
-        return replace(base, **values)
+        return type(base)(**{name: getattr(base, name) for name in known} | values)
     except (TypeError, ValueError) as error:
         raise InputError(f"--{option}: {error}") from error
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, short, unknown
+from seethrough.experiment.files.trust import TRUST
 from seethrough.experiment.study.plugin_files import from_path
-from seethrough.experiment.study.trust import TRUST
 
 HELP = "list techniques, or try one on all that it must keep to"
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from math import ceil, inf
-from typing import Any
+from typing import Protocol
 
 WRAP = 2**32  # ms
 # s: a stamp is cut to whole milliseconds, of a clock that some servers read once a millisecond.
@@ -82,7 +82,25 @@ class EventTime:
 _X11_KEYS, _X11_BUTTONS, _X11_MOTION = (2, 3), (4, 5), 6
 
 
-def x11_stamp(event: Any) -> int | None:
+class _Any(Protocol):
+    send_event: int
+
+
+class _Timed(Protocol):
+    time: int
+
+
+class XEvent(Protocol):
+    """One of X11's events, as pyglet has them: a union, of which `type` says what it is."""
+
+    type: int
+    xany: _Any
+    xkey: _Timed
+    xbutton: _Timed
+    xmotion: _Timed
+
+
+def x11_stamp(event: XEvent) -> int | None:
     """Milliseconds, or None for an event that carries no time of the server's.
 
     Another program may send events with any time it likes, and 0 stands for "now".

@@ -10,8 +10,11 @@ import sys
 import time
 from collections.abc import Callable
 from ctypes import byref, c_ubyte
+from typing import TYPE_CHECKING
 
 import pyglet
+
+from seethrough.experiment.display.event_time import XEvent
 
 # Without this, importing pyglet.window opens a window, and fails where there is no display.
 pyglet.options.shadow_window = False
@@ -19,7 +22,10 @@ import pyglet.window
 
 from seethrough.experiment.display.driver import no_window
 from seethrough.experiment.display.event_time import EventTime, x11_stamp
-from seethrough.experiment.study.study_tables import DisplayTable
+
+if TYPE_CHECKING:
+    from seethrough.experiment.study.study_tables import DisplayTable
+
 
 ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")
 ASKED, PROMPT = 5, 0.02  # how often the server is asked the time until it says so within so many s
@@ -30,15 +36,15 @@ class SystemWindow(pyglet.window.Window):  # type: ignore[misc]  # pyglet picks 
 
     event_time: EventTime | None = None
 
-    def dispatch_platform_event(self, event: object) -> None:
+    def dispatch_platform_event(self, event: XEvent) -> None:
         """X11 only: keys come this way."""
         self._stamped(super().dispatch_platform_event, event, "window")
 
-    def dispatch_platform_event_view(self, event: object) -> None:
+    def dispatch_platform_event_view(self, event: XEvent) -> None:
         """X11 only: the pointer's events come this way."""
         self._stamped(super().dispatch_platform_event_view, event, "view")
 
-    def _stamped(self, dispatch: Callable[[object], None], event: object, queue: str) -> None:
+    def _stamped(self, dispatch: Callable[[object], None], event: XEvent, queue: str) -> None:
         if self.event_time is None:
             return dispatch(event)
         self.event_time.stamp, self.event_time.queue = x11_stamp(event), queue

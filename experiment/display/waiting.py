@@ -7,14 +7,22 @@ that it stands there too while the next picture is drawn for the first time.
 from __future__ import annotations
 
 import time
+from abc import abstractmethod
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager
 from functools import partial
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
+from seethrough.experiment.display.clock import Clock
 from seethrough.experiment.display.display import Leave
+from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Answers, Page
+
+if TYPE_CHECKING:
+    from moderngl import Context
+
 
 Made = TypeVar("Made")
 
@@ -44,12 +52,37 @@ def meanwhile(work: Callable[[], Made], frame: Callable[[], None], patience: flo
 class Waits:
     """The part of a window that waits, or shows what somebody else does (display/window.py)."""
 
-    def waiting(self: Any, work: Callable[[], Made], said: str = "wait.scene") -> Made:
+    stage: Stage
+    clock: Clock
+    context: Context
+    on_frame: Callable[[], None]
+    _closed: bool
+    _passed: float
+
+    @abstractmethod
+    def _pump(self) -> float: ...
+
+    @abstractmethod
+    def _graphics(self) -> AbstractContextManager[None]: ...
+
+    @abstractmethod
+    def _flip(self) -> float: ...
+
+    @abstractmethod
+    def _escape_pressed(self) -> bool: ...
+
+    @abstractmethod
+    def confirm_leaving(self) -> None: ...
+
+    @abstractmethod
+    def _draw_page(self, form: Form) -> bool: ...
+
+    def waiting(self, work: Callable[[], Made], said: str = "wait.scene") -> Made:
         """Do what takes time and no graphics, and say so. Raises Leave if the session is to end."""
         say = partial(self._say, said)
         return meanwhile(work, say, 0.0 if self.stage.on_page else PATIENCE)
 
-    def _say(self: Any, said: str) -> None:
+    def _say(self, said: str) -> None:
         self._pump()
         with self._graphics():
             self.stage.draw_waiting(said, self.context.screen, self._passed)
@@ -62,12 +95,12 @@ class Waits:
             self.confirm_leaving()
             self.stage.last = shown
 
-    def prepare(self: Any, page: Page) -> None:
+    def prepare(self, page: Page) -> None:
         """Have ready what a page shows. Raises Leave if the session is to end."""
         if page.takes_time:
             self.waiting(page.prepare, "wait.scene" if page.shows_scenes else "wait.page")
 
-    def present(self: Any, page: Page, answers: Answers, seconds: float) -> None:
+    def present(self, page: Page, answers: Answers, seconds: float) -> None:
         """Show a page that somebody else has filled in. Raises Leave on Esc or a closed window."""
         self.prepare(page)
         form = Form(page, dict(answers))

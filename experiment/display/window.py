@@ -33,7 +33,6 @@ from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.key_names import KEY_NAMES
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.study.study_tables import DisplayTable
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import (
     Event,
@@ -50,6 +49,7 @@ from seethrough.tasks.kit.events import (
 )
 
 if TYPE_CHECKING:
+    from seethrough.experiment.study.study_tables import DisplayTable
     from seethrough.renderer.techniques.base import Parameters
 
 FLIPS = 30  # that measure the refresh rate: half a second at 60 Hz

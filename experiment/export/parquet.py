@@ -8,7 +8,7 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
-from seethrough.analysis.written import FILE
+from seethrough.analysis.files.written import FILE
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.dataset import Dataset
 from seethrough.experiment.files.private import make_folder

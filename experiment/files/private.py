@@ -9,7 +9,7 @@ import errno
 import os
 from pathlib import Path
 
-from seethrough.analysis.written import FILE, FOLDER, half_of
+from seethrough.analysis.files.written import FILE, FOLDER, half_of
 from seethrough.experiment.errors import InputError
 
 NO_LINKS = (errno.EPERM, errno.ENOTSUP, errno.EMLINK, errno.ENOSYS)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -16,7 +15,10 @@ from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.renderer.techniques import named
+from seethrough.renderer.techniques import changed, named
+from seethrough.renderer.techniques.base import Parameters
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 RED, GREY, BLUE, GREEN = (0.9, 0.2, 0.1), (0.7, 0.7, 0.65), (0.2, 0.5, 0.9), (0.3, 0.75, 0.35)
 CAMERA = look_at(np.array([0.0, 0.6, 9.0]), np.zeros(3), fov_y=0.5, near=1, far=60)
@@ -32,7 +34,7 @@ class Failure:
     `worse` than the bound that a good picture keeps to."""
 
     words: str
-    parameters: Any
+    parameters: Parameters
     scene: Scene
     measure: Measure
     bound: float
@@ -40,21 +42,20 @@ class Failure:
 
     def measured(self) -> float:
         """The measure, on the exact pictures."""
-        standard = named("standard")
         return self.measure(
             exact(self.scene, self.camera, self.parameters, SIZE),
             self._alone(),
-            exact(self.scene, self.camera, standard, SIZE),
+            exact(self.scene, self.camera, Standard(), SIZE),
         )
 
     def _alone(self) -> ExactPicture:
         """Each target as if nothing else were there, not even other targets."""
         targets = [o for o in self.scene.objects if o.target]
         every = Scene(tuple(targets), self.scene.background)
-        together = exact(every, self.camera, named("standard"), SIZE)
+        together = exact(every, self.camera, Standard(), SIZE)
         for k, target in enumerate(targets):
             alone = Scene((target,), self.scene.background)
-            together.weights[k] = exact(alone, self.camera, named("standard"), SIZE).weights[0]
+            together.weights[k] = exact(alone, self.camera, Standard(), SIZE).weights[0]
         return together
 
 
@@ -90,8 +91,9 @@ def void(k: int) -> Measure:
     return measure
 
 
-def _wall(z: float = 2.0, **more: Any) -> Object:
-    return Object(geometry.box(7, 5, 0.2), transforms.translation(0, 0, z), GREY, **more)
+def _wall(z: float = 2.0, target: bool = False, impenetrable: bool = False) -> Object:
+    place = transforms.translation(0, 0, z)
+    return Object(geometry.box(7, 5, 0.2), place, GREY, target=target, impenetrable=impenetrable)
 
 
 def _ball(x: float, z: float, radius: float = 0.8) -> Object:
@@ -129,102 +131,101 @@ def failures() -> dict[str, Failure]:
     crate = Object(geometry.box(1.6, 1.6, 1.6), at(0, 0, 2), GREEN, kind="crate")
     row = [Object(geometry.box(0.5, 0.5, 0.5), at(0.9 * k - 1.8, 0, 0), BLUE) for k in range(5)]
     lens = named("lens")
-    return {
-        "standard": Failure(
-            "What is behind a wall is not there", named("standard"), Scene(one), hidden(0), 0.99
-        ),
-        "dynamic": Failure(
+    every = (
+        Failure("What is behind a wall is not there", Standard(), Scene(one), hidden(0), 0.99),
+        Failure(
             "Eight panes leave little of the target, each as clear as it may be",
-            named("dynamic"),
+            DynamicTransparency(),
             Scene((*_panes(8), _ball(0, -2))),
             hidden(0),
             0.9,
         ),
-        "constant": Failure(
+        Failure(
             "Through twelve layers nothing can be seen",
             named("constant"),
             Scene((*_panes(12), _ball(0, -2))),
             hidden(0),
             0.95,
         ),
-        "see_through": Failure(
+        Failure(
             "What hides the target has no tag",
             named("see_through"),
             Scene((crate, _ball(0, -2, 0.4))),
             hidden(0),
             0.99,
         ),
-        "cutaway": Failure(
+        Failure(
             "An open mesh has no inside: the cut shows a hole, not a wall",
             named("cutaway"),
             Scene((_open(), _ball(0, 0, 0.5))),
             void(0),
             0.3,
         ),
-        "adaptive_cutaway": Failure(
+        Failure(
             "A wide angle takes the context away with the occluder",
-            replace(named("adaptive_cutaway"), angle=70.0),
+            changed(named("adaptive_cutaway"), angle=70.0),
             Scene(one),
             gone_of_wall,
             0.8,
         ),
-        "breakaway": Failure(
+        Failure(
             "Targets in line: the hole before the far one ends at the near one",
             named("breakaway"),
             Scene((_wall(), *far)),
             hidden(1),
             0.99,
         ),
-        "lens": Failure(
+        Failure(
             "The lens ends before the wall, at the wrong depth",
-            replace(lens, depth=4.0),
+            changed(lens, depth=4.0),
             Scene(one),
             hidden(0),
             0.99,
         ),
-        "dig": Failure(
+        Failure(
             "Nobody has dug: the technique ignores targets",
             named("dig"),
             Scene(one),
             hidden(0),
             0.99,
         ),
-        "importance": Failure(
+        Failure(
             "Several layers before a target are sparse one by one, and hide it together",
             named("importance"),
             Scene((*_panes(8), _ball(0, -2))),
             hidden(0),
             0.85,
         ),
-        "fade": Failure(
+        Failure(
             "The target is elsewhere: only what the pointer is at turns transparent",
             named("fade"),
             Scene((_wall(), _ball(2.2, -2, 0.6))),
             hidden(0),
             0.99,
         ),
-        "view_dependent": Failure(
+        Failure(
             "A flat wall that faces the viewer vanishes",
             named("view_dependent"),
             Scene(one),
             gone(0),
             0.85,
         ),
-        "blueprint": Failure(
+        Failure(
             "Lines of many layers clutter what is behind them",
             named("blueprint"),
             Scene((*_bars(4), _ball(0, -2))),
             hidden(0),
             0.7,
         ),
-        "balloon": Failure(
+        Failure(
             "What stood side by side is torn apart",
-            replace(named("balloon"), radius=2.5, depth=9.0),
+            changed(named("balloon"), radius=2.5, depth=9.0),
             Scene((*row,)),
             moved,
             0.2,
         ),
-    }
+    )
+    return {failure.parameters.technique.name: failure for failure in every}
 
 
 def gone_of_wall(picture: ExactPicture, alone: ExactPicture, plain: ExactPicture) -> float:

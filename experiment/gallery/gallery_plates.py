@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
@@ -25,7 +24,7 @@ class Plate:
     camera: Camera
     technique: Parameters
     size: tuple[int, int] = SIZE
-    state: Any = None
+    state: object = None
 
 
 @dataclass(frozen=True, eq=False)

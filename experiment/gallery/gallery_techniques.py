@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import fields, replace
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from seethrough.experiment.gallery.gallery_plates import Plate, Section
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
-from seethrough.renderer.techniques.base import Shot
+from seethrough.renderer.techniques.base import Parameters, Shot
 from seethrough.tasks.kit import events
 from seethrough.tasks.kit.controls import orbit
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
@@ -51,13 +51,13 @@ def sections(stage: tuple[Scene, Camera], aspect: float, seed: int) -> Iterator[
     )  # fmt: skip
 
 
-def placed(name: str, shot: Shot, reach: float) -> tuple[Any, Any]:
+def placed(name: str, shot: Shot, reach: float) -> tuple[Parameters, object]:
     """A technique's parameters and state, with its pointer somewhere, its volumes as large as the
     scene asks and up to a depth, and things transparent that have no tag."""
     p = named(name)
     known = {field.name for field in fields(p)}
     scale = reach / 11.5
-    values: dict[str, Any] = {"depth": reach} if "depth" in known else {}
+    values: dict[str, object] = {"depth": reach} if "depth" in known else {}
     values |= {"radius": 1.1 * scale} if name == "dig" else {}
     values |= {"radius": 2.6 * scale} if name == "balloon" else {}
     if "kinds" in known and "wall" not in {thing.kind for thing in shot.scene.objects}:
@@ -72,5 +72,9 @@ def placed(name: str, shot: Shot, reach: float) -> tuple[Any, Any]:
 
 def _plate(name: str, where: str, shot: Shot, reach: float) -> Plate:
     p, state = placed(name, shot, reach)
+    if "kinds" in {field.name for field in fields(p)}:
+        # Of one kind only, so that it is not taken for constant transparency.
+        kinds = Counter(o.kind for o in shot.scene.objects if not o.target)
+        p = replace(p, kinds=(kinds.most_common(1)[0][0],))
     title = f"{p.technique.title}, {where}"
     return Plate(f"technique-{where}-{name}", title, shot.scene, shot.camera, p, state=state)

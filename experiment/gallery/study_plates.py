@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from PIL import Image
 
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.tasks.catalog import TASKS
+
+if TYPE_CHECKING:
+    from moderngl import Context
+
 
 MOST = 60  # plates of a picture
 TITLE = 22  # pixels of the words above a plate
@@ -26,7 +31,7 @@ def first_trials(study: Study) -> list[Trial]:
     return [found[key] for key in sorted(found, key=lambda key: (order[key[:-1]], key[-1]))]
 
 
-def plates(study: Study, context: Any, size: tuple[int, int], samples: int) -> Any:
+def plates(study: Study, context: Context, size: tuple[int, int], samples: int) -> Image.Image:
     """A picture of all plates (Pillow), each with the levels and the task above it. Raises
     ValueError where there are too many."""
     from PIL import Image, ImageDraw

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import sqlalchemy as sql
+from sqlalchemy import Row
 from sqlalchemy.engine import Connection, Engine
 
 from seethrough.experiment.errors import InputError
@@ -359,7 +360,7 @@ def _said(entry: Entry) -> str:
     return f"{entry.status} since {entry.changed}" + (f" ({entry.why})" if entry.why else "")
 
 
-def _plan(row: Any) -> Plan:
+def _plan(row: Row[Any]) -> Plan:
     return Plan(
         row.name, row.digest, row.rows, row.participants, row.stale_after, json.loads(row.resolved)
     )

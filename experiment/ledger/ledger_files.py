@@ -8,7 +8,6 @@ import os
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, check_participant, folder_of, taken
@@ -108,7 +107,7 @@ def _found(data: Path, name: str, now: datetime) -> Entry | None:
     first = _read(sidecars[0])
     complete = any(ends_complete(folder))
     try:
-        slot, began = int(first["slot"]), stamp(min(now, moment(str(first["started"]))))
+        slot, began = int(str(first["slot"])), stamp(min(now, moment(str(first["started"]))))
     except (KeyError, TypeError, ValueError):
         raise InputError(f"{sidecars[0]}: expected a slot and when it started") from None
     return Entry(slot, name, COMPLETE if complete else LIVE, began, began)
@@ -120,7 +119,7 @@ def ends_complete(folder: Path) -> list[bool]:
     return [end.get("status") == "complete" for end in ends]
 
 
-def _read(path: Path) -> dict[str, Any]:
+def _read(path: Path) -> dict[str, object]:
     try:
         value = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError) as error:

@@ -22,7 +22,7 @@ class Plan:
     rows: int
     participants: int
     stale_after: float
-    resolved: Mapping[str, Any]
+    resolved: Mapping[str, Any]  # as JSON has it
 
     @property
     def groups(self) -> tuple[Places, ...]:
@@ -60,8 +60,8 @@ def difference(known: Plan, plan: Plan) -> str:
     )
 
 
-def _flat(table: Mapping[str, object], prefix: str = "") -> dict[str, Any]:
-    flat: dict[str, Any] = {}
+def _flat(table: Mapping[str, object], prefix: str = "") -> dict[str, object]:
+    flat: dict[str, object] = {}
     for key, value in table.items():
         if isinstance(value, Mapping):
             flat |= _flat(value, f"{prefix}{key}.")

@@ -11,7 +11,6 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import sqlalchemy as sql
 from sqlalchemy.engine import URL, Connection, Engine, make_url
@@ -143,7 +142,7 @@ def _sqlite(url: URL) -> Engine:
     journal = "DELETE" if network_drive(Path(url.database)) else "WAL"
 
     @sql.event.listens_for(engine, "connect")
-    def _(connection: Any, _: object) -> None:
+    def _(connection: sqlite3.Connection, _: object) -> None:
         connection.isolation_level = None  # the driver begins no transactions of its own
         for pragma in (f"journal_mode={journal}", "synchronous=FULL", "foreign_keys=ON"):
             connection.execute(f"PRAGMA {pragma}")

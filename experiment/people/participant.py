@@ -18,7 +18,7 @@ from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons.person import Person, mood_for
 from seethrough.renderer.scene.visibility import Visibility
-from seethrough.renderer.techniques.base import Own
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease
@@ -77,7 +77,7 @@ class SimulatedParticipant:
         look: Callable[[], Visibility],
         now: float,
         task: str,
-        drawn_with: Own = None,
+        drawn_with: Parameters | None = None,
         aspect: float = 4 / 3,
     ) -> list[Event]:
         """What it does next, at times from `now` on. It may think first: the times say so.

@@ -10,7 +10,7 @@ from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.session.strangers import called
 from seethrough.renderer.scene.visibility import Visibility
-from seethrough.renderer.techniques.base import Own
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event, Tick
 
@@ -23,8 +23,8 @@ class Looks(Protocol):
         """Width / height of the view."""
 
     @property
-    def technique(self) -> Own:
-        """What the view shown last is drawn with."""
+    def technique(self) -> Parameters | None:
+        """What the view shown last is drawn with; None before the first."""
 
     def look(self) -> Visibility:
         """What can be seen in the view shown last."""

@@ -12,7 +12,6 @@ from math import inf
 
 import numpy as np
 from numpy.random import SeedSequence
-from numpy.typing import NDArray
 
 from seethrough.analysis.stats.ranks import share_interval
 from seethrough.analysis.stats.undefined import is_defined
@@ -20,7 +19,6 @@ from seethrough.experiment.power.closed import ENOUGH
 from seethrough.experiment.power.decisions import Planned, Results, Test, decide, run
 from seethrough.experiment.power.sources import Source
 
-Array = NDArray[np.float64]
 ANALYSIS = 3  # first word of the streams (CONVENTIONS.md)
 AT_ONCE = 2_000_000  # scores drawn at a time: memory stays below 100 MB
 

@@ -13,8 +13,8 @@ from seethrough.analysis.cells import people as people_of
 from seethrough.analysis.design import Design
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.exclude import apply_rules
+from seethrough.analysis.load.plan import make_plan
 from seethrough.analysis.load.study import load_study
-from seethrough.analysis.plan import make_plan
 from seethrough.analysis.sections.context import Context
 from seethrough.analysis.sections.measured import OVERALL, pair_key, pairs_of
 from seethrough.experiment.errors import InputError
@@ -22,6 +22,7 @@ from seethrough.experiment.power.planned import Plans, Score, groups_of
 from seethrough.experiment.power.sources import Sampled
 
 Array = NDArray[np.float64]
+ASKED = ("factors", "tasks", "excluded", "predictions")  # of a design, what scores rest on
 
 
 def context_of(folder: Path, source: str | None, design: Design) -> Context:
@@ -33,11 +34,10 @@ def context_of(folder: Path, source: str | None, design: Design) -> Context:
         study = load_study(folder, source)
     except DataError as error:
         raise DataError(f"--effect = {folder}: {line}" for line in error.lines) from None
-    if study.design != design:
-        raise InputError(
-            f"--effect = {folder}: expected data of this study: its factors, tasks, measures or "
-            "predictions are others"
-        )
+    other = [part for part in ASKED if getattr(study.design, part) != getattr(design, part)]
+    if other:
+        words = "levels left out" if other == ["excluded"] else " and ".join(other)
+        raise InputError(f"--effect = {folder}: expected data of this study: other {words} there")
     plan = make_plan(study)
     trials, excluded = apply_rules(study.trials, plan.exclude, plan.too_fast)
     return Context(study, plan, trials, excluded, 1)

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, Protocol, runtime_checkable
+from typing import Generic, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
+from typing_extensions import TypeVar
 
 from seethrough.experiment.pages.pages import Answers, Asked, Block, Page, Paragraph
-from seethrough.renderer.look.look import Look
-from seethrough.tasks.kit.world import Texts
+from seethrough.renderer.declared import Declares
+from seethrough.renderer.scene.look import Look
+from seethrough.renderer.techniques.base import Parameters
+from seethrough.tasks.kit.world import Texts, WorldParameters
 
 Row = Mapping[str, str]
 
@@ -24,10 +27,10 @@ class Places(Protocol):
     def seed(self) -> int:
         """The study's seed."""
 
-    def place(self, world: str) -> Any:
+    def place(self, world: str) -> WorldParameters:
         """The study's parameters of a world."""
 
-    def technique(self, about: Mapping[str, str]) -> Any:
+    def technique(self, about: Mapping[str, str]) -> Parameters:
         """What frames are drawn with at these levels."""
 
     def look(self, about: Mapping[str, str]) -> Look:
@@ -62,7 +65,20 @@ class Respondent(Protocol):
         """Answers by what the page is made of: what was quick is liked."""
 
 
-class Question(Protocol):
+class Titled(Declares, Protocol):
+    """Parameters of a question that stands on a page of its own."""
+
+    @property
+    def title(self) -> str:
+        """The name of the text above it; "" says which levels it is about."""
+
+
+# Parameters of a kind; who only hands them on need not know what they are.
+PTo = TypeVar("PTo", bound=Declares, contravariant=True, default=Declares)
+P = TypeVar("P", bound=Titled, default=Titled)
+
+
+class Question(Protocol[PTo]):
     """A kind of question, without state: parameters go in, pages and rows come out."""
 
     @property
@@ -78,35 +94,35 @@ class Question(Protocol):
         """Where it is from."""
 
     @property
-    def Parameters(self) -> Any:
+    def Parameters(self) -> type[Declares]:
         """The frozen dataclass of what a study may set."""
 
     @property
-    def example(self) -> Any:
+    def example(self) -> Declares:
         """Parameters that show it."""
 
     @property
     def texts(self) -> Texts:
         """What it says to participants."""
 
-    def count(self, p: Any) -> int:
+    def count(self, p: PTo) -> int:
         """How many pages it has."""
 
-    def pages(self, p: Any, asking: Asking) -> tuple[Page, ...]:
+    def pages(self, p: PTo, asking: Asking) -> tuple[Page, ...]:
         """The pages that ask it, in order."""
 
-    def rows(self, p: Any, asking: Asking, number: int, answers: Answers) -> list[Row]:
+    def rows(self, p: PTo, asking: Asking, number: int, answers: Answers) -> list[Row]:
         """What the answers to page `number` (from 0) are in the questionnaire's table. Raises
         Leave where they say that the session is over."""
 
-    def last(self, p: Any, asking: Asking, number: int) -> tuple[str, ...]:
+    def last(self, p: PTo, asking: Asking, number: int) -> tuple[str, ...]:
         """Items one of which says that page `number` was answered: its rows are written at once, in
         order."""
 
-    def items(self, p: Any, name: str) -> Mapping[str, str]:
+    def items(self, p: PTo, name: str) -> Mapping[str, str]:
         """What it may write: item → its meaning."""
 
-    def simulate(self, p: Any, page: Page, person: Respondent) -> Answers:
+    def simulate(self, p: PTo, page: Page, person: Respondent) -> Answers:
         """How a simulated person fills in a page."""
 
 
@@ -114,37 +130,39 @@ class Question(Protocol):
 class Weighs(Protocol):
     """A kind some of whose items only lead to others: the report leaves them out."""
 
-    def behind(self, p: Any) -> tuple[str, ...]:
+    def behind(self, p: object) -> tuple[str, ...]:
         """The names of these items."""
 
 
-class OnOnePage:
+class OnOnePage(Generic[P]):
     """What kinds share that ask on a single page: they say their blocks, rows and items alone."""
 
-    def blocks(self, p: Any, asking: Asking) -> tuple[Asked, ...]:
+    def blocks(self, p: P, asking: Asking) -> tuple[Asked, ...]:
         """What is to be filled in."""
         raise TypeError(f"{type(self).__name__}: expected `blocks`")
 
-    def count(self, p: Any) -> int:
+    def count(self, p: P) -> int:
         """One."""
         return 1
 
-    def pages(self, p: Any, asking: Asking) -> tuple[Page, ...]:
+    def pages(self, p: P, asking: Asking) -> tuple[Page, ...]:
         """The page."""
         return (page(asking, p.title, self.blocks(p, asking)),)
 
-    def last(self, p: Any, asking: Asking, number: int) -> tuple[str, ...]:
+    def last(self, p: P, asking: Asking, number: int) -> tuple[str, ...]:
         """The last item that has to have an answer; any, where none has to."""
         asked = self.blocks(p, asking)
         needed = [b.name for b in asked if not b.optional]
         return (needed[-1],) if needed else tuple(b.name for b in asked)
 
-    def simulate(self, p: Any, page: Page, person: Respondent) -> Answers:
+    def simulate(self, p: P, page: Page, person: Respondent) -> Answers:
         """By what the page is made of."""
         return person.by_blocks(page)
 
 
-def page(asking: Asking, title: str, blocks: tuple[Block, ...], **more: Any) -> Page:
+def page(
+    asking: Asking, title: str, blocks: tuple[Block, ...], buttons: tuple[str, ...] = ("continue",)
+) -> Page:
     """A page of a question's; without a title of its own it says which levels it is about."""
     levels = tuple(asking.about.values())
     name = " ".join((asking.name, *levels))
@@ -152,7 +170,7 @@ def page(asking: Asking, title: str, blocks: tuple[Block, ...], **more: Any) -> 
     if not title:
         title = "question.title"
         blocks = (*(Paragraph(f"name.{level}") for level in levels), *blocks)
-    return Page(name, title, blocks, about=about, **more)
+    return Page(name, title, blocks, about=about, buttons=buttons)
 
 
 def row(item: str, value: str, **more: str) -> Row:

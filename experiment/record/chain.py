@@ -17,9 +17,8 @@ import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
-from seethrough.analysis.load.files import read_json
+from seethrough.analysis.load.files import read_json, table_in
 from seethrough.analysis.load.person import Folder
 
 TRIALS_TABLE, SIDECAR, END = "_trials_data.csv", "_trials_data.json", "_end.json"
@@ -31,9 +30,13 @@ def link(before: str, text: str) -> str:
     return hashlib.sha256((before + text).encode("utf-8", "replace")).hexdigest()
 
 
-def start_of(sidecar: Mapping[str, Any], header: str) -> str:
+def start_of(sidecar: Mapping[str, object], header: str) -> str:
     """Where a session's chain starts: its sidecar (but for `chain.start` itself) and header."""
-    chain = {key: value for key, value in sidecar.get("chain", {}).items() if key != "start"}
+    chain = {
+        key: value
+        for key, value in table_in({"chain": {}, **sidecar}, "chain").items()
+        if key != "start"
+    }
     plain = json.dumps({**sidecar, "chain": chain}, sort_keys=True, ensure_ascii=False)
     return link(plain, header)
 
@@ -54,7 +57,8 @@ def end_of(table: Path) -> str:
     lines = table.read_text(encoding="utf-8", errors="replace").split("\n")[1:-1]
     if lines:
         return lines[-1].rpartition(",")[2]
-    return str(read_json(table.with_suffix(".json"), table.parent)["chain"]["start"])
+    sidecar = read_json(table.with_suffix(".json"), table.parent)
+    return str(table_in(sidecar, "chain")["start"])
 
 
 def loose_files(table: Path, killed: bool = False) -> dict[str, str]:

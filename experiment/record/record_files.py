@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seethrough.analysis.written import FILE
+from seethrough.analysis.files.written import FILE
 from seethrough.experiment.files.private import refused, sync_folder, write, write_new
 from seethrough.experiment.record.chain import link
 from seethrough.experiment.record.columns import Column

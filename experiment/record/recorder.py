@@ -14,7 +14,7 @@ from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field, fields
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from seethrough.analysis.load.person import Folder
 from seethrough.experiment.errors import InputError
@@ -33,9 +33,11 @@ from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import Table, Traces, ask_again, header_of, mend
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.study.design import Trial
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import Event
+
+if TYPE_CHECKING:
+    from seethrough.experiment.study.design import Trial
 
 
 @dataclass(frozen=True)
@@ -102,17 +104,18 @@ class FileRecorder:
             if place.is_symlink():  # whoever planted it would get what is recorded
                 raise InputError(f"{place}: a link: expected a folder of this study's own")
         make_folder(self.folder / "traces")
-        content: dict[str, Any] = {"started": self._now(), **asdict(self.who), "chain": {}}
+        chain: dict[str, object] = {}
+        content = {"started": self._now(), **asdict(self.who), "chain": chain}
         before = latest_table(self.folder)
         if before is not None:
             _check_before(self.folder, data)
             content["mended"] = mend(self.folder)
-            content["chain"]["follows"] = end_of(before)
+            chain["follows"] = end_of(before)
             if not before.with_name(before.name.replace(TRIALS_TABLE, END)).exists():
                 # It was killed: nothing else holds them.
-                content["chain"]["holds"] = loose_files(before, killed=True)
+                chain["holds"] = loose_files(before, killed=True)
         start = start_of(content, header_of(self._columns["trials"]))
-        content["chain"]["start"] = start
+        chain["start"] = start
         write_new(sidecar, _json(content))
         try:
             return Table(table, self._columns["trials"], start, self._guard)
@@ -253,7 +256,7 @@ def _json(content: Mapping[str, object]) -> str:
     return json.dumps(content, indent=2) + "\n"
 
 
-def trial_row(record: TrialRecord) -> dict[str, Any]:
+def trial_row(record: TrialRecord) -> dict[str, object]:
     """What a trial's record says about its row of the trial table."""
     trial, outcome = record.trial, record.outcome
     row = {

@@ -17,8 +17,8 @@ import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from seethrough.analysis.load.files import table_in
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import folder_of
 from seethrough.experiment.files.private import make_folder, sync_folder, write_new
@@ -56,11 +56,15 @@ def _session(folder: Path, sidecar: Path) -> Session:
     stem = sidecar.name.removesuffix(SIDECAR)
     about, end = _json(sidecar), folder / f"{stem}{END}"
     try:
-        chain, number = about["chain"], int(about["session"])
+        chain, number = table_in(about, "chain"), int(str(about["session"]))
         text = (folder / f"{stem}{TRIALS_TABLE}").read_text("utf-8")
-        values = (chain["start"], *(line.rpartition(",")[2] for line in text.split("\n")[1:-1]))
+        values = (
+            str(chain["start"]),
+            *(line.rpartition(",")[2] for line in text.split("\n")[1:-1]),
+        )
         ended = str(_json(end).get("status", "")) if end.is_file() else "broken off"
-        follows, holds = str(chain.get("follows", "")), dict(chain.get("holds", {}))
+        follows = str(chain.get("follows", ""))
+        holds = {k: str(v) for k, v in table_in({"holds": {}, **chain}, "holds").items()}
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise InputError(f"{sidecar}: expected a session's sidecar and table: {error}") from None
     return Session(number, stem, str(about.get("started", "")), ended, follows, values, holds)
@@ -177,7 +181,7 @@ def _as_it_was(path: Path, digest: str) -> bytes:
     raise InputError(f"{path}: was changed since the session that follows began: cannot be cut")
 
 
-def _json(path: Path) -> dict[str, Any]:
+def _json(path: Path) -> dict[str, object]:
     try:
         return dict(json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError, TypeError, RecursionError) as error:

@@ -11,10 +11,9 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.load.chain import read_rows
-from seethrough.analysis.load.files import Source
+from seethrough.analysis.load.files import Source, table_in
 from seethrough.analysis.load.person import CHUNK, Session
 from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
@@ -29,7 +28,8 @@ from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.plugin_files import kept as kept_plugins
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.experiment.study.translations import texts_of
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
@@ -55,7 +55,7 @@ class Recorded:
     samples: int
 
     @property
-    def technique(self) -> Any:
+    def technique(self) -> Parameters:
         """What the trial was drawn with."""
         return self.study.part(self.trial.levels).technique
 
@@ -129,12 +129,12 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
     if session.sidecar is None:
         raise InputError(f"{sidecar}: missing: a replay needs to know how it was shown")
     try:
-        provenance = session.sidecar["provenance"]
-        display = provenance["display"]
-        width, height = (int(v) for v in display["size"].split("x"))
-        samples = int(display.get("samples", 0))
-        kept_plugins(provenance["study"], data)
-        study = parse(provenance["study"], str(sidecar), before=True)
+        provenance = table_in(session.sidecar, "provenance")
+        display = table_in(provenance, "display")
+        width, height = (int(v) for v in str(display["size"]).split("x"))
+        samples = int(str(display.get("samples", 0)))
+        kept_plugins(table_in(provenance, "study"), data)
+        study = parse(table_in(provenance, "study"), str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
     study = study.with_places(lambda place: kept(place, data))
@@ -153,7 +153,7 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
             raise InputError(f"{table.parent / name}: not in this folder: expected the trial's log")
     events, camera = (table.parent / name for name in traces)
     return Recorded(
-        study, trial, row, events, camera, (width, height), display.get("renderer", "unknown"),
+        study, trial, row, events, camera, (width, height), str(display.get("renderer", "unknown")),
         samples,
     )  # fmt: skip
 

@@ -15,7 +15,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.study import Study
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.base import NoParameters, Outcome, View
+from seethrough.tasks.kit.base import NoParameters, Outcome, Task, View
 from seethrough.tasks.kit.events import Event, Tick
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS
@@ -28,7 +28,7 @@ def played(study: Study, slot: int) -> list[TrialRecord]:
     """The records of a slot's session; every answer is right, every page filled in somehow."""
     clock = SimulatedClock()
     hand, records = _Hand(clock), _Records()
-    scenes: Any = _NoScenes()
+    scenes: Any = _NoScenes()  # neither scenes nor tasks are asked for more than this
     run_session(study, slot, Surroundings(hand, hand, clock, records, _Tasks(), scenes=scenes))
     return records.ended
 
@@ -58,7 +58,7 @@ class _Task:
         return None
 
 
-class _Tasks(Mapping[str, Any]):
+class _Tasks(Mapping[str, Task]):
     """A task of every name."""
 
     def __getitem__(self, name: str) -> Any:
@@ -74,7 +74,7 @@ class _Tasks(Mapping[str, Any]):
 class _NoScenes:
     """Begins a trial without a scene."""
 
-    def begin(self, task: Any, trial: Any, aspect: float) -> object:
+    def begin(self, task: Any, trial: object, aspect: float) -> object:
         return task.begin(None, None, aspect)
 
 
@@ -86,7 +86,7 @@ class _Hand:
     def __init__(self, clock: SimulatedClock) -> None:
         self._clock = clock
 
-    def show(self, view: View, technique: Any) -> float:
+    def show(self, view: View, technique: object) -> float:
         return self._clock.now()
 
     def digest(self) -> str:
@@ -123,19 +123,19 @@ class _Records:
     def trial_ends(self, record: TrialRecord) -> None:
         self.ended.append(record)
 
-    def trial_begins(self, trial: Any) -> None:
+    def trial_begins(self, trial: object) -> None:
         return None
 
-    def event(self, event: Any) -> None:
+    def event(self, event: object) -> None:
         return None
 
-    def frame(self, time: float, view: Any, digest: str = "") -> None:
+    def frame(self, time: float, view: object, digest: str = "") -> None:
         return None
 
-    def answers(self, rows: Any) -> None:
+    def answers(self, rows: object) -> None:
         return None
 
-    def note(self, trial: Any, text: str) -> None:
+    def note(self, trial: object, text: str) -> None:
         return None
 
     def close(self, status: str) -> None:

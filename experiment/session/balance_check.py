@@ -35,9 +35,10 @@ def table_of(study: Study, slots: Iterable[int]) -> list[Met]:
     names = study.plan.names
     found = []
     for slot in slots:
-        for row in map(trial_row, played(study, slot)):
-            levels = {name: row[name] for name in names}
-            found.append(Met(slot, row["block"], levels, row["task"], row["scene"]))
+        for trial in (trial_row(record) for record in played(study, slot)):
+            levels = {name: str(trial[name]) for name in names}
+            block = int(str(trial["block"]))
+            found.append(Met(slot, block, levels, str(trial["task"]), str(trial["scene"])))
     return found
 
 

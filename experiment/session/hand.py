@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from seethrough.renderer.look.look import PLAIN, Look
-from seethrough.renderer.techniques.base import Own, Shot
+from seethrough.renderer.scene.look import PLAIN, Look
+from seethrough.renderer.techniques.base import Parameters, Shot
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.events import (
     Event,
@@ -30,7 +30,7 @@ class Hand:
     trial's look."""
 
     def __init__(
-        self, technique: Own, aspect: float, look: Look = PLAIN, window: int = HEIGHT
+        self, technique: Parameters, aspect: float, look: Look = PLAIN, window: int = HEIGHT
     ) -> None:
         """`window`: how many pixels high the window is that the study is made for."""
         self._technique, self._rules, self._look = technique, technique.technique, look

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.display import refresh
 from seethrough.experiment.display.clock import RealClock
@@ -36,7 +36,7 @@ def play_in_window(
     data: Path,
     clock: RealClock,
     watched: SimulatedParticipant | None = None,
-    about: Mapping[str, Any] | None = None,
+    about: Mapping[str, object] | None = None,
     guard: Callable[[], None] = lambda: None,
 ) -> str:
     """Play a slot's session in a window; how it ended. Raises InputError.
@@ -61,8 +61,9 @@ def play_in_window(
         described = provenance(study, window.describe(), speed=clock.speed, **(about or {}))
         if start.made is not None:
             # The study is the same, or it would be refused; the program need not be.
-            described["changed_since"] = changed_since(start.made, described)
-            for line in described["changed_since"]:
+            changed = changed_since(start.made, described)
+            described["changed_since"] = changed
+            for line in changed:
                 print(f"since the session before: {line}", file=sys.stderr, flush=True)
         who = Who(
             study.study.name, participant, source, start.slot, described, start.session,

@@ -6,7 +6,7 @@ import shutil
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +22,10 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.transforms import rotation_y
 from seethrough.tasks.catalog import TASKS
 
+if TYPE_CHECKING:
+    from moderngl import Context
+
+
 TURN = 0.5  # rad/s of the view while frames are timed: every frame is another picture
 
 
@@ -35,7 +39,7 @@ class FrameTimes:
     missed: float
 
 
-def frame_times(study: Study, trial: Trial, context: Any, seconds: float) -> FrameTimes:
+def frame_times(study: Study, trial: Trial, context: Context, seconds: float) -> FrameTimes:
     """Draw a trial's first view, turning, for so long."""
     size = (study.display.width, study.display.height)
     task = TASKS[trial.task]

@@ -12,7 +12,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.study import Study
-from seethrough.tasks.kit.base import Task
+from seethrough.tasks.kit.base import Task, opaque
 from seethrough.tasks.kit.measure import CONFIDENCE
 from seethrough.tasks.kit.unsure import Unsure
 
@@ -21,8 +21,9 @@ STEPS = 5  # of confidence, counted from 1
 
 def as_asked(task: Task, study: Study, trial: Trial) -> Task:
     """The task as the study wants it in a trial; a stranger's is watched."""
-    plain: Task = Watched(task) if is_stranger("task", trial.task) else task
-    return Unsure(plain) if study.part(trial.levels).limits.options(trial.task).unsure else plain
+    plain = Watched(task) if is_stranger("task", trial.task) else task
+    unsure = study.part(trial.levels).limits.options(trial.task).unsure
+    return opaque(Unsure(plain)) if unsure else plain
 
 
 def with_confidence(record: TrialRecord, study: Study, world: Surroundings) -> TrialRecord:

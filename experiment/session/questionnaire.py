@@ -10,14 +10,13 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import inf
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 from zlib import crc32
 
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.questions.choice.choice_question import ChoiceParameters
 from seethrough.experiment.questions.kit import Asking, Row
 from seethrough.experiment.questions.ranking.ranking_question import RankingParameters
-from seethrough.experiment.questions.ready import question
 from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
@@ -28,9 +27,13 @@ from seethrough.experiment.study.design import PARTICIPANT, generator
 from seethrough.experiment.study.factors import Levels
 from seethrough.experiment.study.question_table import Wanted
 from seethrough.experiment.study.reading import Question
+from seethrough.experiment.study.ready import question
 from seethrough.experiment.study.study import Study
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.declared import Declares
+from seethrough.renderer.scene.look import Look
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
+from seethrough.tasks.kit.world import WorldParameters
 
 Item = tuple[str, Pairs]  # item, and factor and level of what it is about; the trial, if it is one
 
@@ -74,7 +77,7 @@ class Planned:
     use: str
     about: Mapping[str, str] = field(default_factory=dict)
     of: tuple[str, ...] = ()
-    parameters: Any = None
+    parameters: Declares | None = None
     factor: str = ""
     cells: tuple[Levels, ...] = ()
     mark: Mapping[str, str] = field(default_factory=dict)
@@ -261,13 +264,14 @@ class StudyPlaces:
         """The study's seed."""
         return self.study.study.seed
 
-    def place(self, world: str) -> Any:
+    def place(self, world: str) -> WorldParameters:
         """The study's parameters of a world, or its defaults."""
         kind = WORLDS[world].Parameters
-        own = (place for place in self.study.places() if isinstance(place, kind))
-        return next(own, None) or self.study.parameters("world", world) or kind()
+        said = self.study.parameters("world", world)
+        own = (p for p in (*self.study.places(), said) if isinstance(p, kind))
+        return next(own, None) or kind()
 
-    def technique(self, about: Mapping[str, str]) -> Any:
+    def technique(self, about: Mapping[str, str]) -> Parameters:
         """What frames are drawn with at these levels."""
         return self.study.part(self.cells[-1]).technique
 

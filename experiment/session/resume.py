@@ -9,9 +9,9 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from seethrough.analysis.load.chain import LONGEST_CELL
+from seethrough.analysis.load.files import table_in
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import folder_of, next_free
 from seethrough.experiment.record.chain import ANSWERS_TABLE
@@ -32,7 +32,7 @@ class Past:
     given: Given
     slot: int
     digest: str
-    made: Mapping[str, Any]  # the latest session's provenance
+    made: Mapping[str, object]  # the latest session's provenance
 
 
 def past(data: Path, source: str, participant: str) -> Past | None:
@@ -51,14 +51,18 @@ def past(data: Path, source: str, participant: str) -> Past | None:
     for table in sorted(folder.glob("*_trials_data.csv")):
         attempts.update(_completed(table))
     return Past(
-        sessions=max(int(s.get("session", 1)) for s in said),
+        sessions=max(map(_session, said)),
         complete=any(e.get("status") == "complete" for e in ends),
         attempts=dict(attempts),
         given=_given(folder),
-        slot=int(said[0]["slot"]),
-        digest=str(said[0]["provenance"].get("study_sha256", "")),
-        made=max(said, key=lambda s: int(s.get("session", 1)))["provenance"],
+        slot=int(str(said[0]["slot"])),
+        digest=str(table_in(said[0], "provenance").get("study_sha256", "")),
+        made=table_in(max(said, key=_session), "provenance"),
     )
+
+
+def _session(sidecar: Mapping[str, object]) -> int:
+    return int(str(sidecar.get("session", 1)))
 
 
 @dataclass(frozen=True)
@@ -70,7 +74,7 @@ class Start:
     done: frozenset[int]
     attempts: Mapping[int, int]
     given: Given
-    made: Mapping[str, Any] | None = None  # provenance of the session that it goes on from
+    made: Mapping[str, object] | None = None  # provenance of the session that it goes on from
 
 
 def starting_point(study: Study, data: Path, source: str, participant: str, slot: int) -> Start:
@@ -154,9 +158,9 @@ def _rows(table: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
     return [dict(zip(header, row, strict=True)) for row in rows if len(row) == len(header)]
 
 
-def _json(path: Path) -> dict[str, Any]:
+def _json(path: Path) -> dict[str, object]:
     try:
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        found: dict[str, object] = json.loads(path.read_text(encoding="utf-8"))
         return found
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: not readable as JSON: {error}") from None

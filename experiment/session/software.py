@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from functools import cache
 from importlib import metadata
 from pathlib import Path
-from typing import Any
 
+from seethrough.analysis.load.files import table_in
 from seethrough.experiment.study.config import Study
 
 PACKAGES = ("seethrough", "moderngl", "pyglet", "numpy", "imgui-bundle", "pydantic")
@@ -28,7 +28,7 @@ def program_sha256(root: Path = ROOT) -> str:
     return digest.hexdigest()
 
 
-def provenance(study: Study, display: Mapping[str, str], **more: Any) -> dict[str, Any]:
+def provenance(study: Study, display: Mapping[str, str], **more: object) -> dict[str, object]:
     """Config as resolved and its hash, versions, machine, display, seeds."""
     return {
         "study": study.resolved(),
@@ -43,12 +43,12 @@ def provenance(study: Study, display: Mapping[str, str], **more: Any) -> dict[st
     }
 
 
-def changed_since(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+def changed_since(before: Mapping[str, object], now: Mapping[str, object]) -> list[str]:
     """What of the program is not as in an earlier session: `name: old, now new`."""
     parts = {"program": "program_sha256", "python": "python"}
     old = {name: str(before.get(key, "unknown"))[:12] for name, key in parts.items()}
     new = {name: str(now.get(key, "unknown"))[:12] for name, key in parts.items()}
-    was, is_ = dict(before.get("versions", {})), dict(now.get("versions", {}))
+    was, is_ = (table_in({"versions": {}, **made}, "versions") for made in (before, now))
     for name in sorted(was.keys() | is_.keys()):
-        old[name], new[name] = was.get(name, "not there"), is_.get(name, "not there")
+        old[name], new[name] = (str(v.get(name, "not there")) for v in (was, is_))
     return [f"{name}: {old[name]}, now {new[name]}" for name in old if old[name] != new[name]]

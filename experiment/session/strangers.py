@@ -23,6 +23,7 @@ from seethrough.experiment.errors import InputError, one_line
 from seethrough.tasks.kit.base import Example, Outcome, Setting, Task, View
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import FloorPlan
+from seethrough.tasks.kit.world import Place
 
 Made = TypeVar("Made")
 PATIENCE = 20.0  # s for one call: a hundred times what a participant would wait for
@@ -107,11 +108,11 @@ class Watched:
             raise PluginFailed(f"task {self.name}: {what}: gave {shown}, expected {wanted}")
         return found
 
-    def make_scene(self, rng: Generator, setting: Setting) -> object:
+    def make_scene(self, rng: Generator, setting: Setting) -> Place:
         """The task's."""
         return self._call("make_scene", lambda: self._task.make_scene(rng, setting))
 
-    def begin(self, made: object, setting: Setting, aspect: float) -> object:
+    def begin(self, made: Place, setting: Setting, aspect: float) -> object:
         """The task's."""
         return self._call("begin", lambda: self._task.begin(made, setting, aspect))
 

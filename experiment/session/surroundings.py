@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from seethrough.experiment.display.clock import Clock
 from seethrough.experiment.display.display import Display, Input
@@ -25,6 +24,6 @@ class Surroundings:
     progress: Callable[[TrialRecord], None] = lambda record: None
     scenes: StudyScenes | None = None  # others than the study's own
     period: float | None = None  # s, of the display, where it was measured
-    waiting: Callable[[Callable[[], Any]], Any] = lambda work: work()  # says so, then does it
+    waiting: Callable[[Callable[[], object]], object] = lambda work: work()  # says so, then does it
     explores: bool = False  # whether who plays looks around first, as people do who are let
     flip_within: Callable[[], float] = lambda: 0.0  # s: the last flip may have been so much earlier

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from math import acos, dist, inf
-from typing import Any, TypeGuard
+from typing import TypeGuard
 
 from seethrough.experiment.display.display import LEAVE, MEANT, Leave
 from seethrough.experiment.pages.pages import PICTURE_ASPECT, Page, TextField
@@ -18,9 +18,11 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
-from seethrough.tasks.kit.base import Outcome, Task, View
+from seethrough.renderer.scene.look import Look
+from seethrough.renderer.techniques.base import Parameters
+from seethrough.tasks.explore import EXPLORE
+from seethrough.tasks.kit.base import Outcome, Task, View, opaque
 from seethrough.tasks.kit.events import (
     Event,
     FocusChange,
@@ -33,7 +35,6 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
-from seethrough.tasks.kit.explore import EXPLORE
 from seethrough.tasks.kit.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
@@ -105,21 +106,21 @@ class TrialRun:
         self.world = world
         self.scenes = world.scenes or StudyScenes(study)
 
-    def technique(self, trial: Trial) -> Any:
+    def technique(self, trial: Trial) -> Parameters:
         """What the trial is drawn with."""
         return self.study.part(trial.levels).technique
 
     def task(self, trial: Trial) -> Task:
         """The trial's task, with what the study lets one say of it."""
         if trial.task == EXPLORE.name:
-            return EXPLORE
+            return opaque(EXPLORE)
         return as_asked(self.world.tasks[trial.task], self.study, trial)
 
     def look(self, trial: Trial) -> Look:
         """How the trial's scene looks."""
         return self.study.part(trial.levels).look
 
-    def begin(self, trial: Trial) -> Any:
+    def begin(self, trial: Trial) -> object:
         """The task's first state, from the trial's own stream."""
         aspect = self.world.display.aspect
         begin = partial(self.scenes.begin, self.task(trial), trial, aspect)
@@ -169,7 +170,7 @@ def _held(event: Event) -> str:
 class Running:
     """A trial while it runs."""
 
-    def __init__(self, run: TrialRun, trial: Trial, state: Any, limit: float) -> None:
+    def __init__(self, run: TrialRun, trial: Trial, state: object, limit: float) -> None:
         self._world, self._task = run.world, run.task(trial)
         self._technique = run.technique(trial)
         self._technique_name = run.study.part(trial.levels).technique_name

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 from seethrough.experiment.study import plugins
 from seethrough.experiment.study.design import CellPlan
@@ -20,8 +20,9 @@ from seethrough.experiment.study.study_tables import (
     PracticeTable,
     StudyTable,
 )
-from seethrough.renderer.look.look import Look
-from seethrough.tasks.kit.world import OWN
+from seethrough.renderer.scene.look import Look
+from seethrough.renderer.techniques.base import Parameters
+from seethrough.tasks.kit.world import OWN, WorldParameters
 
 VARIED = (
     "study",
@@ -42,10 +43,10 @@ class Part:
     `look`; `limits` of trials; `design` with its tasks, `practice` and `questions`; `display` and
     `study` of the session."""
 
-    technique: Any
+    technique: Parameters
     technique_name: str
     world: str
-    place: Any
+    place: WorldParameters
     look: Look
     limits: Limits
     design: DesignTable
@@ -62,18 +63,23 @@ class Part:
         return CellPlan(self.world, design.tasks, design.trials, self.practice.count, shared)
 
 
+# Section → the factors that set its keys, and what it makes at each of their levels: what that is
+# depends on the section.
+Values: TypeAlias = dict[str, tuple[tuple[int, ...], dict[Cell, Any]]]
+
+
 def parts_of(
-    base: Mapping[str, Any], factors: Sequence[Factor], cells: Sequence[Cell]
+    base: Mapping[str, object], factors: Sequence[Factor], cells: Sequence[Cell]
 ) -> tuple[dict[Cell, Part], list[Fault]]:
     """Every cell's part, and all that is wrong in any of them; {} where something is."""
     faults: list[Fault] = []
-    values: dict[str, tuple[tuple[int, ...], dict[Cell, Any]]] = {}
+    values: Values = {}
     for section in VARIED:
         touching = tuple(
             i for i, f in enumerate(factors) if any(section in level.part for level in f.levels)
         )
         there = dict.fromkeys(tuple(cell[i] for i in touching) for cell in cells)
-        found: dict[Cell, Any] = {}
+        found: dict[Cell, object] = {}
         plain = {f.key for f in read(section, base.get(section, {}), False)[1]}
         for key in there:
             own = [(factors[i], level) for i, level in zip(touching, key, strict=True)]
@@ -88,8 +94,8 @@ def parts_of(
     return {cell: _part(cell, values) for cell in cells}, []
 
 
-def _read(section: str, base: Mapping[str, Any], levels: Sequence[tuple[Factor, str]]) -> Read:
-    table: dict[str, Any] = {section: base.get(section, {})}
+def _read(section: str, base: Mapping[str, object], levels: Sequence[tuple[Factor, str]]) -> Read:
+    table: dict[str, object] = {section: base.get(section, {})}
     for factor, name in levels:
         part = factor.level(name).part
         if section in part:
@@ -118,7 +124,7 @@ def _sets(factor: Factor, level: str, key: str) -> bool:
     return any(".".join(path) == key for path, _ in leaves(factor.level(level).part))
 
 
-def _part(cell: Cell, values: Mapping[str, tuple[tuple[int, ...], dict[Cell, Any]]]) -> Part:
+def _part(cell: Cell, values: Values) -> Part:
     own = {s: found[tuple(cell[i] for i in at)] for s, (at, found) in values.items()}
     technique, world = own["technique"], own["world"]
     return Part(
@@ -130,7 +136,7 @@ def _part(cell: Cell, values: Mapping[str, tuple[tuple[int, ...], dict[Cell, Any
 def _unfit(
     factors: Sequence[Factor],
     cells: Sequence[Cell],
-    values: Mapping[str, tuple[tuple[int, ...], dict[Cell, Any]]],
+    values: Values,
 ) -> list[Fault]:
     """Tasks that there are not, or not in the cell's world, and keys that two things take."""
     faults: dict[tuple[str, str], Fault] = {}

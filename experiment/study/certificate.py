@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,10 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicT
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
+
+if TYPE_CHECKING:
+    from moderngl import Context
+
 
 # Shows every penetrable occluder half: a target's pixels are then those it would have alone, down
 # to six things in front of it (a share of 1/64 is the least that counts).
@@ -90,12 +94,12 @@ def trials_of(study: Study, participants: int | None = None) -> list[Trial]:
 class Certifier:
     """Measures trials; a scene that several trials share is measured once."""
 
-    def __init__(self, study: Study, context: Any) -> None:
+    def __init__(self, study: Study, context: Context) -> None:
         self.study = study
         self.aspect = study.display.width / study.display.height
         self._scenes = StudyScenes(study)
         self._looking = Looking(context, (study.display.width, study.display.height))
-        self._known: dict[Any, Difficulty] = {}
+        self._known: dict[object, Difficulty] = {}
         self._looks: dict[tuple[int, bytes, bytes], tuple[Scene, Looked]] = {}
 
     def measure(self, trial: Trial) -> Difficulty:

@@ -7,7 +7,6 @@ import os
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from seethrough.experiment.errors import MOST, InputError, gathered, short, shown
 from seethrough.experiment.pages.texts import Texts
@@ -87,7 +86,7 @@ def load(name: str, translated: bool = True) -> Study:
     return study
 
 
-def _files(table: Mapping[str, Any]) -> list[tuple[str, str]]:
+def _files(table: Mapping[str, object]) -> list[tuple[str, str]]:
     """(name, file) of each question that shows a text file."""
     asked = table.get("questions")
     if not isinstance(asked, Mapping):
@@ -111,7 +110,7 @@ def _text(path: Path, key: str, name: str) -> str:
         ) from None
 
 
-def parse(table: Mapping[str, Any], file: str, before: bool = False) -> Study:
+def parse(table: Mapping[str, object], file: str, before: bool = False) -> Study:
     """Check a study that is already a table; `file` is named in messages. Raises InputError.
 
     `before`: a table in the language of earlier versions is read as well, as records need.
@@ -147,7 +146,7 @@ def _unknown_scenes(study: Study) -> list[str]:
     return wrong
 
 
-def _unknown_texts(table: Mapping[str, Any]) -> list[str]:
+def _unknown_texts(table: Mapping[str, object]) -> list[str]:
     """Every language has the same texts."""
     texts = table.get("texts")
     if not texts or not isinstance(texts, Mapping):

@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.own_model_files import models_of, own_models
+from seethrough.experiment.study.own_model_files import models_of
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.user import Facts
 from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import rotation_x, scaling
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.own_models import OwnModel, mesh_of, read
 from seethrough.tasks.worlds.building.building import shown_size
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+
+if TYPE_CHECKING:
+    from moderngl import Context
+
 
 METRE = 2.0  # world units
 TILE, TEXT, MARGIN = 240, 300, 10
@@ -34,9 +40,10 @@ def facts_of(own: OwnModel) -> Facts:
     return read(own)[1]
 
 
-def _place(own: OwnModel, study: Study) -> Any:
+def _place(own: OwnModel, study: Study) -> BuildingParameters:
     """The parameters of the first world that has the model."""
-    return next(place for place in study.places() if own in own_models(place))
+    places = (p for p in study.places() if isinstance(p, BuildingParameters))
+    return next(place for place in places if own in place.models)
 
 
 def described(own: OwnModel, facts: Facts, study: Study) -> list[str]:
@@ -87,7 +94,7 @@ def default_path(study_file: str) -> Path:
     return Path(f"{Path(study_file).stem}-models.png")
 
 
-def write(study: Study, context: Any, path: Path) -> None:
+def write(study: Study, context: Context, path: Path) -> None:
     """Draw every model and write the sheet. An older sheet is replaced, and nothing else is.
 
     Raises InputError.
@@ -142,7 +149,7 @@ def _pictures(own: OwnModel, renderer: Renderer) -> list[tuple[str, NDArray[np.u
 
 
 def _seen(
-    renderer: Renderer, mesh: Any, turn: NDArray[np.float64], yaw: float, pitch: float
+    renderer: Renderer, mesh: Mesh, turn: NDArray[np.float64], yaw: float, pitch: float
 ) -> NDArray[np.uint8]:
     transform = turn @ scaling(1 / mesh.radius)
     center = transform[:3, :3] @ mesh.center

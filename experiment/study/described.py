@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import Any
 
 from seethrough.experiment.questions.kit import Asking, Weighs
 from seethrough.experiment.questions.likert.likert_question import LikertParameters
-from seethrough.experiment.questions.ready import Ready, question
 from seethrough.experiment.study.factors import ALONE, Factor
 from seethrough.experiment.study.reading import STARTS, Question
+from seethrough.experiment.study.ready import Ready, question
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.measure import CONFIDENCE, TIME
@@ -18,7 +19,7 @@ from seethrough.tasks.kit.measure import CONFIDENCE, TIME
 def design_entry(study: Study) -> dict[str, Any]:
     """Factors with their levels in order, cells left out, tasks with what they measure, what is
     expected; plain JSON types."""
-    analysis = study.resolved()["analysis"]
+    analysis = json.loads(study.analysis.model_dump_json())
     margins = {k: v for k, v in analysis["margins"].items() if v is not None}
     return {
         "factors": [_factor(study, factor) for factor in study.factors],
@@ -48,7 +49,7 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
     return ()
 
 
-def _items(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
+def _items(study: Study, name: str, asked: Question) -> list[dict[str, object]]:
     """A question's items, but of what is asked at the start: for which levels, together with which,
     of how many points. What is added up stands for its parts; items of one scale are together."""
     if asked.use in STARTS:
@@ -91,7 +92,7 @@ def _scales(asked: Question, name: str) -> list[LikertParameters]:
     return [p for p in found if isinstance(p, LikertParameters)]
 
 
-def _factor(study: Study, factor: Factor) -> dict[str, Any]:
+def _factor(study: Study, factor: Factor) -> dict[str, object]:
     """The factor; `tasks` of each level where levels bring their own."""
     at = study.factors.index(factor)
     tasks: dict[str, list[str]] = {name: [] for name in factor.names}
@@ -104,11 +105,11 @@ def _factor(study: Study, factor: Factor) -> dict[str, Any]:
     return said
 
 
-def _task(study: Study, name: str, margins: dict[str, float]) -> dict[str, Any]:
+def _task(study: Study, name: str, margins: dict[str, float]) -> dict[str, object]:
     task = TASKS[name]
     asked = any(part.limits.options(name).confidence for part in study.parts.values())
-    measures = [m.as_dict() for m in (TIME, *task.measures, *[CONFIDENCE] * asked)]
-    for measure in measures:
-        own = margins.get(measure["column"], measure["margin"])
-        measure["margin"] = margins.get(measure["name"], own)
+    measures = []
+    for measure in (TIME, *task.measures, *[CONFIDENCE] * asked):
+        own = margins.get(measure.column, measure.margin)
+        measures.append(measure.as_dict() | {"margin": margins.get(measure.name, own)})
     return {"name": name, "code": task.code, "measures": measures}

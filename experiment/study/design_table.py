@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from seethrough.experiment.study.balance import cycle
 from seethrough.experiment.study.cells import every_combination
-from seethrough.experiment.study.design import TaskSet, session_for
+from seethrough.experiment.study.design import TaskSet, Trial, session_for
 from seethrough.experiment.study.factors import CHANGED, WITHIN, Factor
 from seethrough.experiment.study.merge import leaves
 from seethrough.experiment.study.study import Study
@@ -23,7 +22,7 @@ def columns_of(study: Study) -> list[str]:
             "world", "task", "scene"]  # fmt: skip
 
 
-def rows_of(study: Study, count: int) -> Iterator[list[Any]]:
+def rows_of(study: Study, count: int) -> Iterator[list[object]]:
     """A row for each trial of the first people."""
     plan = study.plan
     for slot in plan.slots(count):
@@ -96,7 +95,7 @@ def minutes(trials: int, practice: int) -> float:
     return (PAGES + (trials + practice) * PACE) / 60
 
 
-def _items(trials: Sequence[Any]) -> str:
+def _items(trials: Sequence[Trial]) -> str:
     shared = sorted({t.scene for t in trials if not t.scene.startswith("stream-")})
     own = len({t.scene for t in trials if t.scene.startswith("stream-")})
     if not shared:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TypeGuard
 
 from seethrough.experiment.study.factors import (
     ALONE,
@@ -55,7 +55,7 @@ BARE = "a bare dotted key, as in technique.use = …: in quotes it is one name w
 
 
 def read_factors(
-    table: Any, reserved: Sequence[str], people: int | None
+    table: object, reserved: Sequence[str], people: int | None
 ) -> tuple[tuple[Factor, ...], list[Fault]]:
     """The factors of [factors], and all that is wrong with them.
 
@@ -84,12 +84,12 @@ def read_factors(
 class _Reader:
     """One factor's table while it is read."""
 
-    def __init__(self, name: str, table: Mapping[str, Any], people: int | None) -> None:
+    def __init__(self, name: str, table: Mapping[str, object], people: int | None) -> None:
         self.name, self.table, self.people = name, table, people
         self.where = f"factors.{name}"
         self.faults: list[Fault] = []
 
-    def wrong(self, key: str, value: Any, expected: str) -> None:
+    def wrong(self, key: str, value: object, expected: str) -> None:
         self.faults.append(Fault(f"{self.where}.{key}", value, expected))
 
     def factor(self) -> Factor | None:
@@ -217,8 +217,9 @@ class _Reader:
         if kind == WITHIN:
             self.wrong("people", said, "no people: each person meets all levels of this factor")
             return None
-        each = said if isinstance(said, Mapping) else dict.fromkeys(names, said)
-        if set(each) != set(names) or not all(_count(n) for n in each.values()):
+        whole = said if isinstance(said, Mapping) else dict.fromkeys(names, said)
+        each = {str(n): count for n, count in whole.items() if _count(count)}
+        if set(each) != set(names) or len(each) != len(whole):
             self.wrong("people", said, f"{expected}, of {', '.join(names)}")
             return None
         total = sum(each.values())
@@ -263,14 +264,14 @@ class _Reader:
         return value
 
 
-def level_name(value: Any) -> str:
+def level_name(value: object) -> str:
     """The name of the level that a value makes: 80, 0.3, yes."""
     if isinstance(value, bool):
         return "true" if value else "false"
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _kind(value: Any) -> str:
+def _kind(value: object) -> str:
     if isinstance(value, bool):
         return "boolean"
     if isinstance(value, int | float):
@@ -278,7 +279,7 @@ def _kind(value: Any) -> str:
     return "text" if isinstance(value, str) else ""
 
 
-def _count(value: Any) -> bool:
+def _count(value: object) -> TypeGuard[int]:
     return isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= 10_000
 
 

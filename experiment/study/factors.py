@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Any
 
 from seethrough.experiment.study.squares import MIXED
 
@@ -25,7 +24,7 @@ class Level:
     """A level: the part of a study that it sets, its text, and its number where it is one."""
 
     name: str
-    part: Mapping[str, Any] = field(default_factory=dict, hash=False)
+    part: Mapping[str, object] = field(default_factory=dict, hash=False)
     label: str = ""
     number: float | None = None
 
@@ -70,7 +69,7 @@ class Factor:
                 return level
         raise KeyError(f"{self.name}: {name}")
 
-    def described(self) -> dict[str, Any]:
+    def described(self) -> dict[str, object]:
         """What a sidecar says of it: enough to analyse the data without the program."""
         numbers = [level.number for level in self.levels]
         return {

@@ -10,9 +10,10 @@ import sys
 from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Literal, TypeAlias, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from seethrough import registry
 from seethrough.experiment.errors import shown
@@ -25,8 +26,8 @@ from seethrough.experiment.study.study_tables import (
     PredictionTable,
     TaskTable,
 )
-from seethrough.renderer.declared import Key, allowed, declared
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.declared import Declares, Key, allowed, declared
+from seethrough.renderer.scene.look import Look
 
 REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "keys.md"
 REQUIRED = object()
@@ -55,10 +56,14 @@ ABOUT = {
 }
 
 
+# A table of ours, the parameters of a plug-in, or what each key may be and means.
+Declaring: TypeAlias = type[BaseModel] | type[Declares] | Mapping[str, tuple[str, str]]
+
+
 @cache
-def tables() -> dict[str, Any]:
+def tables() -> dict[str, Declaring]:
     """Table of a study file → what declares its keys."""
-    found: dict[str, Any] = {"study": TABLES["study"], "factors.NAME": FACTOR_KEYS}
+    found: dict[str, Declaring] = {"study": TABLES["study"], "factors.NAME": FACTOR_KEYS}
     found |= {name: TABLES[name] for name in ("design", "practice")}
     for kind in ("technique", "world"):
         for name in plugins.names(kind):
@@ -72,7 +77,7 @@ def tables() -> dict[str, Any]:
     return found | {"analysis.margins": MarginsTable, "analysis.predictions": PredictionTable}
 
 
-def _own(kind: str, table: str = "") -> dict[str, Any]:
+def _own(kind: str, table: str = "") -> dict[str, Declaring]:
     """Tables of the tasks or question kinds that have parameters of their own."""
     classes = {name: registry.get(kind, name).Parameters for name in registry.known(kind)}
     return {f"{table or kind}.{name}": cls for name, cls in classes.items() if declared(cls)}
@@ -99,7 +104,7 @@ class StudyKey:
     table: str
     name: str
     allowed: str
-    default: Any
+    default: object
     unit: str
     meaning: str
 
@@ -110,12 +115,13 @@ def keys_of(table: str) -> dict[str, StudyKey]:
     declares = tables()[table]
     if isinstance(declares, Mapping):
         return {n: StudyKey(table, n, may, "", "", said) for n, (may, said) in declares.items()}
-    parameters = dataclasses.is_dataclass(declares)
-    found = _of_parameters(table, declares) if parameters else _of_model(table, declares)
+    if issubclass(declares, BaseModel):
+        return {key.name: key for key in _of_model(table, declares)}
+    found = _of_parameters(table, declares)
     return {key.name: key for key in found}
 
 
-def _of_parameters(table: str, cls: Any) -> Iterator[StudyKey]:
+def _of_parameters(table: str, cls: type[Declares]) -> Iterator[StudyKey]:
     hints = get_type_hints(cls)
     defaults = {f.name: f.default for f in dataclasses.fields(cls)}
     for name, said in declared(cls).items():
@@ -123,17 +129,18 @@ def _of_parameters(table: str, cls: Any) -> Iterator[StudyKey]:
         yield StudyKey(table, name, allowed(hints[name], said), default, said.unit, said.meaning)
 
 
-def _of_model(table: str, model: Any) -> Iterator[StudyKey]:
+def _of_model(table: str, model: type[BaseModel]) -> Iterator[StudyKey]:
     for name, field in model.model_fields.items():
-        more = field.json_schema_extra or {"unit": "", "said": ""}
+        extra = field.json_schema_extra
+        more = {"unit": "", "said": "", **(extra if isinstance(extra, Mapping) else {})}
         inner = f"{table}.{name}"
         table_of = f"a table, [{inner}]" if inner in tables() else ""
-        may = more["said"] or table_of or _allowed(field)
+        may = str(more["said"]) or table_of or _allowed(field)
         default = REQUIRED if field.is_required() else field.default
-        yield StudyKey(table, name, may, default, more["unit"], field.description or "")
+        yield StudyKey(table, name, may, default, str(more["unit"]), field.description or "")
 
 
-def _allowed(field: Any) -> str:
+def _allowed(field: FieldInfo) -> str:
     """What a field of pydantic's may be, from its type and its limits."""
     hint = field.annotation
     if get_origin(hint) is Literal:
@@ -142,7 +149,7 @@ def _allowed(field: Any) -> str:
         inner = get_args(hint)[0]
         listed = get_origin(inner) is Literal
         return f"an array of {f'some of {_choices(inner)}, each once' if listed else 'texts'}"
-    limits: dict[str, Any] = {}
+    limits: dict[str, float] = {}
     for limit in field.metadata:
         limits |= {n: getattr(limit, n) for n in ("ge", "gt", "le", "lt") if hasattr(limit, n)}
     low, high = limits.get("ge", limits.get("gt")), limits.get("le", limits.get("lt"))
@@ -156,7 +163,7 @@ def _allowed(field: Any) -> str:
     )
 
 
-def _choices(hint: Any) -> str:
+def _choices(hint: object) -> str:
     return ", ".join(shown(choice) for choice in get_args(hint))
 
 
@@ -180,7 +187,7 @@ def _row(key: StudyKey) -> str:
     return f"| `{key.name}` | {key.allowed} | {default} | {key.unit} | {key.meaning} |"
 
 
-def _default(value: Any) -> str:
+def _default(value: object) -> str:
     if isinstance(value, BaseModel):
         return "its keys'"
     if value is None:

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 Path = tuple[str, ...]
 
 
-def merged(table: Mapping[str, Any], part: Mapping[str, Any]) -> dict[str, Any]:
+def merged(table: Mapping[str, object], part: Mapping[str, object]) -> dict[str, object]:
     """`table` with what `part` says instead; neither is changed."""
     result = dict(table)
     for key, value in part.items():
         old = result.get(key)
-        both = isinstance(value, Mapping) and isinstance(old, Mapping)
-        result[key] = merged(result[key], value) if both else value
+        if isinstance(value, Mapping) and isinstance(old, Mapping):
+            value = merged(old, value)
+        result[key] = value
     return result
 
 
-def leaves(part: Mapping[str, Any], where: Path = ()) -> Iterator[tuple[Path, Any]]:
+def leaves(part: Mapping[str, object], where: Path = ()) -> Iterator[tuple[Path, object]]:
     """(names, value) of each key that a part sets; an empty table sets itself."""
     for key, value in part.items():
         path = (*where, key)
@@ -28,7 +28,7 @@ def leaves(part: Mapping[str, Any], where: Path = ()) -> Iterator[tuple[Path, An
             yield path, value
 
 
-def nested(path: Path, value: Any) -> dict[str, Any]:
+def nested(path: Path, value: object) -> dict[str, object]:
     """The part that sets one key."""
     first, *rest = path
     return {first: nested(tuple(rest), value) if rest else value}

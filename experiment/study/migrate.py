@@ -6,8 +6,8 @@ A study of then crossed `transparency` with the scenarios that its tasks live in
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
+from typing import TypeAlias
 
 OLD_TABLES = {"abstract": "world", "walkthrough": "world", "dynamic": "technique"}
 NAMES = {"abstract": "abstract", "walkthrough": "building", "dynamic": "dynamic"}
@@ -25,23 +25,26 @@ QUESTIONNAIRE = ("ratings", "comparison", "remarks")
 START = ("consent", "demographics", "color_check")
 
 
-def is_old(table: Mapping[str, Any]) -> bool:
+Tables: TypeAlias = dict[str, dict[str, object]]  # a part of a study
+Factors: TypeAlias = dict[str, dict[str, dict[str, Tables]]]  # name → "levels" → level → its part
+
+
+def is_old(table: Mapping[str, object]) -> bool:
     """Whether a study's table is in the language of earlier versions."""
     if any(name in table for name in ("factors", "technique", "world", "questions")):
         return False
     tables = any(name in table for name in OLD_TABLES)
-    return tables or any(
-        key in table[name]
-        for name, keys in OLD_KEYS.items()
-        if isinstance(table.get(name), Mapping)
-        for key in keys
-    )
+    for name, keys in OLD_KEYS.items():
+        own = table.get(name)
+        if isinstance(own, Mapping) and any(key in own for key in keys):
+            return True
+    return tables
 
 
-def migrated(table: Mapping[str, Any]) -> dict[str, Any]:
+def migrated(table: Mapping[str, object]) -> dict[str, object]:
     """The same study in the present language."""
-    new: dict[str, Any] = {k: dict(v) for k, v in table.items() if isinstance(v, Mapping)}
-    new |= {k: v for k, v in table.items() if k not in new}
+    new: Tables = {k: dict(v) for k, v in table.items() if isinstance(v, Mapping)}
+    plain = {k: v for k, v in table.items() if k not in new}  # wrong, and refused later
     design, session = new.setdefault("design", {}), new.setdefault("session", {})
     factors, base = factors_of(design)
     for name, key in OLD_TABLES.items():
@@ -61,27 +64,31 @@ def migrated(table: Mapping[str, Any]) -> dict[str, Any]:
         old_, world = next((o, n) for o, n in NAMES.items() if n == base["world"]["use"])
         design["redraw"] = [
             f"{world}{name.removeprefix(old_)}" if name.startswith(f"{old_}-") else name
-            for name in design["redraw"]
+            for name in _texts(design["redraw"])
         ]
-    new["questions"] = questions_of(session, factors)
-    if factors:
-        new["factors"] = factors
-    return new
+    questions = questions_of(session, factors)
+    return {**new, **plain, "questions": questions, **({"factors": factors} if factors else {})}
 
 
-def factors_of(design: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+def _texts(said: object) -> list[str]:
+    """The texts of an array; what is none becomes one, and is refused as what it should name."""
+    return [str(name) for name in said] if isinstance(said, list | tuple) else [str(said)]
+
+
+def factors_of(design: dict[str, object]) -> tuple[Factors, Tables]:
     """The factors of a [design] of then, and what the base has where one would have one level;
     both are taken out of it."""
-    levels = design.pop("transparency", None) or LEVELS
-    tasks = design.pop("tasks", None) or [t for own in SCENARIOS.values() for t in own]
-    factors: dict[str, Any] = {}
-    base: dict[str, Any] = {}
+    levels = _texts(design.pop("transparency", None) or LEVELS)
+    every = [t for own in SCENARIOS.values() for t in own]
+    tasks = _texts(design.pop("tasks", None) or every)
+    factors: Factors = {}
+    base: Tables = {}
     if len(levels) > 1:
-        named = {level: {"technique": {"use": level}} for level in levels}
+        named: dict[str, Tables] = {level: {"technique": {"use": level}} for level in levels}
         factors["transparency"] = {"levels": named}
     else:
         base["technique"] = {"use": levels[0]}
-    worlds = {}
+    worlds: dict[str, Tables] = {}
     for scenario, own in SCENARIOS.items():
         there = [task for task in tasks if task in own]
         if there or any(task not in sum(SCENARIOS.values(), ()) for task in tasks):
@@ -94,24 +101,23 @@ def factors_of(design: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     return factors, base
 
 
-def questions_of(session: dict[str, Any], factors: Mapping[str, Any]) -> dict[str, Any]:
+def questions_of(session: dict[str, object], factors: Factors) -> dict[str, object]:
     """The pages of a [session] of then, taken out of it."""
-    named: dict[str, Any] = {}
+    named: dict[str, object] = {}
     consent = session.pop("consent", "")
     if consent:
         named["consent"] = {"when": "start", "file": consent}
     for name in START[1:]:
         if session.pop(name, False):
             named[name] = {"when": "start"}
-    asked: Sequence[str] = session.pop("questionnaire", QUESTIONNAIRE)
-    for name in asked:
+    for name in _texts(session.pop("questionnaire", QUESTIONNAIRE)):
         if name == "comparison" and "transparency" not in factors:
             continue  # one level is not compared
         named[name] = {"when": "end", **_of_levels(name, factors)}
     return named
 
 
-def _of_levels(name: str, factors: Mapping[str, Any]) -> dict[str, Any]:
+def _of_levels(name: str, factors: Factors) -> dict[str, object]:
     """For which levels a page of then was asked."""
     if name == "comparison":
         return {"of": "transparency"}

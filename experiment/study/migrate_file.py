@@ -5,11 +5,18 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from typing import Any
 
 import tomlkit
+from tomlkit.items import Item, Key, Table
 
-from seethrough.experiment.study.migrate import NAMES, OLD_TABLES, factors_of, questions_of
+from seethrough.experiment.study.migrate import (
+    NAMES,
+    OLD_TABLES,
+    Factors,
+    Tables,
+    factors_of,
+    questions_of,
+)
 
 MOVED = {
     ("design", "training"): ("practice", "trials"),
@@ -26,9 +33,10 @@ GONE = {
 def migrated_text(text: str) -> str:
     """The file's text in the present language."""
     old = tomlkit.parse(text)
-    plain: dict[str, Any] = old.unwrap()
-    factors, base = factors_of(dict(plain.get("design", {})))
-    questions = questions_of(dict(plain.get("session", {})), factors)
+    plain: Mapping[str, object] = old.unwrap()
+    own = {n: dict(t) for n, t in plain.items() if isinstance(t, Mapping)}
+    factors, base = factors_of(own.get("design", {}))
+    questions = questions_of(own.get("session", {}), factors)
     parts: list[str] = []
     moved: dict[str, list[str]] = {"practice": [], "task": []}
     said: dict[str, list[str]] = {}
@@ -36,7 +44,7 @@ def migrated_text(text: str) -> str:
         if key is None:
             parts.append(item.as_string())
         elif key.key in OLD_TABLES:
-            parts.append(_renamed(key.key, item))
+            parts.append(_renamed(key, item))
         elif key.key in GONE:
             parts.append(_table(key.key, item, moved, base.get(key.key, {}), said))
             parts += [_factors(factors)] if key.key == "design" else []
@@ -50,7 +58,7 @@ def migrated_text(text: str) -> str:
     return "\n".join(part.rstrip("\n") + "\n" for part in parts if part.strip())
 
 
-def _text(entries: Mapping[Any, Any]) -> str:
+def _text(entries: Mapping[Key, Item]) -> str:
     """Keys and values as the file has them."""
     made = tomlkit.document()
     for key, item in entries.items():
@@ -58,13 +66,14 @@ def _text(entries: Mapping[Any, Any]) -> str:
     return tomlkit.dumps(made)
 
 
-def _renamed(name: str, item: Any) -> str:
+def _renamed(key: Key, item: Item) -> str:
     """A table under the name that it has now, and the tables in it."""
+    name = key.key
     new = f"{OLD_TABLES[name]}.{NAMES[name]}"
-    return re.sub(rf"^(\s*\[\[?){name}(?=[\].])", rf"\g<1>{new}", _text({name: item}), flags=re.M)
+    return re.sub(rf"^(\s*\[\[?){name}(?=[\].])", rf"\g<1>{new}", _text({key: item}), flags=re.M)
 
 
-def _questions(questions: Mapping[str, Any], said: Mapping[str, list[str]]) -> str:
+def _questions(questions: Mapping[str, object], said: Mapping[str, list[str]]) -> str:
     """A line each, with what was said about it and about the pages at the end."""
     lines = said.get("questionnaire", [])
     for name, own in questions.items():
@@ -73,13 +82,14 @@ def _questions(questions: Mapping[str, Any], said: Mapping[str, list[str]]) -> s
 
 
 def _table(
-    name: str, item: Any, moved: dict[str, list[str]], base: Mapping[str, Any],
+    name: str, item: object, moved: dict[str, list[str]], base: Mapping[str, object],
     said: dict[str, list[str]],
 ) -> str:  # fmt: skip
     """What of a table stays; entries that move go into `moved` under the names they have now, with
     the comments above them, and of those that are gone the comments alone into `said`."""
     stays = [f"{key} = {_inline(value)}\n" for key, value in base.items()]
     above: list[str] = []
+    assert isinstance(item, Table)
     for key, value in item.value.body:
         if key is None:
             above.append(value.as_string())
@@ -116,11 +126,11 @@ def _tell(key: str, text: str, said: dict[str, list[str]]) -> None:
             said.setdefault(about, []).append(f"{line[at:].rstrip()}\n")
 
 
-def _header(name: str, part: Mapping[str, Any]) -> str:
+def _header(name: str, part: Mapping[str, object]) -> str:
     return f"[{name}]\n" + "".join(f"{k} = {_inline(v)}\n" for k, v in part.items())
 
 
-def _factors(factors: Mapping[str, Any]) -> str:
+def _factors(factors: Factors) -> str:
     return "\n".join(
         f"[factors.{name}]\n"
         + "".join(f"levels.{level} = {_dotted(part)}\n" for level, part in own["levels"].items())
@@ -128,7 +138,7 @@ def _factors(factors: Mapping[str, Any]) -> str:
     )
 
 
-def _dotted(part: Mapping[str, Any]) -> str:
+def _dotted(part: Tables) -> str:
     """A part of a study in one line: { technique.use = "dynamic" }."""
     said = ", ".join(
         f"{table}.{key} = {_inline(value)}"
@@ -138,7 +148,7 @@ def _dotted(part: Mapping[str, Any]) -> str:
     return f"{{ {said} }}"
 
 
-def _inline(value: Any) -> str:
+def _inline(value: object) -> str:
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{k} = {_inline(v)}" for k, v in value.items()) + " }"
     if isinstance(value, list | tuple):

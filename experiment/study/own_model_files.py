@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError, gathered, one_line, shown
 from seethrough.experiment.files.private import make_folder, write_new
@@ -15,7 +15,8 @@ from seethrough.experiment.study.model_files import check_files
 from seethrough.experiment.study.plugin_files import keep as keep_plugins
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.own_models import READER, OwnModel, kept_as, mesh_of, packed, read
-from seethrough.tasks.kit.world import FileFaults, FileWorld, World
+from seethrough.tasks.kit.world import FileFaults, FileWorld, World, WorldParameters
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 if TYPE_CHECKING:
     from seethrough.experiment.study.study import Study
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 FOLDER = "models"
 
 
-def own_models(place: Any) -> tuple[OwnModel, ...]:
+def own_models(place: WorldParameters) -> tuple[OwnModel, ...]:
     """The models that a world's parameters bring along."""
     return tuple(getattr(place, "models", ()))
 
@@ -49,7 +50,9 @@ def own_scenes(study: Study) -> tuple[str, ...]:
     )
 
 
-def _scenes_beside(world: FileWorld, name: str, parameters: object, path: Path) -> object:
+def _scenes_beside(
+    world: FileWorld, name: str, parameters: WorldParameters, path: Path
+) -> WorldParameters:
     """The parameters with their scenes read. Raises InputError."""
     where = f"{path}: world.{name}"
     faults = []
@@ -68,13 +71,13 @@ def _scenes_beside(world: FileWorld, name: str, parameters: object, path: Path) 
         raise gathered(lines) from None
 
 
-def beside(parameters: Any, path: Path) -> Any:
+def beside(parameters: WorldParameters, path: Path) -> WorldParameters:
     """A world's parameters of the study file at `path`, its models and scenes read, with their
     files' hashes. Raises InputError."""
     world = world_of(parameters)
     if isinstance(world, FileWorld):
         return _scenes_beside(world, world.name, parameters, path)
-    if not own_models(parameters):
+    if not isinstance(parameters, BuildingParameters) or not parameters.models:
         return parameters
     found = []
     for number, model in enumerate(parameters.models):
@@ -120,7 +123,7 @@ def _kept_files(study: Study, folder: Path) -> Iterator[tuple[Path, Callable[[],
                 yield folder / name, content
 
 
-def kept(parameters: Any, data: Path) -> Any:
+def kept(parameters: WorldParameters, data: Path) -> WorldParameters:
     """A world's parameters of a sidecar, its models as the data folder kept them.
     Raises InputError."""
     world = world_of(parameters)
@@ -129,7 +132,7 @@ def kept(parameters: Any, data: Path) -> Any:
             return world.kept_in(parameters, data / FOLDER)
         except FileFaults as error:
             raise InputError(*(f"{data}: {f.value}: {f.said}" for f in error.found)) from None
-    if not own_models(parameters):
+    if not isinstance(parameters, BuildingParameters) or not parameters.models:
         return parameters
     found = [replace(model, folder=str(data / FOLDER)) for model in parameters.models]
     for model in found:

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Any, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
 
-from seethrough.renderer.declared import Key, allowed, declared, problems
+from seethrough.renderer.declared import Declares, Key, allowed, declared, problems
 
 
 class Fault(NamedTuple):
@@ -17,12 +17,15 @@ class Fault(NamedTuple):
     MISSING for a value that there is not."""
 
     key: str
-    value: Any
+    value: object
     expected: str = ""
     known: tuple[str, ...] = ()
 
 
 MISSING = object()
+
+
+Made = TypeVar("Made", bound=Declares)
 
 
 class Faults(ValueError):
@@ -33,10 +36,10 @@ class Faults(ValueError):
         super().__init__(f"{len(found)} faults")
 
 
-def built(cls: Any, table: Mapping[str, Any]) -> Any:
+def built(cls: type[Made], table: Mapping[str, object]) -> Made:
     """A `cls` of a table. Raises Faults, all that is wrong with it."""
     types, keys = get_type_hints(cls), declared(cls)
-    values = {f.name: f.default for f in dataclasses.fields(cls)}
+    values: dict[str, object] = {f.name: f.default for f in dataclasses.fields(cls)}
     found: list[Fault] = []
     for name, value in table.items():
         if name not in keys:
@@ -59,10 +62,10 @@ def built(cls: Any, table: Mapping[str, Any]) -> Any:
         raise Faults([Fault(key, values[key], rest.partition(", expected ")[2])]) from None
 
 
-def _checked(name: str, value: Any, hint: Any, said: Key) -> Any:
+def _checked(name: str, value: object, hint: Any, said: Key) -> object:
     plain = tuple(value) if isinstance(value, list) else value
     inner = get_args(hint)[0] if get_origin(hint) is tuple else None
-    if isinstance(plain, tuple) and dataclasses.is_dataclass(inner):
+    if isinstance(plain, tuple) and isinstance(inner, type) and dataclasses.is_dataclass(inner):
         return _items(name, plain, inner)
     try:
         return TypeAdapter(hint, config={"strict": True}).validate_python(plain)
@@ -70,9 +73,10 @@ def _checked(name: str, value: Any, hint: Any, said: Key) -> Any:
         raise Faults([Fault(name, value, allowed(hint, said))]) from None
 
 
-def _items(name: str, items: tuple[Any, ...], cls: Any) -> tuple[Any, ...]:
+def _items(name: str, items: tuple[object, ...], cls: type[Made]) -> tuple[Made, ...]:
     """The entries of an array of tables."""
-    made, found = [], []
+    made: list[Made] = []
+    found: list[Fault] = []
     for number, item in enumerate(items):
         where = f"{name}[{number}]"
         if not isinstance(item, Mapping):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeGuard
 
 from seethrough.experiment.record.columns import RESERVED
 from seethrough.experiment.study.cells import Part, every_combination, parts_of
@@ -22,6 +22,7 @@ from seethrough.experiment.study.question_checks import unfit_questions
 from seethrough.experiment.study.reading import read
 from seethrough.experiment.study.scopes import sections
 from seethrough.experiment.study.study import Study
+from seethrough.experiment.study.study_tables import DesignTable
 
 MOST_CELLS = 10_000
 DESCRIBED = ("plugins", "translations")  # what a sidecar says besides
@@ -30,10 +31,10 @@ DESCRIBED = ("plugins", "translations")  # what a sidecar says besides
 class Parser:
     """A study's table while it is read."""
 
-    def __init__(self, table: Mapping[str, Any]) -> None:
+    def __init__(self, table: Mapping[str, object]) -> None:
         self.base = {k: v for k, v in table.items() if k != "factors"}
-        if _are_named(self.base.get("questions")):  # of a sidecar: in order
-            listed = self.base["questions"]
+        listed = self.base.get("questions")
+        if _are_named(listed):  # of a sidecar: in order
             self.base["questions"] = {
                 t["name"]: {k: v for k, v in t.items() if k != "name"} for t in listed
             }
@@ -73,7 +74,7 @@ class Parser:
         return Study(
             found["study"], factors, found["design"], found["practice"], found["display"],
             found["session"], found["questions"], found["analysis"], texts, tables,
-            found["look"], parts, excluded, self.base.get("translations", {}),
+            found["look"], parts, excluded, self._translations(),
         ), []  # fmt: skip
 
     def _read(self, section: str) -> Any:
@@ -82,6 +83,12 @@ class Parser:
             return None
         self.faults += faults
         return value
+
+    def _translations(self) -> dict[str, dict[str, str]]:
+        """Texts of languages of the study's own, as a sidecar has them."""
+        said = self.base.get("translations", {})
+        tables = said.items() if isinstance(said, Mapping) else ()
+        return {str(n): {str(k): str(v) for k, v in t.items()} for n, t in tables}
 
     def _texts(self) -> dict[str, str]:
         texts = self.base.get("texts", {})
@@ -92,7 +99,9 @@ class Parser:
                         if not isinstance(t, str)]  # fmt: skip
         return dict(texts)
 
-    def _excluded(self, factors: tuple[Factor, ...], design: Any) -> tuple[Levels, ...]:
+    def _excluded(
+        self, factors: tuple[Factor, ...], design: DesignTable | None
+    ) -> tuple[Levels, ...]:
         found: list[Levels] = []
         names = [factor.name for factor in factors]
         for number, entry in enumerate(design.exclude if design is not None else ()):
@@ -163,14 +172,14 @@ def _left_without(factors: tuple[Factor, ...], excluded: list[Levels]) -> list[F
     return faults
 
 
-def _are_named(tables: Any) -> bool:
+def _are_named(tables: object) -> TypeGuard[list[Mapping[str, Any]]]:
     """Whether it is an array of tables that have names, as a sidecar has them."""
     return isinstance(tables, list) and all(
         isinstance(t, Mapping) and isinstance(t.get("name"), str) for t in tables
     )
 
 
-def _are_factors(tables: Any) -> bool:
+def _are_factors(tables: object) -> TypeGuard[list[Mapping[str, Any]]]:
     """Whether it is an array of factors, each with an array of levels."""
     return _are_named(tables) and all(
         _are_named(t.get("levels"))

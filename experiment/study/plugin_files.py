@@ -13,11 +13,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, gathered, one_line, shown
+from seethrough.experiment.files import trust
 from seethrough.experiment.files.private import make_folder, write_new
-from seethrough.experiment.study import trust
 from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside, read_regular
 
 KINDS = ("technique", "world", "task", "question")
@@ -206,7 +207,7 @@ def kept_as(said: Mapping[str, str], data: Path) -> Path:
     return data / FOLDER / f"{said['kind']}-{said['name']}-{said['sha256'][:12]}.py"
 
 
-def kept(study: Mapping[str, Sequence[Mapping[str, str]]], data: Path) -> None:
+def kept(study: Mapping[str, Any], data: Path) -> None:
     """Make the plug-ins known that a sidecar's study used, as its data folder kept them. Raises
     InputError."""
     for said in study.get("plugins", ()):

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import is_dataclass
 from functools import cache
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import get_args, get_origin, get_type_hints
 
 from seethrough import registry
 from seethrough.experiment.study.parameter_tables import Fault
+from seethrough.renderer.declared import Declares
 from seethrough.tasks import catalog
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
@@ -15,19 +16,20 @@ from seethrough.tasks.worlds.building.building_parameters import BuildingParamet
 def names(kind: str) -> tuple[str, ...]:
     """The names of all techniques, worlds, tasks or question kinds."""
     if kind == "question":
-        from seethrough.experiment.questions.ready import READY  # asks for pages: not for --help
+        from seethrough.experiment.study.ready import READY  # asks for pages: not for --help
 
         return (*READY, *registry.known(kind))
     return registry.known(kind)
 
 
-def parameters(kind: str, name: str) -> Any:
+def parameters(kind: str, name: str) -> type[Declares]:
     """The class of the parameters of one of them."""
     if kind == "question":
-        from seethrough.experiment.questions.ready import question
+        from seethrough.experiment.study.ready import question
 
         return question(name).Parameters
-    return registry.get(kind, name).Parameters
+    found: type[Declares] = registry.get(kind, name).Parameters
+    return found
 
 
 def worlds_of(task: str) -> tuple[str, ...]:
@@ -49,7 +51,7 @@ def clashes(technique: str, world: str, tasks: tuple[str, ...]) -> tuple[str, ..
     return tuple(found)
 
 
-def further_faults(place: Any) -> list[Fault]:
+def further_faults(place: object) -> list[Fault]:
     """The building's models are there, each once, and enough of them to tell one from others."""
     if not isinstance(place, BuildingParameters):
         return []
@@ -71,7 +73,7 @@ def further_faults(place: Any) -> list[Fault]:
     return found
 
 
-def inner_tables(cls: Any) -> dict[str, Any]:
+def inner_tables(cls: type[Declares]) -> dict[str, type[Declares]]:
     """Key → class, of the parameters that are arrays of tables."""
     return {
         name: get_args(hint)[0]

@@ -83,7 +83,7 @@ def _together(one: str, other: str, questions: Questions) -> bool:
 
 def items_of(factors: Sequence[Factor], name: str, asked: Question) -> tuple[str, ...]:
     """The items that a question may write; of levels that are compared, each one's."""
-    from seethrough.experiment.questions.ready import question  # pages: not for --help
+    from seethrough.experiment.study.ready import question  # pages: not for --help
 
     items = list(question(asked.use).items(asked.parameters, name))
     compared = next((f for f in factors if f.name == asked.table.of), None)

@@ -16,7 +16,8 @@ from seethrough.experiment.study.parameter_tables import MISSING, Fault, Faults,
 from seethrough.experiment.study.question_table import QuestionTable
 from seethrough.experiment.study.study_errors import faults_of
 from seethrough.experiment.study.study_tables import TABLES, Table, TaskTable
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.declared import Declares
+from seethrough.renderer.scene.look import Look
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Chosen:
 
     use: str
     parameters: Any
-    tables: Mapping[str, Any]
+    tables: Mapping[str, Declares]
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Limits:
 
     every: TaskTable = field(default_factory=TaskTable)
     own: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
-    tables: Mapping[str, Any] = field(default_factory=dict)
+    tables: Mapping[str, Declares] = field(default_factory=dict)
 
     def options(self, task: str) -> TaskTable:
         """What holds for a task's trials."""
@@ -53,7 +54,7 @@ class Question:
 
     use: str
     table: QuestionTable
-    parameters: Any
+    parameters: Declares
 
     @property
     def when_asked(self) -> str:
@@ -68,11 +69,11 @@ class Question:
         )
 
 
-Read = tuple[Any, list[Fault]]
+Read = tuple[Any, list[Fault]]  # what a table makes depends on its section
 STARTS = ("consent", "demographics", "color_check")  # asked at the start unless a study says not
 
 
-def read(section: str, table: Any, whole: bool) -> Read:
+def read(section: str, table: object, whole: bool) -> Read:
     """The values of a table and its faults; `whole` unless something may still be missing."""
     if not isinstance(table, Mapping):
         return None, [Fault(section, table, f"a table, [{section}]")]
@@ -87,7 +88,7 @@ def read(section: str, table: Any, whole: bool) -> Read:
     return model(section, TABLES[section], table)
 
 
-def model(section: str, kind: type[Table], table: Mapping[str, Any]) -> Read:
+def model(section: str, kind: type[Table], table: Mapping[str, object]) -> Read:
     """A table of ours."""
     try:
         return kind.model_validate(dict(table)), []
@@ -102,9 +103,9 @@ def _look(table: Mapping[str, object]) -> Read:
         return None, [fault._replace(key=f"look.{fault.key}") for fault in error.found]
 
 
-def _chosen(section: str, table: Mapping[str, Any], whole: bool) -> Read:
+def _chosen(section: str, table: Mapping[str, object], whole: bool) -> Read:
     known, faults = plugins.names(section), []
-    tables: dict[str, Any] = {}
+    tables: dict[str, Declares] = {}
     for name, own in table.items():
         if name == "use":
             continue
@@ -124,28 +125,29 @@ def _chosen(section: str, table: Mapping[str, Any], whole: bool) -> Read:
         faults.append(Fault(f"{section}.use", MISSING, expected))
     if faults:
         return None, faults
+    use = str(use)
     if use and use not in tables:
         tables[use], faults = parameters(section, use, {})
     return Chosen(use, tables.get(use), tables), faults
 
 
-def parameters(section: str, name: str, table: Mapping[str, Any]) -> Read:
+def parameters(section: str, name: str, table: Mapping[str, object]) -> Read:
     """The parameters of a technique, world or task."""
     where = f"{section}.{name}"
     try:
-        made = built(plugins.parameters(section, name), table)
+        made: Declares = built(plugins.parameters(section, name), table)
     except Faults as error:
         return None, [fault._replace(key=f"{where}.{fault.key}") for fault in error.found]
     more = plugins.further_faults(made)
     return made, [fault._replace(key=f"{where}.{fault.key}") for fault in more]
 
 
-def _limits(table: Mapping[str, Any]) -> Read:
+def _limits(table: Mapping[str, object]) -> Read:
     known = plugins.names("task")
     plain = {k: v for k, v in table.items() if k not in known}
     value, faults = model("task", TaskTable, plain)
     said: dict[str, Mapping[str, object]] = {}
-    tables: dict[str, Any] = {}
+    tables: dict[str, Declares] = {}
     for name in (k for k in table if k in known):
         own = table[name]
         if not isinstance(own, Mapping):
@@ -163,7 +165,7 @@ def _limits(table: Mapping[str, Any]) -> Read:
     return (None if faults else Limits(value, said, tables)), faults
 
 
-def _questions(table: Mapping[str, Any]) -> Read:
+def _questions(table: Mapping[str, object]) -> Read:
     found: dict[str, Question] = {}
     faults: list[Fault] = []
     for name, own in table.items():

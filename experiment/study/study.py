@@ -26,9 +26,11 @@ from seethrough.experiment.study.study_tables import (
     SessionTable,
     StudyTable,
 )
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.declared import Declares
+from seethrough.renderer.scene.look import Look
 from seethrough.tasks.catalog import TASKS, WORLDS
 from seethrough.tasks.kit.base import NoParameters, Setting
+from seethrough.tasks.kit.world import WorldParameters
 
 
 @dataclass(frozen=True)
@@ -96,31 +98,31 @@ class Study:
 
     def factor(self, name: str) -> Factor:
         """The factor of this name. Raises KeyError."""
-        return next((f for f in self.factors if f.name == name), None) or _raise(name)
+        return {f.name: f for f in self.factors}[name]
 
-    def parameters(self, kind: str, name: str) -> Any:
+    def parameters(self, kind: str, name: str) -> object:
         """What the base says of a world or technique: its parameters; None if nothing."""
         chosen = self.tables[kind]
         return chosen.tables.get(name) if isinstance(chosen, Chosen) else None
 
-    def places(self) -> tuple[Any, ...]:
+    def places(self) -> tuple[WorldParameters, ...]:
         """The parameters of every world that some cell uses, each once."""
         return tuple(dict.fromkeys(part.place for part in self.parts.values()))
 
-    def with_places(self, change: Callable[[Any], Any]) -> Study:
+    def with_places(self, change: Callable[[WorldParameters], WorldParameters]) -> Study:
         """The study with other parameters of its worlds."""
-        known = {place: change(place) for place in self.places()}
+        known: dict[object, WorldParameters] = {place: change(place) for place in self.places()}
         parts = {
             cell: dataclasses.replace(part, place=known[part.place])
             for cell, part in self.parts.items()
         }
         world = self.tables["world"]
         assert isinstance(world, Chosen)
-        made = {name: known.get(own, own) for name, own in world.tables.items()}
+        made: dict[str, Declares] = {n: known.get(own) or own for n, own in world.tables.items()}
         tables = {**self.tables, "world": dataclasses.replace(world, tables=made)}
         return dataclasses.replace(self, parts=parts, tables=tables)
 
-    def resolved(self) -> dict[str, Any]:
+    def resolved(self) -> dict[str, object]:
         """Every value, defaults included, as plain JSON types; `parse` reads it again."""
         questions = [
             {"name": name, **_question_table(asked)} for name, asked in self.questions.items()
@@ -134,9 +136,9 @@ class Study:
         return {
             **said,
             "factors": [_factor_table(factor) for factor in self.factors],
-            **{name: _chosen_table(self.tables[name]) for name in ("technique", "world")},
+            **{n: _chosen_table(t) for n, t in self.tables.items() if isinstance(t, Chosen)},
             "look": _plain(self.look),
-            "task": _limits_table(self.tables["task"]),
+            "task": _limits_table(self.tables),
             "questions": questions,
             "texts": dict(self.texts),
             **({"plugins": self.plugins()} if self.plugins() else {}),
@@ -176,16 +178,12 @@ def _restored(files: Sequence[plugin_files.PluginFile], data: bytes) -> Study:
     return study
 
 
-def _raise(name: str) -> Any:
-    raise KeyError(name)
-
-
-def _question_table(asked: Question) -> dict[str, Any]:
-    said: dict[str, Any] = json.loads(asked.table.model_dump_json(exclude_defaults=True))
+def _question_table(asked: Question) -> dict[str, object]:
+    said: dict[str, object] = json.loads(asked.table.model_dump_json(exclude_defaults=True))
     return {**said, "use": asked.use, **_plain(asked.parameters)}
 
 
-def _factor_table(factor: Factor) -> dict[str, Any]:
+def _factor_table(factor: Factor) -> dict[str, object]:
     levels = [
         {"name": lv.name, "part": lv.part, "label": lv.label, "number": lv.number}
         for lv in factor.levels
@@ -197,21 +195,23 @@ def _factor_table(factor: Factor) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Declares) -> dict[str, object]:
     """Parameters as JSON has them; where a file lies differs between stations of one study."""
-    table = json.loads(json.dumps(dataclasses.asdict(value)))
+    table: dict[str, Any] = json.loads(json.dumps(dataclasses.asdict(value)))
     table.pop("folder", None)
     for model in table.get("models", ()):
         model.pop("folder", None)
     return table
 
 
-def _chosen_table(chosen: Any) -> dict[str, Any]:
+def _chosen_table(chosen: Chosen) -> dict[str, object]:
     use = {"use": chosen.use} if chosen.use else {}
-    return use | {name: _plain(own) for name, own in chosen.tables.items()}
+    return {**use, **{name: _plain(own) for name, own in chosen.tables.items()}}
 
 
-def _limits_table(limits: Any) -> dict[str, Any]:
+def _limits_table(tables: Mapping[str, Chosen | Limits]) -> dict[str, object]:
+    limits = tables["task"]
+    assert isinstance(limits, Limits)
     own = {
         name: {**_plain(limits.tables[name]), **limits.own.get(name, {})} for name in limits.tables
     }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
-from typing import Any
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -37,7 +36,7 @@ def _name(where: str, name: str) -> str:
     return f"{where}.{short(name)}" if where else short(name)
 
 
-def faults_of(error: ValidationError, section: str, table: Mapping[str, Any]) -> list[Fault]:
+def faults_of(error: ValidationError, section: str, table: Mapping[str, object]) -> list[Fault]:
     """What pydantic found in a table, as faults of its keys."""
     return list(_faults(error.errors(include_url=False), section))
 

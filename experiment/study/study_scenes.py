@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
 from seethrough.experiment.study.study_items import StudyItems
+from seethrough.tasks.explore import EXPLORE
 from seethrough.tasks.kit.base import Setting, Task
-from seethrough.tasks.kit.explore import EXPLORE
-from seethrough.tasks.kit.world import OWN
+from seethrough.tasks.kit.world import OWN, Place
 
 
 class StudyScenes:
@@ -19,7 +18,7 @@ class StudyScenes:
     def __init__(self, study: Study) -> None:
         self.study = study
         self._items = StudyItems(study)
-        self._shared: dict[tuple[Any, str, tuple[int, ...]], Any] = {}
+        self._shared: dict[tuple[object, str, tuple[int, ...]], Place] = {}
 
     def setting(self, trial: Trial) -> Setting:
         """Where and how a trial's task is set, and which item it asks for, if they are counted."""
@@ -28,12 +27,12 @@ class StudyScenes:
             return setting
         return replace(setting, item=self._items.of(trial))
 
-    def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
+    def begin(self, task: Task, trial: Trial, aspect: float) -> object:
         """The first state of a trial."""
         setting = self.setting(trial)
         return task.begin(self._made(task, trial, setting), setting, aspect)
 
-    def _made(self, task: Task, trial: Trial, setting: Setting) -> Any:
+    def _made(self, task: Task, trial: Trial, setting: Setting) -> Place:
         rng = generator(self.study.study.seed, trial.stream)
         if setting.place.scenes == OWN:
             return task.make_scene(rng, setting)

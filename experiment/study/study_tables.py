@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, field_validator
+from pydantic.fields import FieldInfo
 
 from seethrough import registry
 from seethrough.experiment.errors import shown
@@ -28,11 +29,14 @@ LANGUAGE = f'one of {", ".join(languages())}, or a file of texts beside the stud
 LEDGER = "postgresql://USER@HOST/DATABASE without a password"
 
 
-def key(meaning: str, unit: str = "", said: str = "", scope: str = FIXED, **limits: Any) -> Any:
+def key(
+    meaning: str, unit: str = "", said: str = "", scope: str = FIXED, **limits: Any
+) -> FieldInfo:
     """What is declared of a key: `said` says what is allowed where the limits do not, `scope` when
     it can change."""
     more: dict[str, JsonValue] = {"unit": unit, "said": said, "scope": scope}
-    return Field(description=meaning, json_schema_extra=more, **limits)
+    made: FieldInfo = Field(description=meaning, json_schema_extra=more, **limits)
+    return made
 
 
 def _plain(value: str) -> str:
@@ -223,8 +227,8 @@ class DisplayTable(Table):
     ] = 60.0  # fmt: skip
     samples: Annotated[
         Literal["auto", 0, 2, 4, 8],
-        key("samples a pixel, against jagged edges; auto: 4 on a graphics card, none without, "
-            "where they would miss 60 Hz", scope=SESSION),
+        key("samples a pixel where look.antialiasing is auto; auto: 4 on a graphics card, none "
+            "without, where they would miss 60 Hz", scope=SESSION),
     ] = "auto"  # fmt: skip
 
 

@@ -21,8 +21,8 @@ from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import screen_boxes
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques import named
-from seethrough.renderer.techniques.base import Bools, Floats, Own, Shot
+from seethrough.renderer.techniques.base import Bools, Floats, Parameters, Shot
+from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.gestures import after
 
@@ -78,7 +78,7 @@ class Warner:
         self._aspect = size[0] / size[1]
         self._size = (round(HEIGHT * self._aspect), HEIGHT)
         self._renderer = Renderer(context, size)
-        self._standard = named("standard")
+        self._standard = Standard()
 
     def trials(self, every: list[Trial]) -> dict[str, list[Trial]]:
         """Technique → trials with scenes of their own, spread over the study; the standard one has
@@ -86,7 +86,7 @@ class Warner:
         found: dict[str, dict[object, Trial]] = {}
         for trial in every:
             part = self.study.part(trial.levels)
-            if part.technique_name != "standard":
+            if part.technique != Standard():
                 key = (part.technique, part.place, trial.task, trial.stream)
                 found.setdefault(part.technique_name, {}).setdefault(key, trial)
         return {name: _spread(list(own.values())) for name, own in found.items()}
@@ -111,7 +111,9 @@ class Warner:
         met.worst = max(met.worst, lost)
         met.open |= kinds
 
-    def judged(self, scene: Scene, cameras: list[Camera], p: Own) -> tuple[int, float, set[str]]:
+    def judged(
+        self, scene: Scene, cameras: list[Camera], p: Parameters
+    ) -> tuple[int, float, set[str]]:
         """Of a scene: how many targets stay hidden in each view in which they are large enough,
         which share of other things vanishes, and the kinds of the open meshes that are cut."""
         targets = np.nonzero(scene.targets)[0]
@@ -152,7 +154,7 @@ class Warner:
             found[k] = shown[k] / alone if alone >= LEAST else np.nan
         return found
 
-    def _seen(self, scene: Scene, camera: Camera, p: Own) -> tuple[Floats, Floats]:
+    def _seen(self, scene: Scene, camera: Camera, p: Parameters) -> tuple[Floats, Floats]:
         """Pixels of each object in the standard picture (n,), and under the technique (n,)."""
         plain = self._areas(scene, camera, self._standard, None)
         own = self._areas(scene, camera, p, None)
@@ -166,7 +168,7 @@ class Warner:
                 own = np.maximum(own, self._areas(scene, camera, p, state))
         return plain, own
 
-    def _areas(self, scene: Scene, camera: Camera, p: Own, state: Own) -> Floats:
+    def _areas(self, scene: Scene, camera: Camera, p: Parameters, state: object) -> Floats:
         if not len(scene.objects):
             return np.zeros(0)
         area = self._renderer.look(scene, camera, p, self._size, state).area

@@ -9,7 +9,6 @@ import codecs
 import re
 import tomllib
 from pathlib import Path
-from typing import Any
 
 from seethrough.experiment.errors import InputError, short
 from seethrough.experiment.study.study_files import LARGEST_STUDY, read_regular
@@ -37,7 +36,7 @@ _DEEP = re.compile(rf"(?:[^\s.=\[\]{{}},]+[ \t]*\.[ \t]*){{{DEEPEST}}}")
 _LONG = re.compile(rf"[^\s.=\[\]{{}},]{{{LONGEST + 1}}}")
 
 
-def read_toml(path: Path) -> dict[str, Any]:
+def read_toml(path: Path) -> dict[str, object]:
     """The table in a file. Raises InputError."""
     try:
         content = read_regular(path, LARGEST_STUDY)
@@ -46,7 +45,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     return parse_toml(content, str(path))
 
 
-def parse_toml(content: bytes, file: str) -> dict[str, Any]:
+def parse_toml(content: bytes, file: str) -> dict[str, object]:
     """The table in a file's bytes: UTF-8, with or without a mark in front. Raises InputError."""
     try:
         # Some editors begin a file of UTF-8 with a mark that is no part of its text.

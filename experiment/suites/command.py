@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 
 from seethrough.experiment.errors import InputError, short, unknown
+from seethrough.experiment.files.trust import TRUST
 from seethrough.experiment.study.plugin_files import from_path
-from seethrough.experiment.study.trust import TRUST
 
 
 def add_arguments(kind: str, parser: argparse.ArgumentParser) -> None:

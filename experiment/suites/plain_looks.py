@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,7 +13,7 @@ PIXELS, PICTURE = 400, 30_000  # that show each thing, of the id picture's
 CONTRAST = 0.6
 
 
-def plain_look(view: View, aspect: float, shown: Any = None) -> Visibility:
+def plain_look(view: View, aspect: float, shown: NDArray[np.bool_] | None = None) -> Visibility:
     """What is in the view; `shown` (n,) leaves some of it out. Walls are seen wherever they are."""
     camera, scene = view.camera, view.scene
     local = (scene.centers - camera.eye) @ camera.rotation

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.random import Generator
@@ -40,7 +39,7 @@ KEYS = (*"0123456789ackrxyz", "left", "right", "up", "down", "enter", "space", "
 class Played:
     """The states of a trial: `states[i + 1]` is `states[i]` after `events[i]`."""
 
-    states: list[Any]
+    states: list[object]
     events: list[Event]
     outcome: Outcome | None
 
@@ -54,7 +53,7 @@ def no_clock(plugin: object = None) -> Iterator[None]:
     """Whoever asks what time it is, is found out; in the module of a `plugin` also where it has
     taken a clock by another name, or a date."""
 
-    def refuse(*_: Any) -> float:
+    def refuse(*_: object) -> float:
         raise ReadsTheClock("expected the times of events, not the clock's")
 
     no_date = type("datetime", (datetime.datetime,), dict.fromkeys(DATES, refuse))
@@ -83,7 +82,7 @@ def _among(value: object, clocks: set[object]) -> bool:
         return False
 
 
-def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> Any:
+def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> object:
     """A trial's first state."""
     return task.begin(task.make_scene(np.random.default_rng(seed), setting), setting, aspect)
 

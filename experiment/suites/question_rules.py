@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons.person import Person
-from seethrough.experiment.questions.kit import Asking, Row
+from seethrough.experiment.questions.kit import Asking, Question, Row
 from seethrough.experiment.suites.played import no_clock
 from seethrough.experiment.suites.suite import (
     Rule,
@@ -21,9 +20,11 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
-from seethrough.renderer.look.look import PLAIN, Look
+from seethrough.renderer.scene.look import PLAIN, Look
+from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.skills.profile import AVERAGE
+from seethrough.tasks.kit.world import WorldParameters
 
 LEVELS = ("plain", "xray", "cutaway")
 
@@ -33,10 +34,10 @@ class _Study:
 
     seed = 1
 
-    def place(self, world: str) -> Any:
+    def place(self, world: str) -> WorldParameters:
         return WORLDS[world].Parameters()
 
-    def technique(self, about: Any) -> Any:
+    def technique(self, about: Mapping[str, str]) -> Parameters:
         from seethrough.renderer.techniques.standard.opaque import Standard
 
         return Standard()
@@ -51,7 +52,7 @@ def _askings() -> Iterator[Asking]:
 
 
 def _answered(
-    question: Any, asking: Asking, seed: int
+    question: Question, asking: Asking, seed: int
 ) -> Iterator[tuple[int, Page, Answers, list[Row]]]:
     """(number, page, answers, rows) of each page, by a simulated person."""
     opinions = Opinions(Person(np.random.default_rng(seed), AVERAGE))
@@ -63,26 +64,26 @@ def _answered(
         yield number, page, answers, rows
 
 
-def says_what_it_is(question: Any) -> Iterator[str]:
+def says_what_it_is(question: Question) -> Iterator[str]:
     """It says what it is: name, source, an example of itself."""
     yield from describes_itself(question, ())
     if not isinstance(question.example, question.Parameters):
         yield f"example = {question.example!r}: expected its Parameters"
 
 
-def refuses_wrong_parameters(question: Any) -> Iterator[str]:
+def refuses_wrong_parameters(question: Question) -> Iterator[str]:
     """Its parameters are declared, and wrong ones refused by name."""
     yield from parameters_declared(question.Parameters)
 
 
-def has_its_texts(question: Any) -> Iterator[str]:
+def has_its_texts(question: Question) -> Iterator[str]:
     """All that it says is in every language."""
     yield from texts_in_every_language(question, (question.name,))
     own = {key for texts in question.texts.values() for key in texts}
     yield from unknown_texts(own)
 
 
-def asks_the_same_again(question: Any) -> Iterator[str]:
+def asks_the_same_again(question: Question) -> Iterator[str]:
     """One participant meets the same pages whenever they are made; their number is known."""
     p = question.example
     for asking in _askings():
@@ -94,7 +95,7 @@ def asks_the_same_again(question: Any) -> Iterator[str]:
             yield "made twice, its pages differ"
 
 
-def is_answered_by_simulated_people(question: Any) -> Iterator[str]:
+def is_answered_by_simulated_people(question: Question) -> Iterator[str]:
     """A simulated person's answers complete every page, and the rows follow from them alone."""
     for asking in _askings():
         for seed in (1, 2):
@@ -106,7 +107,7 @@ def is_answered_by_simulated_people(question: Any) -> Iterator[str]:
                     yield f"page {number}: expected a button to be pressed"
 
 
-def writes_rows_that_it_declares(question: Any) -> Iterator[str]:
+def writes_rows_that_it_declares(question: Question) -> Iterator[str]:
     """Rows have items that it declares, values that are numbers or nothing; one says it is done."""
     p = question.example
     for asking in _askings():
@@ -128,7 +129,7 @@ def writes_rows_that_it_declares(question: Any) -> Iterator[str]:
                 yield f"page {number}: last = {last}: expected one of {items}"
 
 
-RULES: tuple[Rule, ...] = (
+RULES: tuple[Rule[Question], ...] = (
     says_what_it_is,
     refuses_wrong_parameters,
     has_its_texts,

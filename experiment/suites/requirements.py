@@ -19,8 +19,8 @@ from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.renderer.techniques import named
-from seethrough.renderer.techniques.base import Floats, Own, Shot, Technique
+from seethrough.renderer.techniques.base import Floats, Parameters, Shot, Technique
+from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.gestures import after
 
 SIZE = (96, 72)
@@ -81,7 +81,7 @@ def measure(technique: Technique) -> Measured:
     )  # fmt: skip
 
 
-def _shown(case: Case, p: Own, targets: list[int]) -> tuple[dict[int, float], float]:
+def _shown(case: Case, p: Parameters, targets: list[int]) -> tuple[dict[int, float], float]:
     """Pixels of each target, with hands where they reach for it, and the share of the area of
     everything else that is left, with hands at the first."""
     found, left = {}, 1.0
@@ -106,7 +106,7 @@ def _shown(case: Case, p: Own, targets: list[int]) -> tuple[dict[int, float], fl
 @lru_cache
 def _plain(case: Case) -> Floats:
     """(n,) pixels of each object in the standard picture."""
-    truth = exact(case.scene, case.camera, named("standard"), SIZE)
+    truth = exact(case.scene, case.camera, Standard(), SIZE)
     pixels: Floats = truth.weights.sum(axis=(1, 2))
     return pixels
 
@@ -117,7 +117,7 @@ def _whole(case: Case) -> dict[int, float]:
     found = {}
     for k in np.nonzero(case.scene.targets)[0].tolist():
         alone = Scene((case.scene.objects[k],), case.scene.background)
-        truth = exact(alone, case.camera, named("standard"), SIZE)
+        truth = exact(alone, case.camera, Standard(), SIZE)
         if truth.weights.sum() > 4:
             found[k] = float(truth.weights.sum())
     return found
@@ -148,7 +148,7 @@ def _panes(count: int) -> Case:
     return Case(f"{count} panes", Scene((*panes, ball)), AHEAD)
 
 
-def _stays(p: Own) -> float:
+def _stays(p: Parameters) -> float:
     """The share of a wall that is as before, with a target behind it a hundredth as large."""
     wall = Object(geometry.box(6, 4.5, 0.2), transforms.translation(0, 0, 1), GREY, kind="wall")
     ball = Object(SHAPES[0], transforms.placed((0, 0, -1), None, 0.35), RED, True)
@@ -157,7 +157,7 @@ def _stays(p: Own) -> float:
     state = rules.begin(p)
     if rules.active(p):
         state = after(p, state, shot, rules.reach(p, state, shot, scene.centers[1]))
-    before = exact(scene, AHEAD, named("standard"), SIZE)
+    before = exact(scene, AHEAD, Standard(), SIZE)
     own = exact(scene, AHEAD, rules.exactly(p), SIZE, state)
     there = before.weights[0] > 0
     same = np.abs(own.picture - before.picture).max(axis=2) < 1 / 255

@@ -7,20 +7,27 @@ raises has found something, too: a plug-in's code may do anything.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Mapping
 from importlib import import_module
-from typing import Any, get_type_hints
+from typing import Protocol, TypeVar, get_type_hints
 
 from seethrough import registry
 from seethrough.experiment.errors import one_line
 from seethrough.experiment.pages.texts import Texts, languages
 from seethrough.experiment.session.strangers import PluginFailed, limited
 from seethrough.experiment.suites.finding import Finding
-from seethrough.renderer.declared import Key, declared
+from seethrough.renderer.declared import Declares, Key, declared
+
+Plugin = TypeVar("Plugin", contravariant=True)
+
+
+class Rule(Protocol[Plugin]):
+    """Gives a line for everything that is wrong with a plug-in."""
+
+    def __call__(self, plugin: Plugin, /) -> Iterator[str]: ...
+
 
 RULE_LIMIT = 60.0  # s: the slowest rule of ours takes a few
-
-Rule = Callable[[Any], Iterator[str]]
 
 # Kind → the module with its rules.
 RULES = {kind: f"{__package__}.{kind}_rules" for kind in ("task", "world", "question")}
@@ -36,7 +43,7 @@ def findings(kind: str, name: str) -> Iterator[Finding]:
         yield Finding(said, not problems, "; ".join(problems) or "nothing found")
 
 
-def _tried(rule: Rule, plugin: Any) -> list[str]:
+def _tried(rule: Rule[Plugin], plugin: Plugin) -> list[str]:
     found = []
     try:
         with limited(RULE_LIMIT, "a rule"):
@@ -51,7 +58,7 @@ def _tried(rule: Rule, plugin: Any) -> list[str]:
     return found
 
 
-def describes_itself(plugin: Any, words: tuple[str, ...]) -> Iterator[str]:
+def describes_itself(plugin: object, words: tuple[str, ...]) -> Iterator[str]:
     """Problems with what every kind says of itself, and with `words` that a kind says besides."""
     for word in ("name", "version", "source", *words):
         value = getattr(plugin, word, None)
@@ -62,7 +69,7 @@ def describes_itself(plugin: Any, words: tuple[str, ...]) -> Iterator[str]:
         yield f"name = {name!r}: expected lower-case letters, digits and _"
 
 
-def parameters_declared(cls: Any) -> Iterator[str]:
+def parameters_declared(cls: type[Declares]) -> Iterator[str]:
     """Problems with a class of parameters: frozen, each declared, and the wrong ones refused."""
     made = getattr(cls, "__dataclass_params__", None)
     if made is None or not made.frozen:
@@ -86,16 +93,17 @@ def parameters_declared(cls: Any) -> Iterator[str]:
             yield f"{name} = {wrong!r}: expected to be refused; `check(self)` in __post_init__ does"
 
 
-def _needed(field: Any) -> bool:
+def _needed(field: dataclasses.Field[object]) -> bool:
     missing = dataclasses.MISSING
     return field.default is missing and field.default_factory is missing
 
 
-def _some(hint: Any) -> Any:
-    return {str: "text", int: 1, float: 1.0}.get(hint, "text")
+def _some(hint: object) -> object:
+    known: dict[object, object] = {str: "text", int: 1, float: 1.0}
+    return known.get(hint, "text")
 
 
-def _wrong(said: Key) -> Any:
+def _wrong(said: Key) -> object:
     """A value that the declaration forbids."""
     if said.choices:
         return "no such choice"
@@ -104,7 +112,15 @@ def _wrong(said: Key) -> Any:
     return (said.low - 1, said.low - 1) if said.point else said.low - 1
 
 
-def texts_in_every_language(plugin: Any, prefixes: tuple[str, ...]) -> Iterator[str]:
+class HasTexts(Protocol):
+    """A plug-in that brings texts along."""
+
+    @property
+    def texts(self) -> Mapping[str, Mapping[str, str]]:
+        """Language → name → text."""
+
+
+def texts_in_every_language(plugin: HasTexts, prefixes: tuple[str, ...]) -> Iterator[str]:
     """Problems with texts that a plug-in brings along."""
     if not plugin.texts:
         return

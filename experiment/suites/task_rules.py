@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from string import ascii_lowercase
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +33,7 @@ def _settings(task: Task) -> Iterator[Setting]:
         yield setting(task, WORLDS[world].Parameters())
 
 
-def says_what_it_is(task: Any) -> Iterator[str]:
+def says_what_it_is(task: Task) -> Iterator[str]:
     """It says what it is: name, code, source, worlds, measures, texts."""
     yield from describes_itself(task, ("code", "title", "instruction"))
     if not task.worlds:
@@ -47,12 +46,12 @@ def says_what_it_is(task: Any) -> Iterator[str]:
         yield f"simulate = {task.simulate!r}: expected a Strategy"
 
 
-def refuses_wrong_parameters(task: Any) -> Iterator[str]:
+def refuses_wrong_parameters(task: Task) -> Iterator[str]:
     """Its parameters are declared, and wrong ones refused by name."""
     yield from parameters_declared(task.Parameters)
 
 
-def has_its_texts(task: Any) -> Iterator[str]:
+def has_its_texts(task: Task) -> Iterator[str]:
     """All that it says is in every language."""
     yield from texts_in_every_language(task, (task.name,))
     keys = {task.title, task.instruction}
@@ -64,7 +63,7 @@ def has_its_texts(task: Any) -> Iterator[str]:
     yield from unknown_texts(keys)
 
 
-def makes_the_same_scene_again(task: Any) -> Iterator[str]:
+def makes_the_same_scene_again(task: Task) -> Iterator[str]:
     """One stream, one scene; another stream, another one, unless it is from a file."""
     for given in _settings(task):
         one, two, other = (task.view(begun(task, given, s)).scene for s in (1, 1, 2))
@@ -79,7 +78,7 @@ def makes_the_same_scene_again(task: Any) -> Iterator[str]:
             yield f"{given.world.name}: two streams made one scene"
 
 
-def is_pure(task: Any) -> Iterator[str]:
+def is_pure(task: Task) -> Iterator[str]:
     """The same events give the same states and the same outcome, whatever was asked between."""
     for given in _settings(task):
         first, again = (played(task, given, SEEDS[0]) for _ in range(2))
@@ -99,7 +98,7 @@ def _global_stream() -> NDArray[np.uint32]:
     return state[1].copy()
 
 
-def reads_no_clock(task: Any) -> Iterator[str]:
+def reads_no_clock(task: Task) -> Iterator[str]:
     """It reads no clock, and draws from no stream but its own."""
     for given in _settings(task):
         state = begun(task, given, SEEDS[0])
@@ -113,7 +112,7 @@ def reads_no_clock(task: Any) -> Iterator[str]:
             yield f"{given.world.name}: drew from numpy's global stream"
 
 
-def takes_any_event(task: Any) -> Iterator[str]:
+def takes_any_event(task: Task) -> Iterator[str]:
     """Whatever a participant does, it shows a view and raises nothing."""
     for given in _settings(task):
         for seed in SEEDS:
@@ -156,7 +155,7 @@ def said(task: Task, state: object) -> tuple[object, ...]:
     return (*hud, task.outcome(state), view.captured, *view.camera.eye, *view.camera.rotation.flat)
 
 
-def fits_the_view(task: Any) -> Iterator[str]:
+def fits_the_view(task: Task) -> Iterator[str]:
     """What it draws over the view lies in the view, wide or narrow."""
     for given in _settings(task):
         for aspect in (4 / 3, 16 / 9):
@@ -167,7 +166,7 @@ def fits_the_view(task: Any) -> Iterator[str]:
                         yield f"{given.world.name}: {r} lies outside of a view {aspect:.2f} wide"
 
 
-def is_done_by_simulated_people(task: Any) -> Iterator[str]:
+def is_done_by_simulated_people(task: Task) -> Iterator[str]:
     """A simulated person answers, in order of time, and every measure is filled in."""
     for given in _settings(task):
         for seed in SEEDS:
@@ -183,7 +182,7 @@ def is_done_by_simulated_people(task: Any) -> Iterator[str]:
                     yield f"{where}: measure {measure.name}: expected a value"
 
 
-def shows_what_it_is_about(task: Any) -> Iterator[str]:
+def shows_what_it_is_about(task: Task) -> Iterator[str]:
     """For its instruction's picture it names objects and cameras."""
     for given in _settings(task):
         state = begun(task, given, SEEDS[0])
@@ -194,7 +193,7 @@ def shows_what_it_is_about(task: Any) -> Iterator[str]:
             yield f"{given.world.name}: asked = {example.asked}: expected indices of objects"
 
 
-RULES: tuple[Rule, ...] = (
+RULES: tuple[Rule[Task], ...] = (
     says_what_it_is,
     refuses_wrong_parameters,
     has_its_texts,

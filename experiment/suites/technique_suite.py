@@ -10,7 +10,7 @@ import re
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,9 @@ from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.reference.surfaces import surfaces
-from seethrough.renderer.techniques import base, named
+from seethrough.renderer.scene.scene import Object
+from seethrough.renderer.techniques import base
+from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit import events
 from seethrough.tasks.kit.gestures import after as gestures_done
 
@@ -144,14 +146,14 @@ class _Tried:
         return Finding("refuses", not taken, said)
 
     def picture(
-        self, case: Case, p: base.Own, state: object = None, size: tuple[int, int] = SIZE
+        self, case: Case, p: base.Parameters, state: object = None, size: tuple[int, int] = SIZE
     ) -> NDArray[np.uint8]:
         """(h, w, 3) drawn by a fresh renderer."""
         renderer = Renderer(self.context, size)
         renderer.draw(case.scene, case.camera, p, state=state)
         return renderer.read()
 
-    def played(self, case: Case, p: object) -> tuple[Any, list[bool]]:
+    def played(self, case: Case, p: base.Parameters) -> tuple[object, list[bool]]:
         """The state after some events of every kind, and which ones were used up."""
         shot = base.Shot(case.scene, case.camera, SIZE)
         state, used = self.technique.begin(p), []
@@ -184,7 +186,8 @@ class _Tried:
         )
         touched = self.technique.touches(self.p, state, shot)
         again = self.technique.touches(self.p, state, shot)
-        frozen = dataclasses.is_dataclass(state) is False or state.__dataclass_params__.frozen
+        made = getattr(state, "__dataclass_params__", None)
+        frozen = made is None or made.frozen
         holds = same and np.array_equal(touched, again) and frozen
         said = "the same twice, state frozen" if holds else "differs when asked again"
         return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
@@ -193,7 +196,7 @@ class _Tried:
         self,
         name: str,
         case: Case,
-        p: base.Own,
+        p: base.Parameters,
         size: tuple[int, int],
         played: bool,
         any_: bool = False,
@@ -232,7 +235,7 @@ class _Tried:
 
     def idle(self) -> Finding:
         """Where the rule changes no surface, the frame is the standard frame, byte for byte."""
-        standard = named("standard")
+        standard = Standard()
         wrong, idle = [], 0
         for case in (scenes.fixed(), *self.cases):
             shot = base.Shot(case.scene, case.camera, SIZE)
@@ -332,7 +335,7 @@ class _Tried:
         case = self.cases[0]
         spent: tuple[list[float], list[float]] = ([], [])
         for _ in range(12):
-            for times, p in zip(spent, (named("standard"), self.p), strict=True):
+            for times, p in zip(spent, (Standard(), self.p), strict=True):
                 start = time.perf_counter()
                 renderer.draw(case.scene, case.camera, p)
                 self.context.finish()
@@ -341,9 +344,11 @@ class _Tried:
         return Finding("cost", True, f"{own / standard:.2f} × the standard frame at 400 × 300")
 
 
-def some_events() -> list[object]:
+def some_events() -> list[events.Event]:
     """A pointer that moves, presses and drags, and keys."""
-    moves = [events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)]
+    moves: list[events.Event] = [
+        events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)
+    ]
     return [
         *moves,
         events.PointerPress(0.5, 0.65, 0.45),
@@ -358,9 +363,9 @@ def some_events() -> list[object]:
     ]
 
 
-def _kind(event: Any) -> str:
+def _kind(event: events.Event) -> str:
     name = type(event).__name__
-    if name.startswith("Key"):
+    if isinstance(event, events.KeyPress | events.KeyRelease):
         return f"key:{event.key}"
     if name.startswith("Second"):
         return "second button"
@@ -372,6 +377,6 @@ def _apart(picture: NDArray[np.uint8], truth: ExactPicture) -> float:
     return float(apart.max(initial=0.0))
 
 
-def _mentioned(lines: list[str], thing: Any, k: int) -> bool:
+def _mentioned(lines: list[str], thing: Object, k: int) -> bool:
     name = f"{thing.kind or 'object'} {k}"
     return any(line.startswith(f"{name}:") for line in lines)

@@ -13,13 +13,16 @@ from seethrough import registry
 from seethrough.experiment.gallery.gallery_failures import failures
 from seethrough.experiment.suites.requirements import SHOWS, VIEWS, measure
 from seethrough.renderer.techniques.base import Technique
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.standard.opaque import Standard
 
 REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "techniques.md"
 
 # What Elmqvist2009 §IV-A says of the kinds of techniques in its table I, in our words: which of the
 # requirements they miss. Of the table itself the rows alone can be read in our copy.
 PAPER = {
-    "standard": "", "dynamic": "meets all of them",
+    Standard.technique.name: "",
+    DynamicTransparency.technique.name: "meets all of them",
     "constant": "misses R2 or R5; R7",
     "blueprint": "misses R2 or R5; R7",
     "view_dependent": "misses R2 or R5; R7",

@@ -5,14 +5,16 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 from itertools import combinations, product
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from seethrough.renderer.declared import Key, Of, declared
+from seethrough.renderer.declared import Declares, Key, Of, declared
+
+Made = TypeVar("Made", bound=Declares)
 
 
-def values(parameters: object, name: str, said: Key) -> list[object]:
+def values(parameters: Declares, name: str, said: Key) -> list[object]:
     """The default first, then choices, or the ends of what is allowed, of one parameter."""
     default = getattr(parameters, name)
     hint = get_type_hints(type(parameters))[name]
@@ -34,7 +36,7 @@ def values(parameters: object, name: str, said: Key) -> list[object]:
     return [default, *(v for v in dict.fromkeys(found) if v != default)]
 
 
-def pairwise(parameters: Any, rng: np.random.Generator) -> list[object]:
+def pairwise(parameters: Made, rng: np.random.Generator) -> list[Made]:
     """Parameters in which every two values of two parameters meet at least once: greedily, each
     time the best of some drawn at random."""
     named = {n: values(parameters, n, s) for n, s in declared(type(parameters)).items()}
@@ -43,7 +45,7 @@ def pairwise(parameters: Any, rng: np.random.Generator) -> list[object]:
         for a, b in combinations(named, 2)
         for i, j in product(range(len(named[a])), range(len(named[b])))
     }
-    found = [parameters]
+    found: list[Made] = [parameters]
     chosen = [dict.fromkeys(named, 0)]
     wanted -= _pairs(chosen[0])
     while wanted:
@@ -69,7 +71,7 @@ def _pairs(chosen: dict[str, int]) -> set[tuple[tuple[str, int], tuple[str, int]
     return set(combinations(chosen.items(), 2))
 
 
-def refused(parameters: object) -> Iterator[tuple[str, object]]:
+def refused(parameters: Declares) -> Iterator[tuple[str, object]]:
     """(name, value) that must be refused: beyond each end, and of no choice."""
     for name, said in declared(type(parameters)).items():
         if said.choices:

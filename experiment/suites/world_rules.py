@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from string import ascii_lowercase
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,7 @@ from seethrough.tasks.kit.world import FILES, OWN, SHARED, World
 MOVING = ("orbit", "walk", "fixed")
 
 
-def says_what_it_is(world: Any) -> Iterator[str]:
+def says_what_it_is(world: World) -> Iterator[str]:
     """It says what it is: name, source, how one moves, whose its scenes are."""
     yield from describes_itself(world, ("scenario", "moving", "controls"))
     if world.moving not in MOVING:
@@ -33,18 +32,18 @@ def says_what_it_is(world: Any) -> Iterator[str]:
         yield "Parameters: expected a key `scenes`, as tasks.kit.world.scenes() makes it"
 
 
-def refuses_wrong_parameters(world: Any) -> Iterator[str]:
+def refuses_wrong_parameters(world: World) -> Iterator[str]:
     """Its parameters are declared, and wrong ones refused by name."""
     yield from parameters_declared(world.Parameters)
 
 
-def has_its_texts(world: Any) -> Iterator[str]:
+def has_its_texts(world: World) -> Iterator[str]:
     """All that it says is in every language."""
     yield from texts_in_every_language(world, (world.name, world.scenario))
     yield from unknown_texts({world.controls})
 
 
-def makes_the_same_place_again(world: Any) -> Iterator[str]:
+def makes_the_same_place_again(world: World) -> Iterator[str]:
     """One stream, one place; another stream, another one, unless it is from a file; nothing but the
     stream decides."""
     p = world.Parameters()
@@ -60,7 +59,7 @@ def makes_the_same_place_again(world: Any) -> Iterator[str]:
         yield "two streams made one place"
 
 
-def has_something_to_look_for(world: Any) -> Iterator[str]:
+def has_something_to_look_for(world: World) -> Iterator[str]:
     """There are things in it, at places that are numbers, and some of them are targets."""
     for seed in (1, 2, 3):
         scene = world.make(np.random.default_rng(seed), world.Parameters()).scene
@@ -70,7 +69,7 @@ def has_something_to_look_for(world: Any) -> Iterator[str]:
             yield f"seed {seed}: expected finite transforms"
 
 
-def moves_by_events_alone(world: Any) -> Iterator[str]:
+def moves_by_events_alone(world: World) -> Iterator[str]:
     """Where one looks from follows from events, and old viewers stay where they were."""
     p = world.Parameters()
     place = world.make(np.random.default_rng(1), p)
@@ -101,7 +100,7 @@ def says_which_keys_it_takes(world: World) -> Iterator[str]:
             yield f"moves by {name}, which `takes` lacks"
 
 
-def can_be_certified(world: Any) -> Iterator[str]:
+def can_be_certified(world: World) -> Iterator[str]:
     """It says from where scenes are judged, and how far there is to go."""
     p = world.Parameters()
     place = world.make(np.random.default_rng(1), p)
@@ -116,7 +115,7 @@ def can_be_certified(world: Any) -> Iterator[str]:
             yield f"path = {path!r}: expected world units"
 
 
-RULES: tuple[Rule, ...] = (
+RULES: tuple[Rule[World], ...] = (
     says_what_it_is,
     refuses_wrong_parameters,
     has_its_texts,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from seethrough.renderer.arrays import Floats
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 
 
 def hazed(

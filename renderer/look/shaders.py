@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seethrough.renderer.look import floor, fog
-from seethrough.renderer.look.look import Look
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Color
 
 GLSL = floor.GLSL + fog.GLSL
@@ -16,6 +16,8 @@ def defines(look: Look, background: Color) -> tuple[str, ...]:
         found.append("FLOOR")
     if look.floor_grid > 0:
         found.append(f"FLOOR_GRID {_number(look.floor_grid)}")
+    if look.ground_shadows > 0:
+        found.append("FLOOR_SHADOWS")
     if look.fog > 0:
         rgb = ", ".join(_number(c) for c in background)
         found += [

@@ -7,6 +7,8 @@ outline, whose length is the Euclidean distance. Each pixel is covered once.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -14,7 +16,9 @@ from numpy.typing import NDArray
 from seethrough.renderer.arrays import Floats, Floats32, Ints
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 
 def opacity(distance: NDArray[np.float64], technique: DynamicTransparency) -> NDArray[np.float64]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.models.forms.shapes import Array, Color, Shape, assemble, join
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join
 from seethrough.renderer.models.forms.surfaces import (
     ball,
     box,
@@ -132,7 +133,7 @@ COVERS = np.array(
 )  # fmt: skip
 
 
-def _books(width: float, floors: Array, count: int = 17) -> Shape:
+def _books(width: float, floors: Floats, count: int = 17) -> Shape:
     """Rows of upright books, each with a band round its back; always the same ones."""
     rng = np.random.default_rng(7)
     size = rng.uniform((0.03, 0.24, 0.19), (0.065, 0.35, 0.25), (len(floors), count, 3))
@@ -155,7 +156,7 @@ def piano() -> Shape:
     bent = curve([(0.75, 0.25), (0.74, 0.0), (0.62, -0.3), (0.32, -0.55), (0.2, -0.85),
                   (0.05, -1.1), (-0.25, -1.25), (-0.6, -1.2), (-0.75, -1.0)], 32)[::-1]  # fmt: skip
 
-    def outline(front: float) -> Array:
+    def outline(front: float) -> Floats:
         """Seen from above, y forward; enough corners on the straight sides to balance the bend."""
         before = [(x, front) for x in np.linspace(0.75, -0.75, 10)[front == 0.25 :]]
         bass = [(-0.75, y) for y in np.linspace(front, -1.0, 12)[1:-1]]

@@ -13,11 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.files.gltf import check_drawn, opened, primitives
 from seethrough.renderer.models.files.gltf_file import GltfFile
+from seethrough.renderer.models.files.gltf_json import CAMERAS, MESHES, NODES
 from seethrough.renderer.models.files.gltf_material import Materials
 from seethrough.renderer.models.files.gltf_nodes import Node, Nodes
-from seethrough.renderer.models.files.part import Array, Found, too_many
+from seethrough.renderer.models.files.part import Found, too_many
 from seethrough.renderer.models.files.source import Refused, Source
 from seethrough.renderer.models.user import KINDS, check_parts, found_in, meshed, told
 from seethrough.renderer.scene.geometry import Mesh
@@ -37,7 +39,7 @@ class Thing:
 
     name: str
     mesh: Mesh
-    transform: Array
+    transform: Floats
     extras: Mapping[str, object] = field(default_factory=dict)
 
 
@@ -46,7 +48,7 @@ class Standpoint:
     """A camera of a file: its name, where it stands (4, 4, it looks along its −z), its lens."""
 
     name: str
-    transform: Array
+    transform: Floats
     fov_y: float
 
 
@@ -57,7 +59,7 @@ class SceneFile:
 
     things: tuple[Thing, ...]
     standpoints: tuple[Standpoint, ...]
-    spots: Mapping[str, Array]
+    spots: Mapping[str, Floats]
     triangles: int
     notes: tuple[str, ...]
     digest: str
@@ -122,14 +124,14 @@ class _Reader:
                 self._check_place(index, place)
                 yield Thing(name, mesh, place, extras)
 
-    def _check_place(self, index: int, place: Array) -> None:
+    def _check_place(self, index: int, place: Floats) -> None:
         size = np.linalg.svd(place[:3, :3], compute_uv=False)
         if not (np.isfinite(place).all() and size[-1] > 1e-9 * max(size[0], 1e-300)):
             raise Refused(f"nodes[{index}]: scaled flat: expected a thing with an extent")
 
     def _mesh(self, index: int, node: Node) -> Mesh | None:
         """The mesh of a node, None where it has no triangles."""
-        number = self._file.row("nodes", index)["mesh"]
+        number = self._file.row(NODES, index)["mesh"]
         if not node.plain:
             return self._made(number, node)
         if number not in self._plain:
@@ -152,10 +154,10 @@ class _Reader:
         return self._known.setdefault(content, mesh)
 
     def _name(self, index: int) -> str:
-        raw = self._file.row("nodes", index)
+        raw = self._file.row(NODES, index)
         said = raw.get("name")
         if not said and "mesh" in raw:
-            said = self._file.row("meshes", raw["mesh"]).get("name")
+            said = self._file.row(MESHES, raw["mesh"]).get("name")
         return _text(said, f"nodes[{index}].name") if said else f"thing {index}"
 
     def _extras(self, index: int) -> Mapping[str, object]:
@@ -164,11 +166,11 @@ class _Reader:
         way = [index]
         while way[-1] in self._nodes.parents:
             way.append(self._nodes.parents[way[-1]])
-        rows = [self._file.row("nodes", i) for i in reversed(way)]
+        rows = [self._file.row(NODES, i) for i in reversed(way)]
+        said = [row.get("extras", {}) for row in rows]
         if "mesh" in rows[-1]:
-            rows.insert(-1, self._file.row("meshes", rows[-1]["mesh"]))
-        for row in rows:
-            extras = row.get("extras", {})
+            said.insert(-1, self._file.row(MESHES, rows[-1]["mesh"]).get("extras", {}))
+        for extras in said:
             if isinstance(extras, dict):
                 found |= extras
         return found
@@ -176,10 +178,10 @@ class _Reader:
     def _standpoints(self) -> tuple[Standpoint, ...]:
         found: list[Standpoint] = []
         for index, world in self._nodes.world.items():
-            raw = self._file.row("nodes", index)
+            raw = self._file.row(NODES, index)
             if "camera" not in raw:
                 continue
-            camera = self._file.row("cameras", raw["camera"])
+            camera = self._file.row(CAMERAS, raw["camera"])
             if camera.get("type") != "perspective":
                 self._found.note("a camera without perspective is left out")
                 continue
@@ -194,11 +196,11 @@ class _Reader:
             found.append(Standpoint(name, _upright(world, index), float(said)))
         return tuple(found)
 
-    def _spots(self) -> Mapping[str, Array]:
+    def _spots(self) -> Mapping[str, Floats]:
         return {
             self._name(index): world[:3, 3]
             for index, world in self._nodes.world.items()
-            if not {"mesh", "camera"} & self._file.row("nodes", index).keys()
+            if not {"mesh", "camera"} & self._file.row(NODES, index).keys()
         }
 
 
@@ -208,7 +210,7 @@ def _text(said: object, what: str) -> str:
     return said
 
 
-def _upright(world: Array, index: int) -> Array:
+def _upright(world: Floats, index: int) -> Floats:
     """A camera's place without its scale."""
     place = np.eye(4)
     turn, size, rest = np.linalg.svd(world[:3, :3])

@@ -14,11 +14,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Bools
+from seethrough.renderer.arrays import Bools, Floats
 from seethrough.renderer.models.files.part import (
     GREY,
     MOST_TRIANGLES,
-    Array,
     Found,
     Part,
     to_shown,
@@ -136,7 +135,7 @@ def check_parts(parts: list[Part]) -> None:
             _check_numbers(part.uv.reshape(-1, 2), "corner", "texture coordinates", 1e6)
 
 
-def _check_numbers(values: Array, what: str, expected: str, most: float) -> None:
+def _check_numbers(values: Floats, what: str, expected: str, most: float) -> None:
     bad = np.flatnonzero(~(np.abs(values) < most).all(axis=1))  # NaN is not less either
     if len(bad):
         shown = ", ".join(f"{v:g}" for v in values[bad[0]])
@@ -221,7 +220,7 @@ def _with_holes(surface: Surface) -> Bools:
     return hiding[surface.texture] & (surface.cutoff >= 0)
 
 
-def _true_normals(mesh: Mesh, corners: Array) -> Array:
+def _true_normals(mesh: Mesh, corners: Floats) -> Floats:
     """(m, 3, 3) normals of corners; the triangle's own where those of its surroundings cancel."""
     normals = mesh.normals[mesh.triangles]
     a, b, c = np.moveaxis(corners, 1, 0)
@@ -231,7 +230,7 @@ def _true_normals(mesh: Mesh, corners: Array) -> Array:
     return np.where(good, normals, own[:, None])
 
 
-def _mesh(surface: Surface, normals: Array) -> Mesh:
+def _mesh(surface: Surface, normals: Floats) -> Mesh:
     """Corners that agree in place, normal and colour become one vertex."""
     flat, rgb = normals.reshape(-1, 3), surface.colors[..., :3].reshape(-1, 3)
     flat = flat / np.linalg.norm(flat, axis=1, keepdims=True)
@@ -248,7 +247,7 @@ def _mesh(surface: Surface, normals: Array) -> Mesh:
     )
 
 
-def _standing(vertices: Array, triangles: NDArray[np.int64], axis: str) -> float:
+def _standing(vertices: Floats, triangles: NDArray[np.int64], axis: str) -> float:
     """Share of the footprint that touches the ground if `axis` points up: the area of triangles
     that lie within a fiftieth of its height, seen from below, of the rectangle about it all."""
     k = "xyz".index(axis)

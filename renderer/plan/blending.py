@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.plan import doubt as doubts
 from seethrough.renderer.plan import levels, order
-
-Indices = NDArray[np.int64]
 
 MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
 
@@ -22,42 +20,43 @@ class Blending:
     are `blended` and `masked` (n,). See order.decide. `lost` (n, n): of which pairs a target may be
     lost whatever goes first."""
 
-    seen: Indices
-    extents: NDArray[np.float64]
-    reach: NDArray[np.float64]
-    relation: NDArray[np.int8]
-    uncertain: NDArray[np.bool_]
-    blended: NDArray[np.bool_]
-    masked: NDArray[np.bool_]
-    lost: NDArray[np.bool_]
+    seen: Ints
+    extents: Floats
+    reach: Floats
+    relation: Signs
+    uncertain: Bools
+    blended: Bools
+    masked: Bools
+    lost: Bools
 
-    def levels(self) -> tuple[Indices, Indices, NDArray[np.bool_]]:
-        """See levels.levels."""
-        return levels.levels(
-            *(self.seen, self.extents, self.reach, self.relation, self.blended, self.masked)
+    @property
+    def _related(self) -> order.Related:
+        return order.Related(
+            self.seen, self.extents, self.reach, self.relation, self.blended, self.masked
         )
 
-    def doubtful(
-        self, broken: NDArray[np.bool_], size: tuple[int, int], doubt: float
-    ) -> tuple[NDArray[np.float64], bool]:
+    def levels(self) -> tuple[Ints, Ints, Bools]:
+        """See levels.levels."""
+        return levels.levels(self._related)
+
+    def doubtful(self, broken: Bools, size: tuple[int, int], doubt: float) -> tuple[Floats, bool]:
         """The parts to sort by pixel, and whether they are so much that all masks may be.
 
         Where a target may be lost no doubt is allowed, for the rest see doubt.chosen.
         """
-        every = (self.seen, self.extents, self.reach, self.relation, self.uncertain)
-        args = (*every, self.blended, self.masked, broken, self.lost, np.array(size, float))
-        found, lost = order.doubtful(*args)
+        whole = np.array(size, float)
+        found, lost = order.doubtful(self._related, self.uncertain, broken, self.lost, whole)
         chosen = np.concatenate([found[lost], doubts.chosen(found[~lost], size, doubt)])
         if not len(chosen):
             return chosen, False
         return chosen, doubts.union(chosen) > MOSTLY * _area(self.parts(size))
 
-    def parts(self, size: tuple[int, int]) -> NDArray[np.int64]:
+    def parts(self, size: tuple[int, int]) -> Ints:
         """Where masks can be."""
         return merged_parts(self.reach[self.masked], size)
 
 
-def merged_parts(boxes: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
+def merged_parts(boxes: Floats, size: tuple[int, int]) -> Ints:
     """(k, 4) whole pixels that hold all boxes and do not overlap; one for all if nearly all."""
     if not len(boxes):
         return np.zeros((0, 4), np.int64)
@@ -70,5 +69,5 @@ def merged_parts(boxes: NDArray[np.float64], size: tuple[int, int]) -> NDArray[n
     return parts
 
 
-def _area(parts: NDArray[np.int64]) -> int:
+def _area(parts: Ints) -> int:
     return int((parts[:, 2:] - parts[:, :2]).prod(axis=1).sum())

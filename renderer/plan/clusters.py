@@ -13,15 +13,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.polygons import bsp
 from seethrough.renderer.polygons.bsp import PreparedBsp
 from seethrough.renderer.polygons.fragments import TooManyPieces
 from seethrough.renderer.polygons.polygons import Polygons, triangles_from
 from seethrough.renderer.scene.scene import Object, Scene
 
-Indices = NDArray[np.int64]
 MOST = 3000  # triangles of a cluster: a tree of as many is built within a second
 MOST_PIECES = 30_000  # that they may be cut into: where all cross, 100 triangles make 25,000
 _KEPT = 32
@@ -36,14 +35,14 @@ class United:
     and `uncertain` (n, n), and `blended` (n,): led objects do not blend by themselves.
     """
 
-    members: tuple[Indices, ...]
-    extents: NDArray[np.float64]
-    relation: NDArray[np.int8]
-    uncertain: NDArray[np.bool_]
-    blended: NDArray[np.bool_]
+    members: tuple[Ints, ...]
+    extents: Floats
+    relation: Signs
+    uncertain: Bools
+    blended: Bools
 
     @property
-    def clustered(self) -> NDArray[np.bool_]:
+    def clustered(self) -> Bools:
         """(n,) which objects are part of a cluster."""
         found = np.zeros(len(self.blended), bool)
         for members in self.members:
@@ -51,7 +50,7 @@ class United:
         return found
 
 
-def fitting(scene: Scene) -> NDArray[np.bool_]:
+def fitting(scene: Scene) -> Bools:
     """(n,) what may be part of a cluster: convex, no target, in no group with others."""
     convex = np.array([o.mesh.convex for o in scene.objects], dtype=bool)
     alone = np.bincount(scene.group_of)[scene.group_of] == 1 if len(convex) else convex
@@ -59,19 +58,19 @@ def fitting(scene: Scene) -> NDArray[np.bool_]:
 
 
 def unite(
-    extents: NDArray[np.float64],
-    relation: NDArray[np.int8],
-    uncertain: NDArray[np.bool_],
-    blended: NDArray[np.bool_],
-    fit: NDArray[np.bool_],
-    triangles: Indices,
-    small: Callable[[Indices], bool] = lambda members: True,
+    extents: Floats,
+    relation: Signs,
+    uncertain: Bools,
+    blended: Bools,
+    fit: Bools,
+    triangles: Ints,
+    small: Callable[[Ints], bool] = lambda members: True,
 ) -> United:
     """Find the clusters: `fit` blended objects whose order is uncertain (see order.decide), and
     whose tree stays `small`."""
     if not fit.any():
         return United((), extents, relation, uncertain, blended)
-    found: list[Indices] = []
+    found: list[Ints] = []
     united = United((), extents.copy(), relation.copy(), uncertain.copy(), blended.copy())
     able = blended & fit
     for members in _connected(uncertain & able & able[:, None]):
@@ -80,7 +79,7 @@ def unite(
     return United(tuple(found), united.extents, united.relation, united.uncertain, united.blended)
 
 
-def _connected(pairs: NDArray[np.bool_]) -> list[Indices]:
+def _connected(pairs: Bools) -> list[Ints]:
     """Sets of two or more that pairs connect, each sorted."""
     left = set(np.nonzero(pairs.any(axis=1))[0].tolist())
     found = []
@@ -94,7 +93,7 @@ def _connected(pairs: NDArray[np.bool_]) -> list[Indices]:
     return sorted(found, key=lambda members: int(members[0]))
 
 
-def _lead(united: United, members: Indices) -> bool:
+def _lead(united: United, members: Ints) -> bool:
     """Let the first member stand for all, unless something lies both before and behind them."""
     outside = np.ones(len(united.blended), bool)
     outside[members] = False
@@ -112,7 +111,7 @@ def _lead(united: United, members: Indices) -> bool:
     return True
 
 
-def tree_of(scene: Scene, members: Indices) -> PreparedBsp | str:
+def tree_of(scene: Scene, members: Ints) -> PreparedBsp | str:
     """The tree of a cluster, made once; why there is none, where its polygons cross too densely."""
     things = [scene.objects[i] for i in members.tolist()]
     key = b"".join(
@@ -131,7 +130,7 @@ def tree_of(scene: Scene, members: Indices) -> PreparedBsp | str:
     return _trees[key][1]
 
 
-def polygons_of(scene: Scene, members: Indices) -> Polygons:
+def polygons_of(scene: Scene, members: Ints) -> Polygons:
     """World triangles of a cluster's objects; attributes: normal (x, y, z), then r, g, b."""
     corners, columns, labels = [], [], []
     for i in members.tolist():

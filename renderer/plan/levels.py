@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
-from seethrough.renderer.plan.order import meet
+from seethrough.renderer.arrays import Bools, Ints
+from seethrough.renderer.plan.order import Related, meet
+
+
+class Queue(NamedTuple):
+    """For how many others objects and masks wait (2, n), which have their level (2, n), and the
+    levels found so far (n,). A tuple, because compiled code takes it."""
+
+    waits: Ints
+    done: Bools
+    of_object: Ints
+    of_mask: Ints
 
 
 @njit(cache=True)
-def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no-untyped-def]
+def levels(related: Related) -> tuple[Ints, Ints, Bools]:
     """The level of each blended object and of each mask (−2: none), and broken (n, n).
 
     An object comes after every mask and blended object behind it that it overlaps; a mask comes
@@ -17,9 +30,12 @@ def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no
     one goes before what it waits for: broken[i, j] of object i in front that goes before j or its
     mask, broken[j, i] of object j behind that goes after the mask of i.
     """
+    order, extents, reach = related.seen, related.extents, related.reach
+    relation, blended, masked = related.relation, related.blended, related.masked
     n, m = len(extents), len(order)
     of_object, of_mask = np.full(n, -2, np.int64), np.full(n, -2, np.int64)
-    waits = np.zeros((2, n), np.int64)  # for objects, and for masks
+    waits, done = np.zeros((2, n), np.int64), np.zeros((2, n), np.bool_)
+    queue = Queue(waits, done, of_object, of_mask)
     broken = np.zeros((n, n), np.bool_)
     for a in range(m):
         i = order[a]
@@ -36,7 +52,6 @@ def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no
                     waits[0, i] += 1
                 elif relation[i, j] == -1:
                     waits[1, j] += 1
-    done = np.zeros((2, n), np.bool_)
     left = 0
     for a in range(m):
         i = order[a]
@@ -54,10 +69,9 @@ def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no
                     continue
                 done[kind, i] = moved = True
                 left -= 1
-                _release(kind, i, order, extents, reach, relation, blended, masked, waits,
-                         of_object, of_mask, done)  # fmt: skip
+                _release(kind, i, related, queue)
         if not moved:
-            kind, i = _stuck(order, extents, reach, relation, blended, masked, done)
+            kind, i = _stuck(related, done)
             waits[kind, i] = 0
             for b in range(m):
                 j = order[b]
@@ -71,12 +85,14 @@ def levels(order, extents, reach, relation, blended, masked):  # type: ignore[no
 
 
 @njit(cache=True)
-def _stuck(order, extents, reach, relation, blended, masked, done):  # type: ignore[no-untyped-def]
+def _stuck(related: Related, done: Bools) -> tuple[int, int]:
     """Which object (0, i) or mask (1, i) goes first where all wait for one another.
 
     One that no target loses by: a mask whose target is drawn turns what lies behind it clear beside
     that, an object hides what lies behind it. Else the farthest object.
     """
+    order, extents, reach = related.seen, related.extents, related.reach
+    relation, blended, masked = related.relation, related.blended, related.masked
     for kind in (1, 0):
         for a in range(len(order)):
             i = order[a]
@@ -101,10 +117,11 @@ def _stuck(order, extents, reach, relation, blended, masked, done):  # type: ign
 
 
 @njit(cache=True)
-def _release(
-    kind, i, order, extents, reach, relation, blended, masked, waits, of_object, of_mask, done
-):  # type: ignore[no-untyped-def]
+def _release(kind: int, i: int, related: Related, queue: Queue) -> None:
     """Object or mask i has its level: those that wait for it come after it."""
+    order, extents, reach = related.seen, related.extents, related.reach
+    relation, blended, masked = related.relation, related.blended, related.masked
+    waits, done, of_object, of_mask = queue.waits, queue.done, queue.of_object, queue.of_mask
     for b in range(len(order)):
         j = order[b]
         if kind == 0:
@@ -135,7 +152,7 @@ def _release(
             of_object[j] = max(of_object[j], of_mask[i] + 1)
 
 
-def one_by_one(order, of_object, of_mask):  # type: ignore[no-untyped-def]
+def one_by_one(order: Ints, of_object: Ints, of_mask: Ints) -> tuple[Ints, Ints]:
     """The same order with a level for each object, its mask included: the naive painter's."""
     n = len(of_object)
     place = np.zeros(n, np.int64)

@@ -11,25 +11,63 @@ a group its order.
 
 from __future__ import annotations
 
+from typing import NamedTuple, TypeAlias
+
 import numpy as np
 from numba import njit
 
+from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
+
 # A box that only touches another, to the accuracy of its coordinates, is separated from it.
 TOUCH = 1e-9
+
+Way: TypeAlias = tuple[float, float, float]
 
 LITTLE = 0.1  # of a target: what may be lost without sorting pixels
 
 BEHIND, NEITHER, IN_FRONT, UNCERTAIN = -1, 0, 1, 2
 
 
+class Placed(NamedTuple):
+    """The n objects of a scene as the eye has them: `seen` (m,) are those to put in order, from far
+    to near by their groups' centres; `extents` (n, 4) what each covers on the screen, `reach`
+    (n, 4) what its mask would; `centers` (n, 3) from the eye, `sides` (n, 3, 3) and `radius` (n,)
+    of their boxes; `near` and `far` (n,) view depths; `targets` and `hard`, what is never
+    penetrated, (n,). A tuple, because compiled code takes it."""
+
+    seen: Ints
+    extents: Floats
+    reach: Floats
+    centers: Floats
+    sides: Floats
+    radius: Floats
+    near: Floats
+    far: Floats
+    targets: Bools
+    hard: Bools
+
+
+class Related(NamedTuple):
+    """Who is drawn before whom: of objects `seen` (m,), with `extents` and `reach` (n, 4) as they
+    are Placed, the `relation` (n, n) of each pair, and which of them are `blended` and `masked`
+    (n,). See decide. A tuple, because compiled code takes it."""
+
+    seen: Ints
+    extents: Floats
+    reach: Floats
+    relation: Signs
+    blended: Bools
+    masked: Bools
+
+
 @njit(cache=True)
-def meet(a, i, b, j):  # type: ignore[no-untyped-def]
+def meet(a: Floats, i: int, b: Floats, j: int) -> bool:
     """Whether box i of `a` (n, 4) and box j of `b` overlap on the screen."""
     return a[i, 0] <= b[j, 2] and a[i, 2] >= b[j, 0] and a[i, 1] <= b[j, 3] and a[i, 3] >= b[j, 1]
 
 
 @njit(cache=True)
-def _along(x, y, z, sides, radius, i):  # type: ignore[no-untyped-def]
+def _along(x: float, y: float, z: float, sides: Floats, radius: Floats, i: int) -> float:
     """How far object i reaches from its centre along the unit direction (x, y, z)."""
     total = 0.0
     for k in range(3):
@@ -38,11 +76,12 @@ def _along(x, y, z, sides, radius, i):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _try(x, y, z, centers, sides, radius, i, j):  # type: ignore[no-untyped-def]
-    """IN_FRONT, BEHIND or NEITHER if a plane across (x, y, z) separates i from j, else UNCERTAIN.
+def _try(way: Way, centers: Floats, sides: Floats, radius: Floats, i: int, j: int) -> int:
+    """IN_FRONT, BEHIND or NEITHER if a plane across `way` separates i from j, else UNCERTAIN.
 
     Centres are relative to the eye.
     """
+    x, y, z = way
     length = np.sqrt(x * x + y * y + z * z)
     if length < 1e-12:
         return UNCERTAIN
@@ -65,8 +104,13 @@ def _try(x, y, z, centers, sides, radius, i, j):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped-def]
-    """Whether object i lies in front of object j wherever both show, as seen from the origin."""
+def compare(
+    centers: Floats, sides: Floats, radius: Floats, near: Floats, far: Floats, i: int, j: int
+) -> int:
+    """Whether object i lies in front of object j wherever both show, as seen from the origin.
+
+    Fields of a Placed one by one: as a record they would make `decide` a quarter slower.
+    """
     if far[i] <= near[j]:
         return IN_FRONT
     if near[i] >= far[j]:
@@ -74,13 +118,13 @@ def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped
     x, y, z = (
         centers[i, 0] - centers[j, 0], centers[i, 1] - centers[j, 1], centers[i, 2] - centers[j, 2]
     )  # fmt: skip
-    found = _try(x, y, z, centers, sides, radius, i, j)
+    found = _try((x, y, z), centers, sides, radius, i, j)
     for k in range(6):
         if found != UNCERTAIN:
             return found
         o = i if k < 3 else j
         x, y, z = sides[o, k % 3, 0], sides[o, k % 3, 1], sides[o, k % 3, 2]
-        found = _try(x, y, z, centers, sides, radius, i, j)
+        found = _try((x, y, z), centers, sides, radius, i, j)
     # Sides are not at right angles under a shear: the faces' normals are the cross products.
     for k in range(15):
         if found != UNCERTAIN:
@@ -92,22 +136,26 @@ def compare(centers, sides, radius, near, far, i, j):  # type: ignore[no-untyped
         ax, ay, az = sides[o, u, 0], sides[o, u, 1], sides[o, u, 2]
         bx, by, bz = sides[p, v, 0], sides[p, v, 1], sides[p, v, 2]
         x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-        found = _try(x, y, z, centers, sides, radius, i, j)
+        found = _try((x, y, z), centers, sides, radius, i, j)
     return found
 
 
 @njit(cache=True)
 def decide(
-    order, extents, reach, centers, sides, radius, near, far, targets, hard, blend, known,
-    by_center,
-):  # type: ignore[no-untyped-def]  # fmt: skip
-    """relation (n, n) of each pair that matters, and which objects blend and are masked.
+    placed: Placed, blend: Bools, known: Signs, by_center: bool
+) -> tuple[Signs, Bools, Bools, Bools]:
+    """relation (n, n) of each pair that matters, which of them are uncertain (n, n), and which
+    objects blend and are masked (n,).
 
-    `order` are the objects to look at, from far to near by their groups' centres, which alone
-    decide if `by_center`; those in `blend` (n,) blend in any case. relation[i, j] is 1 where i is
-    drawn after j, −1 where before, 0 where it makes no difference; `known` (n, n) says so of pairs
-    whose boxes no plane separates, and what it leaves UNCERTAIN is `uncertain` (n, n).
+    Of those `seen` the order of groups' centres decides alone if `by_center`; those in `blend` (n,)
+    blend in any case. relation[i, j] is 1 where i is drawn after j, −1 where before, 0 where it
+    makes no difference; `known` (n, n) says so of pairs whose boxes no plane separates, and what it
+    leaves UNCERTAIN is uncertain.
     """
+    order, extents, reach = placed.seen, placed.extents, placed.reach
+    targets, hard = placed.targets, placed.hard
+    centers, sides, radius = placed.centers, placed.sides, placed.radius
+    near, far = placed.near, placed.far
     n, m = len(extents), len(order)
     relation = np.zeros((n, n), np.int8)
     uncertain = np.zeros((n, n), np.bool_)
@@ -151,12 +199,14 @@ def decide(
 
 
 @njit(cache=True)
-def overlapped(order, extents, reach, near, far, targets, hard):  # type: ignore[no-untyped-def]
+def overlapped(placed: Placed) -> Bools:
     """(n,) which targets' masks any penetrable object overlaps that is not wholly behind them.
 
     More than `decide` finds: beside its target a mask lies at the depth of the target's centre,
     and an object behind the target may come before that.
     """
+    order, extents, reach = placed.seen, placed.extents, placed.reach
+    near, far, targets, hard = placed.near, placed.far, placed.targets, placed.hard
     found = np.zeros(len(extents), np.bool_)
     for a in range(len(order)):
         for b in range(len(order)):
@@ -167,13 +217,17 @@ def overlapped(order, extents, reach, near, far, targets, hard):  # type: ignore
 
 
 @njit(cache=True)
-def doubtful(order, extents, reach, relation, uncertain, blended, masked, broken, lost, size):  # type: ignore[no-untyped-def]
+def doubtful(
+    related: Related, uncertain: Bools, broken: Bools, lost: Bools, size: Floats
+) -> tuple[Floats, Bools]:
     """(k, 4) parts of the picture where the order of two objects is in doubt behind a mask, and of
     which of them (k,) a target may be lost: what is `lost` (n, n), and by what is `broken` (n, n),
     as levels.levels says it.
 
     Only where a mask reaches does the order show at all: elsewhere the depth buffer is exact.
     """
+    order, extents, reach = related.seen, related.extents, related.reach
+    relation, blended, masked = related.relation, related.blended, related.masked
     m = len(order)
     found, must = np.empty((m * m // 2 + 1, 4)), np.zeros(m * m // 2 + 1, np.bool_)
     count = 0
@@ -207,7 +261,7 @@ def doubtful(order, extents, reach, relation, uncertain, blended, masked, broken
 
 
 @njit(cache=True)
-def _share(extents, i, j, k):  # type: ignore[no-untyped-def]
+def _share(extents: Floats, i: int, j: int, k: int) -> float:
     """How much of object k's box lies where those of i and j overlap."""
     width = min(extents[i, 2], extents[j, 2]) - max(extents[i, 0], extents[j, 0])
     height = min(extents[i, 3], extents[j, 3]) - max(extents[i, 1], extents[j, 1])
@@ -216,7 +270,7 @@ def _share(extents, i, j, k):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _low(extents, reach, i, j, s, k):  # type: ignore[no-untyped-def]
+def _low(extents: Floats, reach: Floats, i: int, j: int, s: int, k: int) -> float:
     """Lower end of where i and j overlap; the mask itself counts as its target's extent."""
     a = reach[i, k] if i == s else extents[i, k]
     b = reach[j, k] if j == s else extents[j, k]
@@ -224,14 +278,14 @@ def _low(extents, reach, i, j, s, k):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _high(extents, reach, i, j, s, k):  # type: ignore[no-untyped-def]
+def _high(extents: Floats, reach: Floats, i: int, j: int, s: int, k: int) -> float:
     a = reach[i, k] if i == s else extents[i, k]
     b = reach[j, k] if j == s else extents[j, k]
     return min(a, b)
 
 
 @njit(cache=True)
-def merge(boxes):  # type: ignore[no-untyped-def]
+def merge(boxes: Floats) -> Floats:
     """(k, 4) boxes that do not overlap, each about some of the given ones."""
     rows = boxes.copy()
     n = len(rows)
@@ -256,7 +310,7 @@ def merge(boxes):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def hold(parts, boxes, triangles, worth):  # type: ignore[no-untyped-def]
+def hold(parts: Floats, boxes: Floats, triangles: Ints, worth: float) -> Floats:
     """(k, 4) parts, each widened to hold the (n, 4) boxes that reach into it whole, as long as
     that adds fewer than `worth` pixels for each of their `triangles` (n,)."""
     rows = parts.copy()
@@ -278,7 +332,7 @@ def hold(parts, boxes, triangles, worth):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def apart(extents):  # type: ignore[no-untyped-def]
+def apart(extents: Floats) -> Ints:
     """(n,) a set for each of the (n, 4) boxes so that those of one set nowhere overlap."""
     n = len(extents)
     which = np.full(n, -1, np.int64)

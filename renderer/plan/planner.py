@@ -14,8 +14,8 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.masks import masks
 from seethrough.renderer.plan import clusters, levels, order
 from seethrough.renderer.plan.blending import Blending, merged_parts
@@ -23,9 +23,10 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import Boxes, screen_boxes
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.base import MASKS, Parameters, Shot
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-
-Indices = NDArray[np.int64]
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
+    DynamicTransparency,
+    by_masks,
+)
 
 SHORTCUTS = {
     "cull": "objects outside the view are not drawn",
@@ -52,8 +53,8 @@ OUTSIDE, OPAQUE, HARD, BLENDED, RULED = range(5)
 class Level:
     """Objects (indices) that overlap nowhere on the screen, then the masks of targets."""
 
-    objects: Indices
-    masks: Indices
+    objects: Ints
+    masks: Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,22 +73,22 @@ class FramePlan:
     drawn as it is, `behind` (n,) which target it is that makes it blend (−1: none).
     """
 
-    opaque: Indices
+    opaque: Ints
     levels: tuple[Level, ...]
-    masked: Indices
-    counted: Indices
-    exact: NDArray[np.int64]
+    masked: Ints
+    counted: Ints
+    exact: Ints
     boxes: Boxes
-    reach: NDArray[np.float64]
-    reasons: Indices
-    behind: Indices
+    reach: Floats
+    reasons: Ints
+    behind: Ints
     without: frozenset[str] = field(default_factory=frozenset)
-    wide: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
-    holes: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 4), np.int64))
-    clusters: tuple[Indices, ...] = ()
-    held: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
-    doubtful: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 4)))
-    ruled: Indices = field(default_factory=lambda: np.zeros(0, np.int64))
+    wide: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
+    holes: Ints = field(default_factory=lambda: np.zeros((0, 4), np.int64))
+    clusters: tuple[Ints, ...] = ()
+    held: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
+    doubtful: Floats = field(default_factory=lambda: np.zeros((0, 4)))
+    ruled: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @property
     def ordered(self) -> int:
@@ -95,7 +96,7 @@ class FramePlan:
         return sum(len(level.objects) for level in self.levels)
 
 
-def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> NDArray[np.bool_]:
+def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> Bools:
     """(n,) what never turns transparent in this frame (Elmqvist2009 §III-C.3)."""
     if technique.penetrable_within is None:
         return scene.impenetrable
@@ -124,6 +125,7 @@ def plan(
         rules, shot = technique.technique, Shot(scene, camera, size, scale)
         state = rules.begin(technique) if state is None else state
         return _ruled(_opaque(boxes, drawn, without), rules.touches(technique, state, shot))
+    technique = by_masks(technique)
     if not (scene.targets & boxes.within).any() and not without:
         return _opaque(boxes, drawn, without)
     reach = masks.reach(boxes.extents, technique, technique.width * scale, size)
@@ -131,16 +133,23 @@ def plan(
     seen = _far_to_near(scene, camera, _reaching(scene, boxes, reach, size, without))
     there = np.zeros(len(hard), dtype=bool)
     there[seen] = True
-    centers = scene.centers - camera.eye
-    geometry = (centers, scene.box_sides, scene.radii, boxes.near, boxes.far)
-    args = (seen, boxes.extents, reach, *geometry, scene.targets, hard)
+    placed = order.Placed(
+        seen=seen,
+        extents=boxes.extents,
+        reach=reach,
+        centers=scene.centers - camera.eye,
+        sides=scene.box_sides,
+        radius=scene.radii,
+        near=boxes.near,
+        far=boxes.far,
+        targets=scene.targets,
+        hard=hard,
+    )
     blend = there & ~hard & ("opaque" in without)
-    relation, uncertain, blended, masked = _decided(scene, camera, technique, args, blend)
+    relation, uncertain, blended, masked = _decided(scene, camera, technique, placed, blend)
     masked |= there & scene.targets & ("masks" in without)
     if technique.per_pixel_only:
-        masked |= order.overlapped(
-            seen, boxes.extents, reach, boxes.near, boxes.far, scene.targets, hard
-        )
+        masked |= order.overlapped(placed)
     base = FramePlan(
         opaque=drawn,
         levels=(),
@@ -165,18 +174,26 @@ def plan(
     return _with_levels(base, what, scene, technique, size)
 
 
-def _decided(scene, camera, technique, args, blend):  # type: ignore[no-untyped-def]
+def _decided(
+    scene: Scene, camera: Camera, technique: DynamicTransparency, placed: order.Placed,
+    blend: Bools,
+) -> tuple[Signs, Bools, Bools, Bools]:  # fmt: skip
     """order.decide, again if planes were found between pairs that it is uncertain of."""
     by_center = technique.order == "centers"
     planes = scene.separations
     while True:
-        found = order.decide(*args, blend, planes.relation(camera.eye), by_center)
-        new = found[1] & ~planes.tried
+        relation, uncertain, blended, masked = order.decide(
+            placed, blend, planes.relation(camera.eye), by_center
+        )
+        new = uncertain & ~planes.tried
         if not new.any() or not planes.learn(np.argwhere(np.triu(new)), scene):
-            return found[0], found[1] & ~scene.settled, *found[2:]
+            return relation, uncertain & ~scene.settled, blended, masked
 
 
-def _beside(scene, camera, technique, boxes, relation, masked):  # type: ignore[no-untyped-def]
+def _beside(
+    scene: Scene, camera: Camera, technique: DynamicTransparency, boxes: Boxes,
+    relation: Signs, masked: Bools,
+) -> Bools:  # fmt: skip
     """(n, n) which targets lie before a mask, and reach to both sides of the depth that it has
     beside its own target. Outlines have too little there for that to matter."""
     if technique.mask in ("outline", "ring"):
@@ -186,7 +203,7 @@ def _beside(scene, camera, technique, boxes, relation, masked):  # type: ignore[
     return across & scene.targets[:, None] & masked & (relation == order.IN_FRONT)
 
 
-def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
+def _opaque(boxes: Boxes, drawn: Ints, without: Set[str]) -> FramePlan:
     """Everything with a depth buffer."""
     none = drawn[:0]
     reasons = np.where(boxes.inside, OPAQUE, OUTSIDE)
@@ -197,7 +214,7 @@ def _opaque(boxes: Boxes, drawn: Indices, without: Set[str]) -> FramePlan:
     )
 
 
-def _ruled(frame: FramePlan, touched: NDArray[np.bool_]) -> FramePlan:
+def _ruled(frame: FramePlan, touched: Bools) -> FramePlan:
     """The plan with what the technique's rule may touch set apart from the opaque rest."""
     ruled = touched[frame.opaque]
     if not ruled.any():
@@ -207,36 +224,34 @@ def _ruled(frame: FramePlan, touched: NDArray[np.bool_]) -> FramePlan:
     return replace(frame, opaque=opaque[~ruled], ruled=opaque[ruled], reasons=reasons)
 
 
-def _fit(scene: Scene, technique: DynamicTransparency) -> NDArray[np.bool_]:
+def _fit(scene: Scene, technique: DynamicTransparency) -> Bools:
     """(n,) which objects may be drawn polygon by polygon. Layers are counted by object alone."""
     if technique.order != "polygons" or technique.min_transmittance > 0:
         return np.zeros(len(scene.objects), dtype=bool)
     return clusters.fitting(scene)
 
 
-def _has_tree(scene: Scene, members: Indices) -> bool:
+def _has_tree(scene: Scene, members: Ints) -> bool:
     """Whether the polygons of a cluster can be cut along one another; else pixels are sorted."""
     return not isinstance(clusters.tree_of(scene, members), str)
 
 
 def _reaching(
-    scene: Scene, boxes: Boxes, reach: NDArray[np.float64], size: tuple[int, int], without: Set[str]
-) -> Indices:
+    scene: Scene, boxes: Boxes, reach: Floats, size: tuple[int, int], without: Set[str]
+) -> Ints:
     """What can change the picture: objects in view, and targets whose mask reaches into it."""
     near = (reach[:, 2:] > 0).all(axis=1) & (reach[:, :2] < np.array(size)).all(axis=1)
     near &= scene.targets & boxes.within
     return np.nonzero(boxes.inside | near | (boxes.within & ("cull" in without)))[0]
 
 
-def _far_to_near(scene: Scene, camera: Camera, objects: Indices) -> Indices:
+def _far_to_near(scene: Scene, camera: Camera, objects: Ints) -> Ints:
     """Farthest group first, by view depth; a group stays together, in its order in the scene."""
     depth = camera.depth(scene.group_centers[objects])
     return objects[np.lexsort((objects, scene.group_of[objects], -depth))]
 
 
-def _counted(
-    relation: NDArray[np.int8], masked: NDArray[np.bool_], technique: DynamicTransparency
-) -> Indices:
+def _counted(relation: Signs, masked: Bools, technique: DynamicTransparency) -> Ints:
     """Targets with more objects in front than may each keep alpha_target (notation: Elmqvist2009
     §V-D)."""
     tau, alpha = technique.min_transmittance, technique.alpha_target
@@ -247,14 +262,12 @@ def _counted(
     return np.nonzero(masked & (in_front > np.floor(allowed + 1e-12)))[0]
 
 
-def _reasons(boxes: Boxes, hard: NDArray[np.bool_], blended: NDArray[np.bool_]) -> Indices:
+def _reasons(boxes: Boxes, hard: Bools, blended: Bools) -> Ints:
     reasons = np.where(blended, BLENDED, np.where(hard, HARD, OPAQUE))
     return np.where(boxes.inside, reasons, OUTSIDE)
 
 
-def _behind(
-    relation: NDArray[np.int8], blended: NDArray[np.bool_], masked: NDArray[np.bool_]
-) -> Indices:
+def _behind(relation: Signs, blended: Bools, masked: Bools) -> Ints:
     """(n,) a masked target behind each blended object, −1 where there is none."""
     over = (relation == order.IN_FRONT) & masked[None] & blended[:, None]
     return np.where(over.any(axis=1), over.argmax(axis=1), -1) if len(over) else over.sum(axis=1)
@@ -312,16 +325,14 @@ def _with_levels(
     )
 
 
-def _grouped(level: Indices, last: int) -> list[Indices]:
+def _grouped(level: Ints, last: int) -> list[Ints]:
     """The objects of each level from −1 to `last`, in their order."""
     order_ = np.argsort(level, kind="stable")
     cuts = np.searchsorted(level[order_], np.arange(-1, last + 2)).tolist()
     return [order_[a:b] for a, b in pairwise(cuts)]
 
 
-def _held(
-    base: FramePlan, parts: NDArray[np.int64], triangles: Indices, size: tuple[int, int]
-) -> FramePlan:
+def _held(base: FramePlan, parts: Ints, triangles: Ints, size: tuple[int, int]) -> FramePlan:
     """The plan that sorts these parts by pixel, and draws no object there that lies in one.
 
     Parts are widened about objects of many triangles: to draw those twice would cost more.
@@ -332,19 +343,19 @@ def _held(
     low = np.clip(np.floor(boxes[:, :2]) - 1, 0, size)
     high = np.clip(np.ceil(boxes[:, 2:]) + 1, 0, size)
     boxes = np.concatenate([low, high], axis=1)
-    wider = order.hold(parts.astype(float), boxes, triangles[base.opaque], SORTED)
-    parts = order.merge(wider)
+    wider = order.merge(order.hold(parts.astype(float), boxes, triangles[base.opaque], SORTED))
+    parts = wider.astype(np.int64)
     inside = (parts[:, None, :2] <= low).all(axis=2) & (parts[:, None, 2:] >= high).all(axis=2)
     held = inside.any(axis=0)
     return replace(
         base,
-        exact=parts.astype(np.int64),
+        exact=parts,
         opaque=base.opaque[~held],
         held=base.opaque[held],
     )
 
 
-def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int64]:
+def _holes(reach: Floats, size: tuple[int, int]) -> Ints:
     """(k, 4) whole pixels that each mask can cover."""
     low = np.clip(np.floor(reach[:, :2]), 0, size)
     high = np.clip(np.ceil(reach[:, 2:]), 0, size)
@@ -354,11 +365,11 @@ def _holes(reach: NDArray[np.float64], size: tuple[int, int]) -> NDArray[np.int6
 
 def _wide(
     base: FramePlan,
-    blended: Indices,
-    holes: NDArray[np.int64],
-    triangles: Indices,
+    blended: Ints,
+    holes: Ints,
+    triangles: Ints,
     size: tuple[int, int],
-) -> Indices:
+) -> Ints:
     """Blended objects of few triangles that cover much of the picture outside all masks.
 
     Drawing them twice costs little, blending all their pixels much.
@@ -374,11 +385,11 @@ def _wide(
 
 
 def _parts(
-    reach: NDArray[np.float64],
+    reach: Floats,
     technique: DynamicTransparency,
     size: tuple[int, int],
     without: Set[str],
-) -> NDArray[np.int64]:
+) -> Ints:
     """What to sort by pixel: the reach of the masks, or all where whole objects turn clear."""
     if technique.granularity != "pixel" or "parts" in without:
         return np.array([[0, 0, *size]])

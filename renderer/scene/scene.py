@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.scene.geometry import Mesh
+from seethrough.renderer.scene.look import PLAIN, Look
 
 if TYPE_CHECKING:
     from seethrough.renderer.plan.separation import Separations

@@ -221,7 +221,7 @@ class Technique(Protocol):
     def rule(self, p: Own, state: Own, seen: Surfaces, known: Own) -> Look:
         """How each surface shows."""
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, Own]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, object]:
         """Values of the uniforms that `glsl` declares."""
 
     def pictures(
@@ -241,11 +241,17 @@ class Technique(Protocol):
     def layers(self, p: Own) -> int | None:
         """How many layers are peeled at most; None: all."""
 
-    def edges(self, p: Own) -> Mapping[str, Own]:
+    def order(self, p: Own) -> str | None:
+        """The method (renderer/polygons) in whose order polygons are drawn, right or wrong; None:
+        pixel by pixel."""
+
+    def edges(self, p: Own) -> Mapping[str, object]:
         """What shaders/edges.frag draws lines with along the edges of each layer; empty: none."""
 
     def looked_at(self, p: Own) -> Own:
         """The parameters with which `look` finds what is seen."""
+
+    def __hash__(self) -> int: ...
 
     def exactly(self, p: Own) -> Own:
         """The parameters with which what is drawn is the rule at every pixel, however long it
@@ -307,7 +313,7 @@ class Plain:
         """Opaque front faces."""
         return Look(seen.front, np.ones(len(seen.depth)))
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, Own]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, object]:
         """None."""
         return {}
 
@@ -333,7 +339,11 @@ class Plain:
         """All."""
         return None
 
-    def edges(self, p: Own) -> Mapping[str, Own]:
+    def order(self, p: Own) -> str | None:
+        """Pixel by pixel."""
+        return None
+
+    def edges(self, p: Own) -> Mapping[str, object]:
         """No lines."""
         return {}
 

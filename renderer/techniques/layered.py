@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -49,7 +48,7 @@ class Layering(base.Plain):
         """Whatever may be penetrated."""
         return self.objects(p, shot.scene) != 0
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: Own, state: Own, shot: Shot) -> dict[str, object]:
         """Whether far sides show."""
         return {"inside": p.surfaces == "all"}
 

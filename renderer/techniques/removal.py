@@ -66,7 +66,7 @@ class Removal(base.Plain):
         super().__init__()
         self.glsl = self.removes + _GLSL
 
-    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, Own]:
+    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, object]:
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
 
@@ -74,7 +74,7 @@ class Removal(base.Plain):
         """Where cuts show a wall."""
         return bool(p.cap != "none")
 
-    def edges(self, p: Own) -> Mapping[str, Own]:
+    def edges(self, p: Own) -> Mapping[str, object]:
         """The lines of what is removed, as shaders/edges.frag draws them."""
         return {"line": (*LINE, p.edges), "crease": float(np.cos(CREASE))} if p.edges > 0 else {}
 

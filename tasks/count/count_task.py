@@ -17,6 +17,7 @@ from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts, keys
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
 
@@ -42,11 +43,11 @@ class Count:
     texts: Texts = OwnTexts("seethrough.tasks.count")
     simulate = STRATEGY
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Cloud:
+    def make_scene(self, rng: Generator, setting: Setting[AbstractParameters]) -> Cloud:
         """A world of its own for each trial."""
         return cloud(rng, setting.place)
 
-    def begin(self, made: Cloud, setting: Setting, aspect: float) -> CountState:
+    def begin(self, made: Cloud, setting: Setting[AbstractParameters], aspect: float) -> CountState:
         """The first state of a trial."""
         return CountState(made, orbit(setting.place, aspect), NumberEntry(aspect))
 

@@ -17,6 +17,7 @@ from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, M
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.worlds.building.building import Building, count_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.visit import Visit, before, visit
 
 QUESTION = Label("count_in_building.question", (0.26, 0.02))
@@ -48,11 +49,13 @@ class CountInBuilding:
     texts: Texts = OwnTexts("seethrough.tasks.count_in_building")
     simulate = STRATEGY
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Building:
+    def make_scene(self, rng: Generator, setting: Setting[BuildingParameters]) -> Building:
         """One of the study's buildings: the same for everybody, so from the study's seed."""
         return count_building(rng, setting.place)
 
-    def begin(self, made: Building, setting: Setting, aspect: float) -> CountInBuildingState:
+    def begin(
+        self, made: Building, setting: Setting[BuildingParameters], aspect: float
+    ) -> CountInBuildingState:
         """The first state of a trial."""
         return CountInBuildingState(visit(made, setting.place), NumberEntry(aspect))
 

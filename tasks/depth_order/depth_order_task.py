@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeAlias
 
 from numpy.random import Generator
 
@@ -16,7 +17,7 @@ from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import Button, Label, Rect
 from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
-from seethrough.tasks.kit.world import ANYWHERE, Texts, keys
+from seethrough.tasks.kit.world import ANYWHERE, Texts, WorldParameters, keys
 
 MARKS = ("A", "B")
 SIZE, GAP, EDGE = 0.08, 0.015, 0.02
@@ -34,6 +35,9 @@ class DepthOrderParameters:
         check(self)
 
 
+DepthOrderSetting: TypeAlias = Setting[WorldParameters, DepthOrderParameters]
+
+
 @dataclass(frozen=True)
 class DepthOrderState:
     """A trial between two events."""
@@ -43,7 +47,7 @@ class DepthOrderState:
     answer: str = ""
 
 
-class DepthOrder(Basics):
+class DepthOrder(Basics[DepthOrderState, DepthOrderSetting]):
     """Press A or B, or their buttons; the view stands still."""
 
     name, code = "depth_order", "D"
@@ -56,7 +60,7 @@ class DepthOrder(Basics):
     texts: Texts = OwnTexts("seethrough.tasks.depth_order")
     simulate = STRATEGY
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Marked:
+    def make_scene(self, rng: Generator, setting: DepthOrderSetting) -> Marked:
         """A place, a view and a pair."""
         return marked(rng, setting, setting.task.ratio)
 

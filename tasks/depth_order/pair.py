@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
@@ -14,7 +14,7 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Setting
 from seethrough.tasks.kit.controls import changed
-from seethrough.tasks.kit.world import Place
+from seethrough.tasks.kit.world import Place, Viewer
 
 ASPECT = 4 / 3  # of the view that has to hold both: none that a study opens is narrower
 INSIDE = 0.85  # of the half view: marks lie clear of its border
@@ -68,9 +68,16 @@ def marked(rng: Generator, setting: Setting, ratio: float) -> Marked:
     )
 
 
-def _views(viewer: Any, moving: str) -> list[Camera]:
+@runtime_checkable
+class _Turned(Viewer, Protocol):
+    """A viewer that looks another way with another `yaw`."""
+
+    yaw: float
+
+
+def _views(viewer: Viewer, moving: str) -> list[Camera]:
     """The start's view turned to every side, by steps that data mode has looks for."""
-    if not hasattr(viewer, "yaw"):
+    if not isinstance(viewer, _Turned):
         return [viewer.camera()]
     sides = SIDES[moving]
     yaws = (viewer.yaw + 2 * np.pi * k / sides for k in range(sides))

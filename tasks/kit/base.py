@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Generic, Protocol, cast
 
 from numpy.random import Generator
+from typing_extensions import TypeVar
 
+from seethrough.renderer.declared import Declares
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.look import Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan, Point
 from seethrough.tasks.kit.measure import Measure
-from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Texts, World
+from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Place, Texts, World, WorldParameters
 
 if TYPE_CHECKING:
     from seethrough.tasks.kit.skills.strategy import Strategy
@@ -31,7 +34,7 @@ class View:
     camera: Camera
     hud: tuple[Element, ...] = ()
     captured: bool = False
-    drawn: Any = None
+    drawn: object = None
     aim: Point | None = None
 
     def dressed(self, look: Look) -> View:
@@ -55,9 +58,12 @@ class Outcome:
     distance: float | None = None
     more: Mapping[str, float | int | bool] = field(default_factory=dict)
 
-    def value(self, measure: str) -> Any:
+    def value(self, measure: str) -> float | None:
         """What was measured, by the measure's name; None for what the task does not measure."""
-        return self.more.get(measure, getattr(self, measure, None))
+        if measure in self.more:
+            return self.more[measure]
+        found = getattr(self, measure, None)
+        return found if isinstance(found, int | float) else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +75,24 @@ class Example:
     cameras: tuple[Camera, ...]
 
 
+# The parameters of the world that a task is set in, and its own; the scene that it makes, and what
+# it is in between two events: who only hands them on need not know what they are.
+Where = TypeVar("Where", bound=WorldParameters, covariant=True, default=WorldParameters)
+Own = TypeVar("Own", covariant=True, default=object)
+WhereTo = TypeVar("WhereTo", bound=WorldParameters, contravariant=True, default=WorldParameters)
+OwnTo = TypeVar("OwnTo", contravariant=True, default=object)
+Made = TypeVar("Made", bound=Place, default=Place)
+State = TypeVar("State", default=object)
+
+
 @dataclass(frozen=True)
-class Setting:
+class Setting(Generic[Where, Own]):
     """Where and how a task is set: a world, the world's parameters (`place`), the `task`'s own, and
     which of the `items` that it can ask for, where they are counted."""
 
     world: World
-    place: Any
-    task: Any
+    place: Where
+    task: Own
     item: int | None = None
 
     @property
@@ -85,12 +101,15 @@ class Setting:
         return str(getattr(self.place, "controls", self.world.controls))
 
 
+Given = TypeVar("Given", bound=Setting, default=Setting)
+
+
 @dataclass(frozen=True)
 class NoParameters:
     """The parameters of a task or world that has none."""
 
 
-class Basics:
+class Basics(Generic[State, Given]):
     """What most tasks have in common, to be inherited: any place of the world will do, the question
     is about its targets, no keys are taken, and there are no parameters."""
 
@@ -98,7 +117,7 @@ class Basics:
     version = "1"
     least = 1  # targets that a scene has to have
     takes = NO_KEYS
-    Parameters: Any = NoParameters
+    Parameters: type[Declares] = NoParameters
     texts: Texts = NO_TEXTS
 
     @property
@@ -111,26 +130,30 @@ class Basics:
         """The name of the text that says what to do."""
         return f"{self.name}.instruction"
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Any:
+    def make_scene(self, rng: Generator, setting: Given) -> Place:
         """A place of the world."""
         return setting.world.make(rng, setting.place)
 
-    def controls(self, setting: Setting) -> str:
+    def controls(self, setting: Given) -> str:
         """The name of the text that says how one moves: as the world has it."""
         return setting.controls
 
-    def solution(self, state: Any) -> FloorPlan | None:
+    @abstractmethod
+    def view(self, state: State) -> View:
+        """What to show for `state`: a task's own."""
+
+    def solution(self, state: State) -> FloorPlan | None:
         """No plan."""
         return None
 
-    def example(self, state: Any, aspect: float) -> Example:
+    def example(self, state: State, aspect: float) -> Example:
         """The targets as they are seen at first."""
-        view: View = self.view(state)  # type: ignore[attr-defined] # a task's own
+        view = self.view(state)
         asked = [i for i, thing in enumerate(view.scene.objects) if thing.target]
         return Example(tuple(asked), (view.camera,))
 
 
-class Task(Protocol):
+class Task(Protocol[WhereTo, OwnTo, Made, State]):
     """One task, without state of its own: states are frozen values that replace each other.
 
     `code` is how a paper calls it (T1), `worlds` are those it can be set in (or ANYWHERE),
@@ -143,7 +166,6 @@ class Task(Protocol):
     version: str
     source: str
     worlds: tuple[str, ...]
-    Parameters: Any
     measures: tuple[Measure, ...]
     takes: frozenset[str]
     texts: Texts
@@ -157,23 +179,33 @@ class Task(Protocol):
     def instruction(self) -> str:
         """The name of the text that says what to do."""
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Any:
+    @property
+    def Parameters(self) -> type[Declares]:
+        """The class of its own parameters."""
+
+    def make_scene(self, rng: Generator, setting: Setting[WhereTo, OwnTo]) -> Made:
         """A scene of a trial, with all that `begin` and the score need to know of it."""
 
-    def begin(self, made: Any, setting: Setting, aspect: float) -> Any:
+    def begin(self, made: Made, setting: Setting[WhereTo, OwnTo], aspect: float) -> State:
         """The first state of a trial in a scene of `make_scene`'s, so wide for its height."""
 
-    def on_event(self, state: Any, event: Event) -> Any:
+    def on_event(self, state: State, event: Event) -> State:
         """The state after `event`."""
 
-    def view(self, state: Any) -> View:
+    def view(self, state: State) -> View:
         """What to show for `state`."""
 
-    def outcome(self, state: Any) -> Outcome | None:
+    def outcome(self, state: State) -> Outcome | None:
         """The scored answer once the participant has confirmed one, else None."""
 
-    def solution(self, state: Any) -> FloorPlan | None:
+    def solution(self, state: State) -> FloorPlan | None:
         """After a practice trial: what was marked and what is right, if there is a plan of it."""
 
-    def example(self, state: Any, aspect: float) -> Example:
+    def example(self, state: State, aspect: float) -> Example:
         """What the instruction's picture, so wide for its height, may show of a trial's start."""
+
+
+def opaque(task: Task[WhereTo, OwnTo, Made, State]) -> Task:
+    """The same task for who hands its states on and looks into none: no other ever gets to it,
+    which no type can say."""
+    return cast(Task, task)

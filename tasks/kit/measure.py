@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from typing import Literal
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Measure:
         """The column of its values."""
         return self.column or self.name
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """As a sidecar has it: plain JSON types."""
         return asdict(self)
 

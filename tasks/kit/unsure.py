@@ -12,6 +12,7 @@ from numpy.random import Generator
 from seethrough.tasks.kit.base import Example, Outcome, Setting, Task, View
 from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import MARGIN, Button, FloorPlan, Rect
+from seethrough.tasks.kit.world import Place
 
 KEY = "f2"
 UNKNOWN = "unknown"  # the answer of who does not know
@@ -38,11 +39,11 @@ class Unsure:
         self.title, self.instruction, self.texts = task.title, task.instruction, task.texts
         self.simulate, self.takes = task.simulate, task.takes | {f"key:{KEY}"}
 
-    def make_scene(self, rng: Generator, setting: Setting) -> object:
+    def make_scene(self, rng: Generator, setting: Setting) -> Place:
         """The task's."""
         return self._task.make_scene(rng, setting)
 
-    def begin(self, made: object, setting: Setting, aspect: float) -> UnsureState:
+    def begin(self, made: Place, setting: Setting, aspect: float) -> UnsureState:
         """The task's first state."""
         return UnsureState(self._task.begin(made, setting, aspect))
 

@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Generic, NamedTuple, Protocol, TypeVar, runtime_checkable
+from typing import Generic, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
+from typing_extensions import TypeVar
 
-from seethrough.renderer.declared import key
+from seethrough.renderer.declared import Declares, key
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.events import Event
@@ -32,14 +33,15 @@ class Place(Protocol):
         """Everything that stands there."""
 
 
-Where = TypeVar("Where", bound=Place)
+# What a world's own parameters and places are; who only hands them on need not know.
+Made = TypeVar("Made", bound=Place, default=Place)
 
 
 @dataclass(frozen=True, eq=False)
-class Asked(Generic[Where]):
+class Asked(Generic[Made]):
     """An item: a place, and the index of the thing that is asked for in it."""
 
-    place: Where
+    place: Made
     thing: int
 
     @property
@@ -51,7 +53,7 @@ class Asked(Generic[Where]):
 class Viewer(Protocol):
     """Where a participant looks from. Frozen; events give another one."""
 
-    def on_event(self, event: Event) -> Any:
+    def on_event(self, event: Event) -> Viewer:
         """The viewer after `event`."""
 
     def camera(self) -> Camera:
@@ -82,13 +84,13 @@ class FileWorld(Protocol):
     def named(self, parameters: object) -> Mapping[str, str]:
         """Parameter → file beside the study, of all that it names."""
 
-    def found(self, parameters: object, folder: Path) -> object:
+    def found(self, parameters: WorldParameters, folder: Path) -> WorldParameters:
         """The parameters with their files read, which lie in the folder. Raises FileFaults."""
 
     def keeps(self, parameters: object) -> Mapping[str, Callable[[], bytes]]:
         """Name → content, of the files that a data folder keeps for replays."""
 
-    def kept_in(self, parameters: object, folder: Path) -> object:
+    def kept_in(self, parameters: WorldParameters, folder: Path) -> WorldParameters:
         """The parameters with their files as a data folder has them. Raises FileFaults."""
 
     def targets(self, parameters: object) -> Mapping[str, int]:
@@ -103,7 +105,20 @@ class ItemWorld(Protocol):
         """All that can be asked for, in the study's order."""
 
 
-class World(Protocol):
+class WorldParameters(Declares, Protocol):
+    """The parameters of a world: each has a key `scenes`, of which `scenes` below makes one."""
+
+    @property
+    def scenes(self) -> str:
+        """OWN, SHARED or FILES."""
+
+    def __hash__(self) -> int: ...
+
+
+Where = TypeVar("Where", bound=WorldParameters, contravariant=True, default=WorldParameters)
+
+
+class World(Protocol[Where, Made]):
     """A world, without state: parameters go in, places come out.
 
     `scenario` is what tables call it. `moving`: "orbit" turns the world about its middle, "walk"
@@ -118,16 +133,19 @@ class World(Protocol):
     moving: str
     controls: str
     takes: frozenset[str]
-    Parameters: Any
     texts: Texts
 
-    def make(self, rng: Generator, parameters: Any) -> Place:
+    @property
+    def Parameters(self) -> type[WorldParameters]:
+        """The class of its parameters."""
+
+    def make(self, rng: Generator, parameters: Where) -> Made:
         """A place for any task. Raises ValueError where the parameters leave no room for one."""
 
-    def viewer(self, place: Place, parameters: Any, aspect: float) -> Viewer:
+    def viewer(self, place: Made, parameters: Where, aspect: float) -> Viewer:
         """Where one begins, in a view so wide for its height."""
 
-    def views(self, parameters: Any, first: Camera) -> list[Camera]:
+    def views(self, parameters: Where, first: Camera) -> list[Camera]:
         """From where the certificate judges a scene that begins with `first`: the same for all."""
 
     def path(self, first: Camera, asked: NDArray[np.float64]) -> float:
@@ -144,7 +162,7 @@ def keys(names: Iterable[str]) -> frozenset[str]:
     return frozenset(f"key:{name}" for name in names)
 
 
-def scenes(default: str) -> Any:
+def scenes(default: str) -> str:
     """The key by which a study says how its scenes are had."""
     return key(
         default,

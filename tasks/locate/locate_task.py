@@ -7,6 +7,7 @@ judged by (Burns2008, Li2007); times and wrong clicks are as in Vanacken2007.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from numpy.random import Generator
 
@@ -23,6 +24,7 @@ from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.turning import inset
 from seethrough.tasks.kit.world import Asked, Texts, Viewer
 from seethrough.tasks.locate.simulate import STRATEGY
+from seethrough.tasks.worlds.scene.scene_parameters import SceneParameters
 from seethrough.tasks.worlds.scene.scene_place import ScenePlace
 from seethrough.tasks.worlds.scene.scene_world import SceneWorld
 from seethrough.tasks.worlds.scene.standing import Fixed
@@ -44,6 +46,9 @@ class LocateParameters:
         check(self)
 
 
+LocateSetting: TypeAlias = Setting[SceneParameters, LocateParameters]
+
+
 @dataclass(frozen=True, eq=False)
 class LocateState:
     """A trial between two events. `picture` is the part alone; `wrong` clicks so far."""
@@ -58,7 +63,7 @@ class LocateState:
     ended: bool = False
 
 
-class Locate(Basics):
+class Locate(Basics[LocateState, LocateSetting]):
     """Move, click; or aim with the keys w, a, s, d and press enter."""
 
     name, code = "locate", "L"
@@ -70,11 +75,11 @@ class Locate(Basics):
     texts: Texts = OwnTexts("seethrough.tasks.locate")
     simulate = STRATEGY
 
-    def items(self, setting: Setting) -> int:
+    def items(self, setting: LocateSetting) -> int:
         """How many things can be asked for."""
         return len(_items(setting))
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Asked[ScenePlace]:
+    def make_scene(self, rng: Generator, setting: LocateSetting) -> Asked[ScenePlace]:
         """One of the items: the setting's, or a drawn one. Raises ValueError where none is."""
         items = _items(setting)
         if not items:
@@ -82,7 +87,7 @@ class Locate(Basics):
         drawn = int(rng.integers(len(items)))
         return items[drawn if setting.item is None else setting.item]
 
-    def begin(self, made: Asked[ScenePlace], setting: Setting, aspect: float) -> LocateState:
+    def begin(self, made: Asked[ScenePlace], setting: LocateSetting, aspect: float) -> LocateState:
         """The first state of a trial."""
         viewer = setting.world.viewer(made.place, setting.place, aspect)
         moving = setting.place.move
@@ -144,7 +149,7 @@ class Locate(Basics):
         return Example(state.asked.place.alike(state.asked.thing), cameras)
 
 
-def _items(setting: Setting) -> tuple[Asked[ScenePlace], ...]:
+def _items(setting: LocateSetting) -> tuple[Asked[ScenePlace], ...]:
     """All that can be asked for. Raises ValueError in a world that does not say it."""
     if not isinstance(setting.world, SceneWorld):
         raise ValueError(f"world = {setting.world.name}, expected scene")

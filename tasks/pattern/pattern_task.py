@@ -17,6 +17,7 @@ from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.pattern.simulate import STRATEGY
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import Cloud, cloud
 
 SIZE, GAP, EDGE = 0.07, 0.012, 0.02
@@ -50,12 +51,14 @@ class Pattern:
     texts: Texts = OwnTexts("seethrough.tasks.pattern")
     simulate = STRATEGY
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Cloud:
+    def make_scene(self, rng: Generator, setting: Setting[AbstractParameters]) -> Cloud:
         """A world of its own for each trial, each letter equally likely."""
         letter = sorted(LETTERS)[int(rng.integers(len(LETTERS)))]
         return cloud(rng, setting.place, letter)
 
-    def begin(self, made: Cloud, setting: Setting, aspect: float) -> PatternState:
+    def begin(
+        self, made: Cloud, setting: Setting[AbstractParameters], aspect: float
+    ) -> PatternState:
         """The first state of a trial."""
         return PatternState(made, orbit(setting.place, aspect), aspect)
 

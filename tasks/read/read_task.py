@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.random import Generator
@@ -20,6 +21,7 @@ from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.read.sign import SignPlace, sign_place
 from seethrough.tasks.read.simulate import STRATEGY
+from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 
 FACING = 0.8  # cosine between the sign's front and the way to the eye, for an instruction's picture
 
@@ -34,6 +36,9 @@ class ReadParameters:
         check(self)
 
 
+ReadSetting: TypeAlias = Setting[AbstractParameters, ReadParameters]
+
+
 @dataclass(frozen=True, eq=False)
 class ReadState:
     """A trial between two events."""
@@ -43,7 +48,7 @@ class ReadState:
     entry: NumberEntry
 
 
-class Read(Basics):
+class Read(Basics[ReadState, ReadSetting]):
     """Drag or arrow keys orbit, a digit and enter answer."""
 
     name, code = "read", "R"
@@ -55,11 +60,11 @@ class Read(Basics):
     texts: Texts = OwnTexts("seethrough.tasks.read")
     simulate = STRATEGY
 
-    def make_scene(self, rng: Generator, setting: Setting) -> SignPlace:
+    def make_scene(self, rng: Generator, setting: ReadSetting) -> SignPlace:
         """A world with a sign."""
         return sign_place(rng, setting.place, setting.task.height)
 
-    def begin(self, made: SignPlace, setting: Setting, aspect: float) -> ReadState:
+    def begin(self, made: SignPlace, setting: ReadSetting, aspect: float) -> ReadState:
         """The first state of a trial."""
         return ReadState(made, orbit(setting.place, aspect), NumberEntry(aspect))
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeAlias
 
 import numpy as np
 from numpy.random import Generator
@@ -29,6 +30,7 @@ from seethrough.tasks.kit.world import (
     Place,
     Texts,
     Viewer,
+    WorldParameters,
     moving_of,
 )
 from seethrough.tasks.select.simulate import STRATEGY
@@ -59,6 +61,9 @@ class SelectPlace:
     thing: int
 
 
+SelectSetting: TypeAlias = Setting[WorldParameters, SelectParameters]
+
+
 @dataclass(frozen=True, eq=False)
 class SelectState:
     """A trial between two events."""
@@ -71,7 +76,7 @@ class SelectState:
     hit: bool = False
 
 
-class Select(Basics):
+class Select(Basics[SelectState, SelectSetting]):
     """Move, click; or aim with the keys w, a, s, d and press enter."""
 
     name, code = "select", "S"
@@ -83,17 +88,17 @@ class Select(Basics):
     texts: Texts = OwnTexts("seethrough.tasks.select")
     simulate = STRATEGY
 
-    def items(self, setting: Setting) -> int | None:
+    def items(self, setting: SelectSetting) -> int | None:
         """How many things can be asked for, where a file says it."""
         world = setting.world
         return len(world.items(setting.place)) if isinstance(world, ItemWorld) else None
 
-    def controls(self, setting: Setting) -> str:
+    def controls(self, setting: SelectSetting) -> str:
         """The pointer is free: who walks turns by dragging."""
         walks = moving_of(setting.world, setting.place) == "walk"
         return "scene.walk" if walks else setting.controls
 
-    def make_scene(self, rng: Generator, setting: Setting) -> SelectPlace:
+    def make_scene(self, rng: Generator, setting: SelectSetting) -> SelectPlace:
         """A place with one of its targets marked; nothing else is a target. Raises ValueError where
         there is none."""
         asked = _asked(rng, setting)
@@ -106,7 +111,7 @@ class Select(Basics):
         marked = Scene(tuple(things), scene.background)
         return SelectPlace(asked.place, marked, asked.thing)
 
-    def begin(self, made: SelectPlace, setting: Setting, aspect: float) -> SelectState:
+    def begin(self, made: SelectPlace, setting: SelectSetting, aspect: float) -> SelectState:
         """The first state of a trial."""
         viewer = setting.world.viewer(made.place, setting.place, aspect)
         moving = moving_of(setting.world, setting.place)
@@ -149,7 +154,7 @@ class Select(Basics):
         return Example((state.made.thing,), cameras)
 
 
-def _asked(rng: Generator, setting: Setting) -> Asked[Place]:
+def _asked(rng: Generator, setting: SelectSetting) -> Asked[Place]:
     """The setting's item, or any target of a place of the world's."""
     world = setting.world
     items: Sequence[Asked[Place]]

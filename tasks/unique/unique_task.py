@@ -17,6 +17,7 @@ from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.unique.simulate import STRATEGY
 from seethrough.tasks.worlds.building.building import Building, unique_building
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import room_at
 from seethrough.tasks.worlds.building.plan_mark import PlanMark
 from seethrough.tasks.worlds.building.visit import Visit, before, visit
@@ -51,11 +52,13 @@ class Unique:
     texts: Texts = OwnTexts("seethrough.tasks.unique")
     simulate = STRATEGY
 
-    def make_scene(self, rng: Generator, setting: Setting) -> Building:
+    def make_scene(self, rng: Generator, setting: Setting[BuildingParameters]) -> Building:
         """One of the study's buildings: the same for everybody, so from the study's seed."""
         return unique_building(rng, setting.place)
 
-    def begin(self, made: Building, setting: Setting, aspect: float) -> UniqueState:
+    def begin(
+        self, made: Building, setting: Setting[BuildingParameters], aspect: float
+    ) -> UniqueState:
         """The first state of a trial."""
         return UniqueState(visit(made, setting.place), PlanMark(aspect, setting.place.side))
 

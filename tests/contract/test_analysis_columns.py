@@ -9,8 +9,8 @@ from typing import get_args
 import pytest
 from published_design import columns, published
 
-from seethrough.analysis import before, exclude, plan
-from seethrough.analysis.load import schema
+from seethrough.analysis import before, exclude
+from seethrough.analysis.load import plan, schema
 from seethrough.analysis.load.chain import link, seal_of, start_of
 from seethrough.experiment.record import chain
 from seethrough.experiment.study import study_tables

@@ -11,9 +11,9 @@ import tomllib
 from pathlib import Path
 
 # What is reached. Lower them with what you mend, never raise one.
-MOST_PRAGMAS = 29  # `type: ignore`, other checkers' comments, `cast`
-MOST_ANY = 523  # uses of `Any` beside its imports
-MOST_UNCHECKED = 3  # modules that are not checked yet
+MOST_PRAGMAS = 9  # `type: ignore`, other checkers' comments, `cast`; at most 15 ever
+MOST_ANY = 38  # uses of `Any` beside its imports; 40 is not to be reached
+MOST_UNCHECKED = 0  # modules that are not checked yet
 
 PRAGMA = re.compile(r"#\s*(type:\s*ignore|pyright:|mypy:|ty:)")
 

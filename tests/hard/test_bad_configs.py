@@ -13,7 +13,7 @@ from broken_configs import BASE, KINDS, case, toml
 
 from seethrough.experiment import cli
 from seethrough.experiment.errors import MOST
-from seethrough.experiment.study import trust
+from seethrough.experiment.files import trust
 
 CASES = int(os.environ.get("SEETHROUGH_CASES", "300"))
 

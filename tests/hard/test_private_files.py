@@ -7,7 +7,7 @@ import stat
 import pytest
 from made_data import Made, make_folder
 
-from seethrough.analysis.written import own_folder, write_over
+from seethrough.analysis.files.written import own_folder, write_over
 from seethrough.experiment import cli
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.private import write_new

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES
 
-from seethrough.benchmarks import guarantee
-from seethrough.benchmarks.guarantee import (
+from seethrough.benchmarks.drawing import guarantee
+from seethrough.benchmarks.drawing.guarantee import (
     KEPT,
     Guarantee,
     abstract_views,

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.benchmarks.breaking import crossings, small_crossings
+from seethrough.benchmarks.drawing.breaking import crossings, small_crossings
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene.visibility import SEEN

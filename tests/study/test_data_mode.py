@@ -77,7 +77,7 @@ def test_without_opengl_a_command_that_draws_says_so_in_one_line(
         raise RuntimeError("OpenGL 3.3: not available, expected a graphics driver")
 
     monkeypatch.setattr("seethrough.renderer.gpu.device.context.standalone", none)
-    monkeypatch.setattr(batch, "_ready", {})
+    monkeypatch.setattr(batch, "_made", [])
     assert cli.main(words.format(t=tmp_path).split()) == 2
     told = [line for line in capsys.readouterr().err.splitlines() if " after " not in line]
     assert told == ["seethrough: OpenGL 3.3: not available, expected a graphics driver"]

@@ -12,7 +12,7 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.study.config import load, parse
 from seethrough.experiment.study.scopes import TRIAL, scope_of
-from seethrough.renderer.look.look import PLAIN, Look
+from seethrough.renderer.scene.look import PLAIN, Look
 
 CUES = {
     "none": {"technique": {"use": "standard"}},

@@ -19,11 +19,12 @@ from scripted_session import FakeDisplay as Display
 from seethrough import registry
 from seethrough.experiment import cli
 from seethrough.experiment.display.clock import SimulatedClock
+from seethrough.experiment.files import trust
 from seethrough.experiment.session import strangers
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
-from seethrough.experiment.study import plugin_files, trust
+from seethrough.experiment.study import plugin_files
 from seethrough.experiment.study.config import load, parse
 from seethrough.experiment.suites.suite import findings
 from seethrough.tasks.catalog import TASKS

@@ -224,7 +224,7 @@ def test_it_prints_to_pdf(folder, tmp_path):
 
 def test_without_a_browser_pdf_says_so(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setattr("seethrough.analysis.page.pdf.PLACES", ())
+    monkeypatch.setattr("seethrough.analysis.report.pdf.PLACES", ())
     out = tmp_path / "out"
     assert main(["report", "--published", "--out", str(out), "--format", "pdf"]) == 2
     error = capsys.readouterr().err

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, fields, replace
 from pathlib import Path
 
-from seethrough.analysis.written import write_over
+from seethrough.analysis.files.written import write_over
 from seethrough.experiment.errors import InputError, gathered, short, shown, unknown
 from seethrough.experiment.study.toml_file import read_toml
 from seethrough.tasks.kit.skills.profile import AVERAGE, PROFILES, Profile

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from importlib import metadata
 from pathlib import Path
-from typing import Any
 
 from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Slots, render
@@ -14,6 +13,7 @@ from seethrough.experiment.people.runs.data_mode import Played, play_session
 from seethrough.experiment.people.runs.look_tables import views_of
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
+from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import Trial, session_for
@@ -55,7 +55,20 @@ class Batch:
         }
 
 
-_ready: dict[str, Any] = {}  # this process's study and pool: made once by `prepare`
+@dataclass(frozen=True)
+class _Ready:
+    """This process's study and pool."""
+
+    batch: Batch
+    study: Study
+    pool: Pool
+
+
+_made: list[_Ready] = []  # the one that `prepare` made
+
+
+def _ready() -> _Ready:
+    return _made[-1]
 
 
 def prepare(batch: Batch, study: Study | None = None, tables: bytes = b"") -> None:
@@ -66,7 +79,7 @@ def prepare(batch: Batch, study: Study | None = None, tables: bytes = b"") -> No
     study = study or load(batch.study)
     looks = KeptLooks(batch.tables, tables)
     pool = (drawing if batch.draws else Pool)(study, batch.pool, looks=looks)
-    _ready.update(batch=batch, study=study, pool=pool)
+    _made[:] = [_Ready(batch, study, pool)]
 
 
 def play_chunk(slots: Sequence[int], profile: Profile | None = None) -> list[dict[str, object]]:
@@ -79,14 +92,16 @@ def play_files(slots: Slots) -> Chunk:
 
     What was drawn on the way is in the tables' file, or in the chunk where there is no such file.
     """
-    batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    ready = _ready()
+    batch, study, pool = ready.batch, ready.study, ready.pool
     chunk = render(batch.about(study), study, slots, _sessions(slots))
     drawn = pool.looks.flush()
     return chunk if batch.tables is not None else replace(chunk, looks=drawn)
 
 
 def _sessions(slots: Sequence[int], profile: Profile | None = None) -> list[Played]:
-    batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    ready = _ready()
+    batch, study, pool = ready.batch, ready.study, ready.pool
     person = profile or batch.profile
     return [play_session(study, s, batch.seed, pool, person, batch.without) for s in slots]
 
@@ -103,17 +118,17 @@ def play(batch: Batch, slots: Sequence[int], workers: int) -> Iterator[list[dict
 
 def keep_tables() -> None:
     """Write what this process has drawn into the tables' file."""
-    _ready["pool"].looks.flush()
+    _ready().pool.looks.flush()
 
 
-def fill(batch: Batch, progress: Any = None) -> None:
+def fill(batch: Batch, progress: Progress | None = None) -> None:
     """Draw what the tables lack of every scene of the pool.
 
     Each scene is drawn from the viewpoints that a participant of this profile looks from. What was
     drawn is kept scene by scene: who is interrupted goes on there.
     """
     prepare(batch)
-    study, pool = _ready["study"], _ready["pool"]
+    study, pool = _ready().study, _ready().pool
     aspect = study.display.width / study.display.height
     for trial in pooled_trials(study):
         for which in range(batch.pool):
@@ -130,7 +145,8 @@ def fill(batch: Batch, progress: Any = None) -> None:
 
 def make_worlds() -> None:
     """Make every world of this process's pool now, instead of when somebody first plays in it."""
-    batch, study, pool = _ready["batch"], _ready["study"], _ready["pool"]
+    ready = _ready()
+    batch, study, pool = ready.batch, ready.study, ready.pool
     aspect = study.display.width / study.display.height
     for trial in pooled_trials(study):
         for which in range(batch.pool):
@@ -140,7 +156,7 @@ def make_worlds() -> None:
 def pooled_trials(study: Study) -> list[Trial]:
     """One trial of each task whose scenes are everybody's own, with each technique, in each
     place."""
-    trials: dict[Any, Trial] = {}
+    trials: dict[object, Trial] = {}
     for slot in range(1, len(study.plan.groups) + 1):
         for task_set in session_for(slot, study.plan):
             for trial in task_set.trials:

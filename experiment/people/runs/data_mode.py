@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.people.participant import SimulatedParticipant
@@ -30,7 +30,7 @@ from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 if TYPE_CHECKING:
     from seethrough.renderer.techniques.base import Parameters
 
-Row = dict[str, Any]
+Row = dict[str, object]
 
 
 class TableDisplay:
@@ -40,7 +40,7 @@ class TableDisplay:
         self.pool, self.clock = pool, clock
         self._aspect = aspect
         self._shown: View | None = None
-        self.technique: Any = None  # what the view shown last is drawn with
+        self.technique: Parameters | None = None  # what the view shown last is drawn with
 
     @property
     def aspect(self) -> float:
@@ -66,7 +66,7 @@ class TableDisplay:
 
     def look(self) -> Visibility:
         """What is seen in the view shown last. Raises RuntimeError before the first."""
-        if self._shown is None:
+        if self._shown is None or self.technique is None:
             raise RuntimeError("nothing has been shown yet")
         return self.pool.look(self._shown, self.technique)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,14 +17,14 @@ from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import STUDY_SCENES, Trial, generator
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.look.look import PLAIN
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import PLAIN
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Task, View
-from seethrough.tasks.kit.world import FILES, OWN
+from seethrough.tasks.kit.world import FILES, OWN, Place, WorldParameters
 
 if TYPE_CHECKING:
     from seethrough.experiment.display.looking import Looking
@@ -44,7 +44,7 @@ class Pool(StudyScenes):
         self,
         study: Study,
         size: int,
-        draw: Callable[[str], Draw] | None = None,
+        draw: Callable[[Parameters], Draw] | None = None,
         looks: KeptLooks | None = None,
     ) -> None:
         if size < 0:
@@ -52,12 +52,12 @@ class Pool(StudyScenes):
         super().__init__(study)
         self.size, self._draw = size, draw
         self.looks = looks or KeptLooks()
-        self._scenes: dict[tuple[str, Any], Any] = {}
+        self._scenes: dict[tuple[str, WorldParameters], Place] = {}
         self._names: dict[int, tuple[str, str]] = {}  # id of a scene → its name, moving
-        self._draws: dict[Any, Draw | None] = {}
-        self._eyes: dict[tuple[int, Any], TableEyes] = {}
+        self._draws: dict[Parameters, Draw | None] = {}
+        self._eyes: dict[tuple[int, Parameters], TableEyes] = {}
 
-    def begin(self, task: Task, trial: Trial, aspect: float) -> Any:
+    def begin(self, task: Task, trial: Trial, aspect: float) -> object:
         """The first state of a trial."""
         rng = generator(self.study.study.seed, trial.stream)
         stream = trial.stream
@@ -65,16 +65,16 @@ class Pool(StudyScenes):
             stream = self._stream(trial.task, int(rng.integers(self.size)))
         return self._begun(task, trial, aspect, stream)
 
-    def world(self, trial: Trial, which: int, aspect: float) -> Any:
+    def world(self, trial: Trial, which: int, aspect: float) -> object:
         """As `begin`, in the pool's world number `which` of an abstract task."""
         stream = self._stream(trial.task, which)
         return self._begun(TASKS[trial.task], trial, aspect, stream)
 
-    def look(self, view: View, technique: Any) -> Visibility:
+    def look(self, view: View, technique: Parameters) -> Visibility:
         """What is seen in a view of one of the pool's scenes, with a technique."""
         return self.eyes(view.scene, technique).look(view.scene, view.camera)
 
-    def eyes(self, scene: Scene, technique: Any) -> TableEyes:
+    def eyes(self, scene: Scene, technique: Parameters) -> TableEyes:
         """Eyes for one of the pool's scenes with a technique."""
         key = (id(scene), technique)
         if key not in self._eyes:
@@ -96,7 +96,7 @@ class Pool(StudyScenes):
             self._names[id(made.scene)] = (called, lattice)
         return task.begin(self._scenes[name, setting.place], setting, aspect)
 
-    def _open(self, scene: Scene, technique: Any) -> TableEyes:
+    def _open(self, scene: Scene, technique: Parameters) -> TableEyes:
         name, moving = self._names[id(scene.bare or scene)]
         own = fingerprint(scene, technique, window_of(self.study))
         table = f"{name}-{own}/{technique.technique.name}"
@@ -142,7 +142,7 @@ class LazyDraw:
         self.study = study
         self._looking: Looking | None = None
 
-    def __call__(self, technique: Any) -> Draw:
+    def __call__(self, technique: Parameters) -> Draw:
         """What draws with a technique."""
         return lambda scene, camera: self._look(scene, camera, technique)
 

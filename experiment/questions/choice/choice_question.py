@@ -49,7 +49,7 @@ class ChoiceParameters:
         return found
 
 
-class ChoiceQuestion(OnOnePage):
+class ChoiceQuestion(OnOnePage[ChoiceParameters]):
     """Which?"""
 
     name, version = "choice", "1"

@@ -10,13 +10,14 @@ import numpy as np
 
 from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture, on_picture
 from seethrough.experiment.study.design import STUDY_SCENES, generator
-from seethrough.renderer.look.look import PLAIN, Look
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import rotation_y
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.base import View
+from seethrough.tasks.kit.world import WorldParameters
 
 PAIRS = 3
 RATIO = 1.2  # the farther of a pair is at least this much farther: ours
@@ -56,7 +57,7 @@ class DepthTest:
 
 
 @lru_cache(maxsize=4)
-def depth_test(seed: int, world: str, place: object) -> DepthTest:
+def depth_test(seed: int, world: str, place: WorldParameters) -> DepthTest:
     """The test of a study, in a world of such parameters: the same for everybody. Raises ValueError
     if no scene shows six kinds.
 

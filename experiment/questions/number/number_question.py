@@ -32,7 +32,7 @@ class NumberParameters:
             raise ValueError(f"high = {self.high}, expected more than `low` ({self.low})")
 
 
-class NumberQuestion(OnOnePage):
+class NumberQuestion(OnOnePage[NumberParameters]):
     """How many?"""
 
     name, version = "number", "1"

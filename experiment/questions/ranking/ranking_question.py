@@ -37,7 +37,7 @@ class RankingParameters:
         )
 
 
-class RankingQuestion(OnOnePage):
+class RankingQuestion(OnOnePage[RankingParameters]):
     """In which order?"""
 
     name, version = "ranking", "1"

@@ -34,7 +34,7 @@ class SliderParameters:
             raise ValueError(f"high = {self.high}, expected more than `low` ({self.low})")
 
 
-class SliderQuestion(OnOnePage):
+class SliderQuestion(OnOnePage[SliderParameters]):
     """Where between the ends?"""
 
     name, version = "slider", "1"

@@ -23,7 +23,7 @@ class TextParameters:
         check(self)
 
 
-class TextQuestion(OnOnePage):
+class TextQuestion(OnOnePage[TextParameters]):
     """What does one say?"""
 
     name, version = "text", "1"

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import moderngl
+
+Factors: TypeAlias = tuple[int, int] | tuple[int, int, int, int]
 
 
 def within(target: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) -> None:
@@ -10,7 +14,7 @@ def within(target: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) 
     target.scissor = box  # type: ignore[assignment]  # takes None, as its documentation says
 
 
-def blend(context: moderngl.Context, factors: tuple[int, int] | tuple[int, int, int, int]) -> None:
+def blend(context: moderngl.Context, factors: Factors) -> None:
     """Factors of what is drawn and of what is there; two more for alpha where it has its own."""
     context.blend_func = factors  # type: ignore[assignment]  # takes four, as its text says
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
+from seethrough.renderer.arrays import Ints
 from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.scene_table import SceneTable
-from seethrough.renderer.plan.clusters import Indices, tree_of
+from seethrough.renderer.plan.clusters import tree_of
 from seethrough.renderer.polygons.bsp import PreparedBsp
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
@@ -35,7 +36,7 @@ class ClusterPainter:
         self._context = context
         self._clusters: dict[bytes, _Cluster] = {}
 
-    def draw(self, scene: Scene, members: Indices, camera: Camera, shader: Shader) -> int:
+    def draw(self, scene: Scene, members: Ints, camera: Camera, shader: Shader) -> int:
         """Draw with the shader as it is set up, but for table and sequence. Returns the draws."""
         cluster = self._cluster(scene, members)
         order = cluster.prepared.order(eye=camera.eye)
@@ -48,7 +49,7 @@ class ClusterPainter:
             mesh.draw(self._context, shader, start, count)
         return len(runs[0])
 
-    def _cluster(self, scene: Scene, members: Indices) -> _Cluster:
+    def _cluster(self, scene: Scene, members: Ints) -> _Cluster:
         things = [scene.objects[i] for i in members.tolist()]
         key = b"".join(
             np.array([id(t.mesh), *t.transform.ravel(), *t.color], float).tobytes() for t in things
@@ -63,7 +64,7 @@ class ClusterPainter:
         self._clusters[key] = self._built(scene, members)
         return self._clusters[key]
 
-    def _built(self, scene: Scene, members: Indices) -> _Cluster:
+    def _built(self, scene: Scene, members: Ints) -> _Cluster:
         things = [scene.objects[i] for i in members.tolist()]
         prepared = tree_of(scene, members)
         assert isinstance(prepared, PreparedBsp)  # the plan makes no cluster without a tree

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
@@ -21,14 +20,16 @@ from seethrough.renderer.gpu.levels.lens import clip_from_offset, tight
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
-from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
-from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
+from seethrough.renderer.gpu.rules import painters
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import PEELS, REMOVAL, Parameters, Shot
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.base import REMOVAL, Parameters, Shot
+from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
+    DynamicTransparency,
+    by_masks,
+)
 
 if TYPE_CHECKING:
     from seethrough.renderer.gpu.levels.cluster_painter import ClusterPainter
@@ -37,12 +38,6 @@ OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
-GHOSTS = "ghosts"  # lines of what was removed, over what is left
-PAINTERS: Mapping[str, Callable[..., PeelPainter | RemovalPainter]] = {
-    PEELS: PeelPainter,
-    REMOVAL: RemovalPainter,
-    GHOSTS: partial(PeelPainter, ghosts=True),
-}
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
@@ -68,7 +63,7 @@ class Layer:
         self._context, self._store = context, store
         self._look = tuple(look)
         defines = [*(["WITH_IDS"] if ids else []), *look]
-        self._defines, self._ruled = defines, dict[str, Any]()
+        self._defines, self._ruled = defines, dict[str, painters.Painter]()
         self.peeled: list[Drawn] = []  # layers of the last frame with ids, from the back
         self._object = program(context, "object.vert", "object.frag", defines)
         bare = [d for d in defines if not d.startswith("FLOOR")]
@@ -86,7 +81,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: Any,
+        technique: Parameters,
         target: FrameTarget,
         scale: float = 1.0,
         after_level: AfterLevel | None = None,
@@ -131,12 +126,10 @@ class Layer:
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
         if len(frame.ruled):
             shot = Shot(table.scene, camera, size, scale)
-            rules = technique.technique
-            self._draw_ruled(rules.painter, table, frame, technique, state, shot, target)
-            if after_level is not None and rules.painter == REMOVAL:
-                after_level(frame.ruled)
-            if rules.painter == REMOVAL and rules.edges(technique):
-                self._draw_ruled(GHOSTS, table, frame, technique, state, shot, target)
+            for name in painters.of(technique):
+                self._draw_ruled(name, table, frame, technique, state, shot, target)
+                if after_level is not None and name == REMOVAL:
+                    after_level(frame.ruled)
         if exact is not None:
             passes, draws = self._painter().finish(exact, target.framebuffer)
             self._passes += passes
@@ -166,7 +159,7 @@ class Layer:
     ) -> None:
         """What the technique's rule is asked about, by a painter."""
         if name not in self._ruled:
-            self._ruled[name] = PAINTERS[name](self._context, self._defines)
+            self._ruled[name] = painters.PAINTERS[name](self._context, self._defines)
         painter = self._ruled[name]
         self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
         self._passes += 1
@@ -191,7 +184,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: DynamicTransparency,
+        technique: Parameters,
         size: tuple[int, int],
         scale: float,
     ) -> list[tuple[NDArray[np.int64], NDArray[np.float32]]]:
@@ -208,16 +201,11 @@ class Layer:
         return self._exact
 
     def _job(
-        self,
-        table: SceneTable,
-        frame: FramePlan,
-        camera: Camera,
-        technique: DynamicTransparency,
-        scale: float,
-        size: tuple[int, int],
-    ) -> ExactJob:
-        width = technique.width * scale
-        return ExactJob(table, frame, camera, technique, width, size, self._matrix)
+        self, table: SceneTable, frame: FramePlan, camera: Camera, technique: Parameters,
+        scale: float, size: tuple[int, int],
+    ) -> ExactJob:  # fmt: skip
+        own = by_masks(technique)
+        return ExactJob(table, frame, camera, own, own.width * scale, size, self._matrix)
 
     def _set_state(self) -> None:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
@@ -228,7 +216,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: DynamicTransparency,
+        technique: Parameters,
         scale: float,
         size: tuple[int, int],
     ) -> tuple[list[list[Run]], list[list[Run]]]:
@@ -245,9 +233,9 @@ class Layer:
             parts += [alone[~wide[alone]], alone[wide[alone]]]
         extra = []
         if frame.levels:
-            width = technique.width * scale
-            extra = self._masks.prepare(table, frame, camera, technique, width, size)
-            counted = _counted(frame, technique)
+            own = by_masks(technique)
+            extra = self._masks.prepare(table, frame, camera, own, own.width * scale, size)
+            counted = _counted(frame, own)
             if len(counted):
                 occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
                 extra = [*extra, counted, occluders]
@@ -260,7 +248,7 @@ class Layer:
         table: SceneTable,
         frame: FramePlan,
         camera: Camera,
-        technique: DynamicTransparency,
+        technique: Parameters,
         runs: list[list[Run]],
         size: tuple[int, int],
     ) -> moderngl.Texture | None:
@@ -270,7 +258,7 @@ class Layer:
         draws = self._masks.draw_distances(table, runs[:whole], camera)
         self._passes += draws > 0
         self._draws += draws
-        if not len(_counted(frame, technique)):
+        if not len(_counted(frame, by_masks(technique))):
             return None
         return self._count(size, runs[-2], runs[-1])
 
@@ -356,11 +344,11 @@ class Layer:
         camera: Camera,
         frame: FramePlan,
         runs: list[list[Run]],
-        technique: DynamicTransparency,
+        technique: Parameters,
         target: FrameTarget,
         after_level: AfterLevel | None,
     ) -> None:
-        every = "prepass" in frame.without
+        every, least = "prepass" in frame.without, by_masks(technique).combine == "min"
         for k, level in enumerate(frame.levels):
             for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
                 if wide and part:
@@ -373,7 +361,7 @@ class Layer:
             if after_level is not None and len(level.objects):
                 after_level(level.objects)
             if len(level.masks):
-                self._draw_masks(level.masks, technique.combine == "min")
+                self._draw_masks(level.masks, least)
 
     def _draw_masks(self, targets: NDArray[np.int64], least: bool) -> None:
         context = self._context

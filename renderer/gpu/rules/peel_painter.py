@@ -7,7 +7,6 @@ rule gives it, and puts it under what is there already, until no pass finds one 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import moderngl
 import numpy as np
@@ -20,7 +19,7 @@ from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import Own, Shot
+from seethrough.renderer.techniques.base import Parameters, Shot
 
 # Texture units, beyond those of a rule's pictures.
 ABOVE, BELOW, COVERED, LAYER = 10, 11, 12, 13
@@ -35,7 +34,7 @@ class _Buffers:
         self, context: moderngl.Context, size: tuple[int, int], ids: bool, lined: bool
     ) -> None:
         self.key = (size, lined)
-        self.owned: list[Any] = []
+        self.owned: list[moderngl.Texture | moderngl.Renderbuffer | moderngl.Framebuffer] = []
 
         def texture(components: int, dtype: str) -> moderngl.Texture:
             made = context.texture(size, components, dtype=dtype)
@@ -43,8 +42,10 @@ class _Buffers:
             self.owned.append(made)
             return made
 
-        def framebuffer(*attachments: Any) -> moderngl.Framebuffer:
-            made = context.framebuffer(list(attachments[:-1]), attachments[-1])
+        def framebuffer(
+            *colors: moderngl.Texture, depth: moderngl.Renderbuffer | moderngl.Texture | None
+        ) -> moderngl.Framebuffer:
+            made = context.framebuffer(list(colors), depth)
             self.owned.append(made)
             return made
 
@@ -52,18 +53,18 @@ class _Buffers:
         self.places = [texture(4 if lined else 2, "f4") for _ in range(2)]
         depths = [context.depth_renderbuffer(size) for _ in range(2)]
         self.layers = [
-            framebuffer(color, place, depth)
+            framebuffer(color, place, depth=depth)
             for color, place, depth in zip(self.colors, self.places, depths, strict=True)
         ]
         self.sum = texture(4, "f4")
-        self.total = framebuffer(self.sum, None)
+        self.total = framebuffer(self.sum, depth=None)
         self.ruled = texture(4, "f2")
-        self.lines = framebuffer(self.ruled, None)
+        self.lines = framebuffer(self.ruled, depth=None)
         self.below = context.depth_texture(size)
         self.below.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.below.compare_func = ""
         like = [texture(4, "f2"), *([texture(1, "f4")] * ids)]
-        self.opaque = framebuffer(*like, self.below)
+        self.opaque = framebuffer(*like, depth=self.below)
         self.owned += [*depths, self.below]
 
     def release(self) -> None:
@@ -93,8 +94,8 @@ class PeelPainter:
         self,
         table: SceneTable,
         frame: FramePlan,
-        technique: Own,
-        state: Own,
+        technique: Parameters,
+        state: object,
         shot: Shot,
         target: FrameTarget,
         matrix: bytes,
@@ -147,7 +148,7 @@ class PeelPainter:
         buffers.below.use(BELOW)
         buffers.sum.use(COVERED)
 
-    def _line(self, buffers: _Buffers, k: int, lines: Mapping[str, Any]) -> None:
+    def _line(self, buffers: _Buffers, k: int, lines: Mapping[str, object]) -> None:
         """Draw lines along a layer's edges."""
         buffers.lines.use()
         buffers.colors[k % 2].use(LAYER)
@@ -156,12 +157,14 @@ class PeelPainter:
         self._context.enable_only(moderngl.NOTHING)
         self._outlined.render(moderngl.TRIANGLES, 3)
 
-    def _compose(self, layer: moderngl.Texture, into: moderngl.Framebuffer, how: Any) -> None:
+    def _compose(
+        self, layer: moderngl.Texture, into: moderngl.Framebuffer, how: pipeline.Factors
+    ) -> None:
         into.use()
         layer.use(LAYER)
         self._put.set(layer=LAYER)
         self._context.enable_only(moderngl.BLEND)
-        self._context.blend_func = how
+        pipeline.blend(self._context, how)
         self._screen.render(moderngl.TRIANGLES, 3)
 
 

@@ -13,7 +13,7 @@ from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.techniques.base import Own, Shot
+from seethrough.renderer.techniques.base import Parameters, Shot
 
 PICTURES = 5  # the first texture unit of a rule's pictures
 
@@ -29,7 +29,7 @@ class RulePrograms:
         self._framebuffers: dict[tuple[int, int], moderngl.Framebuffer] = {}
 
     def ready(
-        self, table: SceneTable, technique: Own, state: object, shot: Shot, matrix: bytes
+        self, table: SceneTable, technique: Parameters, state: object, shot: Shot, matrix: bytes
     ) -> Shader:
         """The technique's program with everything set but the sequence. Binds a framebuffer where
         the technique needs to know the targets' depth."""
@@ -56,7 +56,7 @@ class RulePrograms:
         return shader
 
     def needed(
-        self, table: SceneTable, technique: Own, shot: Shot, matrix: bytes
+        self, table: SceneTable, technique: Parameters, shot: Shot, matrix: bytes
     ) -> dict[str, NDArray[np.float32]]:
         """Name → (h, w) of the pictures that the technique needs."""
         rules = technique.technique
@@ -120,6 +120,6 @@ def draw(
         mesh.draw(context, shader, start, count)
 
 
-def numbers(technique: Own, shot: Shot) -> NDArray[np.float64]:
+def numbers(technique: Parameters, shot: Shot) -> NDArray[np.float64]:
     """(n,) the technique's own number of each object."""
     return np.asarray(technique.technique.objects(technique, shot.scene), dtype=float)

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from seethrough.renderer.arrays import Floats, Floats32, Ints
-from seethrough.renderer.models.files.part import Array, to_shown
+from seethrough.renderer.models.files.part import to_shown
 from seethrough.renderer.models.files.texture import CLAMP, MIRROR
 
 _STEPS = 4096
@@ -101,6 +101,6 @@ def compared(
     return found
 
 
-def sides_of(texels: Array, most: int) -> Ints:
+def sides_of(texels: Floats, most: int) -> Ints:
     """(k,) samples along the sides of triangles whose longest is so many texels."""
     return (2 ** np.ceil(np.log2(np.clip(texels, 2, most)))).astype(np.int64)

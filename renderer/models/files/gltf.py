@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.files.gltf_file import COMPRESSED, GltfFile, compressed
+from seethrough.renderer.models.files.gltf_json import ACCESSORS, ANIMATIONS, MESHES, Primitive
 from seethrough.renderer.models.files.gltf_material import Material, Materials
 from seethrough.renderer.models.files.gltf_nodes import Node, Nodes
-from seethrough.renderer.models.files.part import (
-    WHITE,
-    Array,
-    Found,
-    Part,
-    checked_colors,
-    too_many,
-)
+from seethrough.renderer.models.files.part import WHITE, Found, Part, checked_colors, too_many
 from seethrough.renderer.models.files.source import Refused, Source
 
 _KNOWN = {
@@ -45,17 +40,17 @@ def opened(source: Source) -> tuple[GltfFile, Found, Materials]:
     for name in file.json.get("extensionsRequired", []):
         if name not in _KNOWN and not name.startswith("KHR_materials_"):
             raise Refused(f"needs {str(name)[:60]}, which is not known here: save it without")
-    if file.rows("animations"):
+    if file.rows(ANIMATIONS):
         found.note("it is animated: shown as it stands before any animation")
     return file, found, Materials(file, found)
 
 
 def primitives(
-    file: GltfFile, mesh: object, node: Node, matrix: Array, materials: Materials, found: Found
+    file: GltfFile, mesh: object, node: Node, matrix: Floats, materials: Materials, found: Found
 ) -> list[Part]:
     """What a mesh is made of that has triangles, moved by the matrix. Raises Refused."""
     parts = []
-    for number, primitive in enumerate(file.row("meshes", mesh).get("primitives", [])):
+    for number, primitive in enumerate(file.row(MESHES, mesh).get("primitives", [])):
         mode = primitive.get("mode", 4)
         if mode in _DRAWN_BY:
             found.left_out.add(_DRAWN_BY[mode])
@@ -78,9 +73,9 @@ def check_drawn(total: int, found: Found) -> None:
 
 def _part(
     file: GltfFile,
-    primitive: dict[str, Any],
+    primitive: Primitive,
     node: Node,
-    matrix: Array,
+    matrix: Floats,
     materials: Materials,
     found: Found,
     what: str,
@@ -90,7 +85,7 @@ def _part(
         raise Refused(f"{what}: no POSITION: expected a mesh")
     for name, said in COMPRESSED.items():
         if name in primitive.get("extensions", {}):
-            if "bufferView" not in file.row("accessors", attributes["POSITION"]):
+            if "bufferView" not in file.row(ACCESSORS, attributes["POSITION"]):
                 raise compressed(said, name)
             found.note(f"it is shown as it was before compression with {said}")
     points = node.posed(file.numbers(attributes["POSITION"])[:, :3], primitive)
@@ -118,9 +113,7 @@ def _part(
     return Part(points, triangles, colors, uv, texture, cutoff)
 
 
-def _triangles(
-    file: GltfFile, primitive: dict[str, object], count: int, what: str
-) -> NDArray[np.int64]:
+def _triangles(file: GltfFile, primitive: Primitive, count: int, what: str) -> NDArray[np.int64]:
     """(m, 3) vertices, of lists, strips and fans alike."""
     if "indices" in primitive:
         flat = file.accessor(primitive["indices"])[:, 0].astype(np.int64)
@@ -145,11 +138,11 @@ def _triangles(
 
 def _colors(
     file: GltfFile,
-    attributes: dict[str, object],
+    attributes: Mapping[str, int],
     material: Material,
     triangles: NDArray[np.int64],
     found: Found,
-) -> Array:
+) -> Floats:
     """(m, 3, 4): the material's factor times the vertices' colours, both linear."""
     if "COLOR_0" in attributes:
         own = checked_colors(file.numbers(attributes["COLOR_0"]), "vertex")
@@ -169,7 +162,7 @@ def _colors(
     return colors
 
 
-def _placed(uv: Array, material: Material) -> Array:
+def _placed(uv: Floats, material: Material) -> Floats:
     if material.place is None:
         return uv
     return uv @ material.place[:, :2].T + material.place[:, 2]

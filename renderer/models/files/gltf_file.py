@@ -12,6 +12,17 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Numbers
+from seethrough.renderer.models.files.gltf_json import (
+    ACCESSORS,
+    BUFFERS,
+    IMAGES,
+    VIEWS,
+    Kind,
+    Row,
+    Sparse,
+    View,
+)
 from seethrough.renderer.models.files.part import MOST_TRIANGLES
 from seethrough.renderer.models.files.source import Refused, Source
 
@@ -41,26 +52,28 @@ class GltfFile:
             raise Refused(f"expected a {self._kind} file, it cannot be read: {reason}") from None
         if not isinstance(found, dict):
             raise Refused(f"expected a {self._kind} file, it cannot be read: no JSON object")
+        # What the file says has no type but as it is asked for: see gltf_json.
         self.json: dict[str, Any] = found
         version = str(found.get("asset", {}).get("version", "none"))
         if not version.startswith("2."):
             raise Refused(f"glTF of version {version[:20]}: expected 2.0")
         self._buffers: dict[int, bytes] = {}
 
-    def rows(self, kind: str) -> list[dict[str, Any]]:
-        """The top-level list of that name."""
-        return self.json.get(kind, [])
+    def rows(self, kind: Kind[Row]) -> list[Row]:
+        """The top-level list of that kind."""
+        found: list[Row] = self.json.get(kind.name, [])
+        return found
 
-    def row(self, kind: str, index: object) -> dict[str, Any]:
+    def row(self, kind: Kind[Row], index: object) -> Row:
         """One of them. Raises Refused for a number that is not there."""
         rows = self.rows(kind)
         if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < len(rows):
-            raise Refused(f"{kind}[{index}] of {len(rows)}: expected one the file has")
+            raise Refused(f"{kind.name}[{index}] of {len(rows)}: expected one the file has")
         return rows[index]
 
-    def accessor(self, index: object) -> NDArray[Any]:
+    def accessor(self, index: object) -> Numbers:
         """(n, width) as stored. Raises Refused."""
-        made = self.row("accessors", index)
+        made = self.row(ACCESSORS, index)
         what = f"accessors[{index}]"
         kind, width = np.dtype(_KINDS[made["componentType"]]), _WIDTHS[made["type"]]
         count = made["count"]
@@ -78,16 +91,16 @@ class GltfFile:
     def numbers(self, index: object) -> NDArray[np.float64]:
         """(n, width) float64, whole numbers as shares where the file says that they are."""
         values = self.accessor(index)
-        if not self.row("accessors", index).get("normalized", False):
+        if not self.row(ACCESSORS, index).get("normalized", False):
             return values.astype(float)
-        most = np.iinfo(values.dtype).max
+        most = np.iinfo(values.dtype.str).max
         return np.maximum(values.astype(float) / most, -1.0)
 
     def image(self, index: object) -> tuple[bytes, str]:
         """A picture's bytes, and what to call it. Raises Refused."""
-        made = self.row("images", index)
+        made = self.row(IMAGES, index)
         if "bufferView" in made:
-            view = self.row("bufferViews", made["bufferView"])
+            view = self.row(VIEWS, made["bufferView"])
             data, start = self._buffer(view["buffer"]), view.get("byteOffset", 0)
             return data[start : start + view["byteLength"]], f"texture {index}"
         uri = made["uri"]
@@ -117,9 +130,9 @@ class GltfFile:
             raise Refused("a GLB file without JSON: expected a mesh")
         return chunks[0x4E4F534A]
 
-    def _buffer(self, index: Any) -> bytes:
+    def _buffer(self, index: int) -> bytes:
         if index not in self._buffers:
-            made = self.row("buffers", index)
+            made = self.row(BUFFERS, index)
             uri = made.get("uri")
             if uri is None and index == 0 and self._chunk is not None:
                 data = self._chunk
@@ -137,10 +150,10 @@ class GltfFile:
         return self._buffers[index]
 
     def _view(
-        self, view: object, kind: np.dtype[Any], width: int, count: int, start: int, what: str
-    ) -> NDArray[Any]:
+        self, view: object, kind: np.dtype[np.number], width: int, count: int, start: int, what: str
+    ) -> Numbers:
         """(count, width), also where rows stand apart."""
-        made = self.row("bufferViews", view)
+        made = self.row(VIEWS, view)
         for name, said in COMPRESSED.items():
             if name in made.get("extensions", {}) and self._is_fallback(made):
                 raise compressed(said, name)
@@ -156,12 +169,12 @@ class GltfFile:
         rows = np.ndarray((count, size), np.uint8, data, first, (step, 1))
         return np.ascontiguousarray(rows).view(kind).reshape(count, width)
 
-    def _is_fallback(self, view: dict[str, object]) -> bool:
+    def _is_fallback(self, view: View) -> bool:
         """Whether the uncompressed data were left out."""
-        buffer = self.row("buffers", view["buffer"])
+        buffer = self.row(BUFFERS, view["buffer"])
         return "uri" not in buffer and not (view["buffer"] == 0 and self._chunk is not None)
 
-    def _sparse(self, values: NDArray[Any], sparse: Any, what: str) -> NDArray[Any]:
+    def _sparse(self, values: Numbers, sparse: Sparse, what: str) -> Numbers:
         """The values with some of them replaced."""
         count = sparse["count"]
         where, made = sparse["indices"], sparse["values"]

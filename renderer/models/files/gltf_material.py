@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Final
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.files.gltf_file import GltfFile
-from seethrough.renderer.models.files.part import GREY, WHITE, Array, Found, linear_rgba
+from seethrough.renderer.models.files.gltf_json import (
+    MATERIALS,
+    SAMPLERS,
+    TEXTURES,
+    MaterialRow,
+    Placing,
+)
+from seethrough.renderer.models.files.part import GREY, WHITE, Found, linear_rgba
 from seethrough.renderer.models.files.source import Refused
 from seethrough.renderer.models.files.texture import CLAMP, MIRROR, REPEAT, Texture, decoded
 
-_SPECULAR = "KHR_materials_pbrSpecularGlossiness"
-_PLACED = "KHR_texture_transform"
+_SPECULAR: Final = "KHR_materials_pbrSpecularGlossiness"
+_PLACED: Final = "KHR_texture_transform"
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,10 +29,10 @@ class Material:
     """color (4,) linear RGBA; `texture` looked up at set `uv_set`, moved by `place` (2, 3);
     alpha below `cutoff` is not shown, any alpha counts as 1 where `opaque`."""
 
-    color: Array
+    color: Floats
     texture: Texture | None = None
     uv_set: int = 0
-    place: Array | None = None
+    place: Floats | None = None
     cutoff: float = 0.0
     opaque: bool = True
     plain: bool = False
@@ -41,16 +49,16 @@ class Materials:
     def get(self, index: int | None) -> Material:
         """Raises Refused."""
         if index not in self._made:
-            self._made[index] = self._material(self._file.row("materials", index))
+            self._made[index] = self._material(self._file.row(MATERIALS, index))
         return self._made[index]
 
-    def _material(self, raw: dict[str, Any]) -> Material:
+    def _material(self, raw: MaterialRow) -> Material:
         extensions = raw.get("extensions", {})
         pbr = raw.get("pbrMetallicRoughness", {})
         factor, reference = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
         if _SPECULAR in extensions:
-            pbr = extensions[_SPECULAR]
-            factor, reference = pbr.get("diffuseFactor"), pbr.get("diffuseTexture")
+            older = extensions[_SPECULAR]
+            factor, reference = older.get("diffuseFactor"), older.get("diffuseTexture")
         if "KHR_materials_unlit" in extensions:
             self._found.note("what is unlit there is lit here, like everything else")
         if any(raw.get("emissiveFactor", ())):
@@ -73,9 +81,9 @@ class Materials:
             self._found.note("what blends (alphaMode BLEND) is opaque here, but for alpha 0")
         return Material(np.clip(color, 0, 1), texture, uv_set, place, cutoff, mode == "OPAQUE")
 
-    def _texture(self, index: Any) -> Texture:
+    def _texture(self, index: int) -> Texture:
         if index not in self._textures:
-            raw = self._file.row("textures", index)
+            raw = self._file.row(TEXTURES, index)
             extensions = raw.get("extensions", {})
             number = raw.get("source")
             for name in ("EXT_texture_webp", "EXT_texture_avif"):
@@ -85,7 +93,7 @@ class Materials:
                 said = ", ".join(extensions) or "none"
                 raise Refused(f"textures[{index}]: no PNG or JPEG picture ({said[:80]})")
             data, what = self._file.image(number)
-            sampler = self._file.row("samplers", raw["sampler"]) if "sampler" in raw else {}
+            sampler = self._file.row(SAMPLERS, raw["sampler"]) if "sampler" in raw else {}
             wrap = (sampler.get("wrapS", REPEAT), sampler.get("wrapT", REPEAT))
             if not set(wrap) <= {REPEAT, CLAMP, MIRROR}:
                 raise Refused(f"{what}: wrap = {wrap}: expected a way that glTF knows")
@@ -93,7 +101,7 @@ class Materials:
         return self._textures[index]
 
 
-def _place(moved: dict[str, Any]) -> Array:
+def _place(moved: Placing) -> Floats:
     """(2, 3) new ← old texture coordinates: scaled, then turned, then moved."""
     (sx, sy), angle = moved.get("scale", (1, 1)), float(moved.get("rotation", 0.0))
     c, s = np.cos(angle), np.sin(angle)

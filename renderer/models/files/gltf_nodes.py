@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Final
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.files.gltf_file import GltfFile
-from seethrough.renderer.models.files.part import Array, Found
+from seethrough.renderer.models.files.gltf_json import (
+    MESHES,
+    NODES,
+    SCENES,
+    SKINS,
+    NodeRow,
+    Primitive,
+)
+from seethrough.renderer.models.files.part import Found
 from seethrough.renderer.models.files.source import Refused
 
-_INSTANCED = "EXT_mesh_gpu_instancing"
+_INSTANCED: Final = "EXT_mesh_gpu_instancing"
 _COUNTS = {"matrix": 16, "rotation": 4, "scale": 3, "translation": 3}
 _MOST_INSTANCES = 10_000
 
@@ -20,18 +29,18 @@ class Node:
     """A node with a mesh: `joints` (k, 4, 4) of its skin, world ← mesh, None without one.
     `plain`: the mesh as the file has it, in no pose."""
 
-    def __init__(self, file: GltfFile, weights: list[float], joints: Array | None) -> None:
+    def __init__(self, file: GltfFile, weights: list[float], joints: Floats | None) -> None:
         self._file, self._weights, self.joints = file, weights, joints
         self.plain = joints is None and not any(weights)
 
-    def posed(self, points: Array, primitive: dict[str, Any]) -> Array:
+    def posed(self, points: Floats, primitive: Primitive) -> Floats:
         """Points (n, 3) moved by the morph targets as the file weights them."""
         for weight, target in zip(self._weights, primitive.get("targets", []), strict=False):
             if weight and "POSITION" in target:
                 points = points + weight * self._file.numbers(target["POSITION"])
         return points
 
-    def skinned(self, points: Array, attributes: dict[str, object]) -> Array:
+    def skinned(self, points: Floats, attributes: Mapping[str, int]) -> Floats:
         """Points (n, 3) where the skin's joints hold them, in the world."""
         assert self.joints is not None
         moved, total = np.zeros_like(points), np.zeros((len(points), 1))
@@ -62,19 +71,19 @@ class Nodes:
         self.parents: dict[int, int] = {}
         self.world = self._walked()
 
-    def meshes(self) -> Iterator[tuple[int, Node, Array]]:
+    def meshes(self) -> Iterator[tuple[int, Node, Floats]]:
         """Mesh number, node and matrix (world ← mesh), as often as the scene has a mesh."""
         for index, node in self.with_meshes():
             for matrix in self.places(index):
-                yield self._file.row("nodes", index)["mesh"], node, matrix
+                yield self._file.row(NODES, index)["mesh"], node, matrix
 
     def with_meshes(self) -> Iterator[tuple[int, Node]]:
         """Number and node, of every node with a mesh."""
         for index in self.world:
-            raw = self._file.row("nodes", index)
+            raw = self._file.row(NODES, index)
             if "mesh" not in raw:
                 continue
-            mesh = self._file.row("meshes", raw["mesh"])
+            mesh = self._file.row(MESHES, raw["mesh"])
             weights = raw.get("weights", mesh.get("weights", []))
             joints = None
             if "skin" in raw:
@@ -84,27 +93,27 @@ class Nodes:
                 self._found.note("it has shapes to blend: shown as the file weights them")
             yield index, Node(self._file, weights, joints)
 
-    def places(self, index: int) -> Iterator[Array]:
+    def places(self, index: int) -> Iterator[Floats]:
         """World ← mesh of every instance of a node."""
-        for own in self._instances(self._file.row("nodes", index)):
+        for own in self._instances(self._file.row(NODES, index)):
             yield self.world[index] @ own
 
-    def _walked(self) -> dict[int, Array]:
+    def _walked(self) -> dict[int, Floats]:
         """World ← node for every node of the scene that is shown."""
-        rows = self._file.rows("nodes")
-        scenes = self._file.rows("scenes")
+        rows = self._file.rows(NODES)
+        scenes = self._file.rows(SCENES)
         if scenes:
-            roots = self._file.row("scenes", self._file.json.get("scene", 0)).get("nodes", [])
+            roots = self._file.row(SCENES, self._file.json.get("scene", 0)).get("nodes", [])
         else:
             below = {c for row in rows for c in row.get("children", [])}
             roots = [i for i in range(len(rows)) if i not in below]
         if len(scenes) > 1:
             self._found.note(f"1 of its {len(scenes)} scenes is shown")
-        world: dict[int, Array] = {}
+        world: dict[int, Floats] = {}
         waiting = [(index, np.eye(4)) for index in reversed(roots)]
         while waiting:
             index, parent = waiting.pop()
-            raw = self._file.row("nodes", index)
+            raw = self._file.row(NODES, index)
             if index in world:
                 raise Refused(f"nodes[{index}]: is part of the scene twice: expected a tree")
             world[index] = parent @ _matrix(raw, f"nodes[{index}]")
@@ -113,8 +122,8 @@ class Nodes:
             waiting += [(child, world[index]) for child in reversed(children)]
         return world
 
-    def _joints(self, index: object) -> Array:
-        skin = self._file.row("skins", index)
+    def _joints(self, index: object) -> Floats:
+        skin = self._file.row(SKINS, index)
         names = skin["joints"]
         missing = [j for j in names if j not in self.world]
         if missing:
@@ -127,7 +136,7 @@ class Nodes:
             raise Refused(f"skins[{index}]: {len(inverse)} matrices of {len(names)} joints")
         return world @ np.swapaxes(inverse[: len(names)], 1, 2)
 
-    def _instances(self, raw: dict[str, Any]) -> Iterator[Array]:
+    def _instances(self, raw: NodeRow) -> Iterator[Floats]:
         made = raw.get("extensions", {}).get(_INSTANCED)
         if made is None:
             yield np.eye(4)
@@ -144,11 +153,12 @@ class Nodes:
             yield _matrix({key: values[row] for key, values in columns.items()}, _INSTANCED)
 
 
-def _matrix(raw: dict[str, Any], what: str) -> Array:
+def _matrix(raw: NodeRow | Mapping[str, Floats], what: str) -> Floats:
     """(4, 4) parent ← node. Raises Refused."""
+    said: Mapping[str, object] = raw
     for name, count in _COUNTS.items():
-        if name in raw and np.shape(raw[name]) != (count,):
-            raise Refused(f"{what}.{name} = {str(raw[name])[:40]}: expected {count} numbers")
+        if name in said and np.shape(np.asarray(said[name])) != (count,):
+            raise Refused(f"{what}.{name} = {str(said[name])[:40]}: expected {count} numbers")
     if "matrix" in raw:
         matrix = np.array(raw["matrix"], float).reshape(4, 4).T
     else:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.renderer.models.files.part import GREY, WHITE, Array, Found, linear_rgba
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.files.part import GREY, WHITE, Found, linear_rgba
 from seethrough.renderer.models.files.source import Refused, Source
 from seethrough.renderer.models.files.texture import CLAMP, REPEAT, Texture, decoded
 
@@ -22,7 +23,7 @@ _NUMBERS = ("-o", "-s", "-t")
 class Material:
     """color (4,) linear RGBA, `texture` with its scale and offset (2,) of u and v."""
 
-    color: Array
+    color: Floats
     texture: Texture | None = None
     scale: tuple[float, float] = (1.0, 1.0)
     offset: tuple[float, float] = (0.0, 0.0)
@@ -103,7 +104,7 @@ class Library:
             self._report.note("half transparent materials are shown opaque")
         return float(np.clip(alpha, 0, 1))
 
-    def _numbers(self, name: str, key: str, words: list[str], count: int) -> Array:
+    def _numbers(self, name: str, key: str, words: list[str], count: int) -> Floats:
         if count == 3 and len(words) == 1:
             words = words * 3  # green and blue are red's where they are left out
         try:

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.files.mtl import Library, Material, decoded_text, grey_material
 from seethrough.renderer.models.files.part import (
-    Array,
     Found,
     Part,
     checked_colors,
@@ -138,7 +138,7 @@ def read(source: Source) -> Found:
     return found
 
 
-def _vertex_colors(reader: _Reader) -> Array | None:
+def _vertex_colors(reader: _Reader) -> Floats | None:
     """(n, 4) linear colours of vertices, None where no vertex has one."""
     if not reader.colors:
         return None
@@ -149,8 +149,8 @@ def _vertex_colors(reader: _Reader) -> Array | None:
 
 
 def _part(
-    points: Array,
-    shown: Array | None,
+    points: Floats,
+    shown: Floats | None,
     faces: _Faces,
     material: Material,
     reader: _Reader,

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.files.source import Refused
 from seethrough.renderer.models.files.texture import Texture
-
-Array = NDArray[np.float64]
 
 GREY = (0.7, 0.7, 0.7)
 """As shown, of what has no colour in its file."""
@@ -31,10 +30,10 @@ class Part:
     alpha means nothing.
     """
 
-    vertices: Array
+    vertices: Floats
     triangles: NDArray[np.int64]
-    colors: Array
-    uv: Array | None = None
+    colors: Floats
+    uv: Floats | None = None
     texture: Texture | None = None
     cutoff: float = 0.0
 
@@ -55,20 +54,20 @@ class Found:
             self.notes.append(text)
 
 
-def to_linear(shown: ArrayLike) -> Array:
+def to_linear(shown: ArrayLike) -> Floats:
     """Colours as shown (sRGB, 0 to 1) as amounts of light (IEC 61966-2-1)."""
     c = np.asarray(shown, float)
     return np.where(c <= 0.04045, c / 12.92, ((np.maximum(c, 0.04045) + 0.055) / 1.055) ** 2.4)
 
 
-def to_shown(linear: ArrayLike) -> Array:
+def to_shown(linear: ArrayLike) -> Floats:
     """The other way round; amounts beyond 0 and 1 are cut."""
     c = np.clip(np.asarray(linear, float), 0.0, 1.0)
     large = 1.055 * np.maximum(c, 0.0031308) ** (1 / 2.4) - 0.055
     return np.clip(np.where(c <= 0.0031308, 12.92 * c, large), 0.0, 1.0)
 
 
-def linear_rgba(shown: ArrayLike, alpha: ArrayLike = 1.0) -> Array:
+def linear_rgba(shown: ArrayLike, alpha: ArrayLike = 1.0) -> Floats:
     """(..., 4) linear colours of (..., 3) shown ones and their alpha (...)."""
     rgb = to_linear(shown)
     return np.concatenate(
@@ -76,12 +75,12 @@ def linear_rgba(shown: ArrayLike, alpha: ArrayLike = 1.0) -> Array:
     )
 
 
-def grey(count: int) -> Array:
+def grey(count: int) -> Floats:
     """(count, 3, 4) corners of triangles without a colour."""
     return np.broadcast_to(linear_rgba(GREY), (count, 3, 4))
 
 
-def checked_colors(values: Array, what: str) -> Array:
+def checked_colors(values: Floats, what: str) -> Floats:
     """(n, 3 or 4) colours, none of which lacks a number. Raises Refused."""
     bad = np.flatnonzero(~np.isfinite(values).all(axis=-1))
     if len(bad):
@@ -98,7 +97,7 @@ def too_many(count: int, at_least: bool = False) -> None:
 
 
 def cut_polygons(
-    vertices: Array, loops: Sequence[Sequence[int] | NDArray[np.int64]]
+    vertices: Floats, loops: Sequence[Sequence[int] | NDArray[np.int64]]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Polygons as triangles: places (m, 3) in the loops put one after the other, and (m,) which
     polygon each is of. Raises Refused for one of too many corners.

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats, Numbers
 from seethrough.renderer.models.files.part import (
-    Array,
     Found,
     Part,
     checked_colors,
@@ -62,12 +61,12 @@ def read(source: Source) -> Found:
     return found
 
 
-def _polygons(points: Array, faces: Table) -> _Corners:
+def _polygons(points: Floats, faces: Table) -> _Corners:
     name = next((n for n in INDICES if n in faces.lists), None)
     if name is None:
         return _Corners(*(np.zeros((0, 3), np.int64), np.zeros(0, np.int64)), np.zeros((0, 3), int))
-    counts, flat = faces.lists[name]
-    flat = flat.astype(np.int64)
+    counts, named = faces.lists[name]
+    flat = named.astype(np.int64)
     _check(flat, len(points))
     starts = np.concatenate([[0], np.cumsum(counts)])
     if len(counts) and (counts == 3).all():
@@ -110,7 +109,7 @@ def _check(flat: NDArray[np.int64], count: int) -> None:
 
 
 def _colored(
-    points: Array,
+    points: Floats,
     corners: _Corners,
     vertex: Table,
     table: Table,
@@ -150,7 +149,7 @@ def _colored(
     return parts
 
 
-def _places(vertex: Table, corners: _Corners, table: Table) -> Array | None:
+def _places(vertex: Table, corners: _Corners, table: Table) -> Floats | None:
     """(m, 3, 2) texture coordinates: of faces' corners, or else of vertices."""
     if "texcoord" in table.lists:
         counts, flat = table.lists["texcoord"]
@@ -166,7 +165,7 @@ def _places(vertex: Table, corners: _Corners, table: Table) -> Array | None:
     return None
 
 
-def _rgba(table: Table, what: str, found: Found) -> Array | None:
+def _rgba(table: Table, what: str, found: Found) -> Floats | None:
     """(n, 4) linear colours of a table's rows, None where it has none."""
     for prefix in ("", "diffuse_"):
         names = [prefix + c for c in ("red", "green", "blue")]
@@ -177,7 +176,7 @@ def _rgba(table: Table, what: str, found: Found) -> Array | None:
         if not all(n in table.columns for n in names):
             return None
     shown = checked_colors(_scaled([table.columns[n] for n in names]), what)
-    alpha: Any = np.ones(len(shown))
+    alpha = np.ones(len(shown))
     for name in ("alpha", "diffuse_alpha", "a"):
         if name in table.columns:
             column = _scaled([table.columns[name]])
@@ -188,7 +187,7 @@ def _rgba(table: Table, what: str, found: Found) -> Array | None:
     return linear_rgba(np.clip(shown, 0, 1), np.clip(alpha, 0, 1))
 
 
-def _scaled(columns: list[NDArray[Any]]) -> Array:
+def _scaled(columns: list[Numbers]) -> Floats:
     """(n, k) in 0 to 1: whole numbers by what their type holds, others up to 255 by that."""
     values = np.stack([c.astype(float) for c in columns], axis=1)
     kind = columns[0].dtype

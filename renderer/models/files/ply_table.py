@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Numbers
 from seethrough.renderer.models.files.source import Refused
 
 TYPES = {
@@ -24,11 +25,14 @@ class Table:
     """One element: `columns` (n,) by name; `lists` by name, the lengths (n,) and all values."""
 
     count: int
-    columns: dict[str, NDArray[Any]]
-    lists: dict[str, tuple[NDArray[np.int64], NDArray[Any]]]
+    columns: dict[str, Numbers]
+    lists: dict[str, tuple[NDArray[np.int64], Numbers]]
 
     def __len__(self) -> int:
         return self.count
+
+
+Entry = TypeVar("Entry", bound=np.generic)
 
 
 @dataclass(frozen=True)
@@ -98,9 +102,10 @@ def _binary(data: bytes, start: int, element: _Element, order: str) -> tuple[Tab
     if not element.count or not kinds:
         return _made(element, [np.zeros(0, k) for k in kinds], []), start
     if not any(p.length for p in element.properties):
-        fields = np.dtype([(f"p{i}", kind) for i, kind in enumerate(kinds)])
-        rows = _taken(data, start, fields, element.count, element)
-        return _made(element, [rows[n] for n in rows.dtype.names], []), start + rows.nbytes
+        plain = np.dtype([(f"p{i}", kind) for i, kind in enumerate(kinds)])
+        rows = _taken(data, start, plain, element.count, element)
+        columns = [rows[f"p{i}"] for i in range(len(kinds))]
+        return _made(element, columns, []), start + rows.nbytes
     lengths = _lengths(data, start, element, order)
     layout: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
     for i, (p, kind) in enumerate(zip(element.properties, kinds, strict=True)):
@@ -109,12 +114,12 @@ def _binary(data: bytes, start: int, element: _Element, order: str) -> tuple[Tab
         layout.append((f"p{i}", kind, (lengths[i],)) if p.length else (f"p{i}", kind))
     fields = np.dtype(layout)
     if start + fields.itemsize * element.count <= len(data):
-        rows = np.frombuffer(data, fields, element.count, start)
-        same = all((rows[f"n{i}"] == n).all() for i, n in lengths.items())
+        table = _taken(data, start, fields, element.count, element)
+        same = all((table[f"n{i}"] == n).all() for i, n in lengths.items())
         if same:
-            columns = [rows[f"p{i}"] for i in range(len(kinds))]
+            columns = [table[f"p{i}"] for i in range(len(kinds))]
             counts = [np.full(element.count, n) for n in lengths.values()]
-            return _made(element, columns, counts), start + rows.nbytes
+            return _made(element, columns, counts), start + table.nbytes
     return _row_by_row(data, start, element, order)
 
 
@@ -133,7 +138,7 @@ def _lengths(data: bytes, start: int, element: _Element, order: str) -> dict[int
 
 
 def _row_by_row(data: bytes, start: int, element: _Element, order: str) -> tuple[Table, int]:
-    columns: list[list[Any]] = [[] for _ in element.properties]
+    columns: list[list[Numbers]] = [[] for _ in element.properties]
     counts: list[list[int]] = [[] for p in element.properties if p.length]
     place = start
     kinds = [
@@ -158,7 +163,9 @@ def _row_by_row(data: bytes, start: int, element: _Element, order: str) -> tuple
     return _made(element, joined, [np.array(n, np.int64) for n in counts]), place
 
 
-def _taken(data: bytes, start: int, kind: np.dtype[Any], count: int, element: _Element) -> Any:
+def _taken(
+    data: bytes, start: int, kind: np.dtype[Entry], count: int, element: _Element
+) -> NDArray[Entry]:
     if count < 0 or start + kind.itemsize * count > len(data):
         raise _cut_off(element)
     return np.frombuffer(data, kind, count, start)
@@ -197,7 +204,7 @@ def _text(words: list[bytes], place: int, element: _Element) -> tuple[Table, int
     return _made(element, columns, [np.array(n, np.int64) for n in counts]), place
 
 
-def _as(values: NDArray[np.float64], kind: str) -> NDArray[Any]:
+def _as(values: NDArray[np.float64], kind: str) -> Numbers:
     """Numbers of a text file as the header's type has them, if they are such."""
     if kind[0] == "f":
         return values
@@ -207,7 +214,7 @@ def _as(values: NDArray[np.float64], kind: str) -> NDArray[Any]:
     return values.astype(kind) if fits.all() else values
 
 
-def _made(element: _Element, columns: list[NDArray[Any]], counts: list[NDArray[np.int64]]) -> Table:
+def _made(element: _Element, columns: list[Numbers], counts: list[NDArray[np.int64]]) -> Table:
     lengths = iter(counts)
     single, lists = {}, {}
     for p, column in zip(element.properties, columns, strict=True):

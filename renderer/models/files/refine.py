@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Ints
+from seethrough.renderer.arrays import Floats, Ints
 from seethrough.renderer.models.files.comparing import BINS, SHOWN, compared, sides_of
-from seethrough.renderer.models.files.part import Array, to_shown
+from seethrough.renderer.models.files.part import to_shown
 from seethrough.renderer.models.files.surface import Surface
 from seethrough.renderer.models.files.texture import Texture
 
@@ -44,16 +44,18 @@ class Carried:
 class _Cut:
     """Triangles while they are cut: values (m, 3, 9) are the corners' normals, uv and RGBA."""
 
-    points: Array
+    points: Floats
     triangles: NDArray[np.int64]
-    values: Array
+    values: Floats
     texture: NDArray[np.int64]
-    cutoff: Array
-    wrong: Array  # (m,) the picture's error summed over the area, NaN: not known yet
-    worst: Array  # (m,) the largest error; 2 where a part is seen and a part is not
+    cutoff: Floats
+    wrong: Floats  # (m,) the picture's error summed over the area, NaN: not known yet
+    worst: Floats  # (m,) the largest error; 2 where a part is seen and a part is not
 
 
-def refined(surface: Surface, normals: Array, detail: int) -> tuple[Surface, Array, Carried | None]:
+def refined(
+    surface: Surface, normals: Floats, detail: int
+) -> tuple[Surface, Floats, Carried | None]:
     """The surface in more triangles, each corner's colour (m, 3, 4) that of the texture there, and
     normals (m, 3, 3) to them. What alpha hides is left out. At most `detail` triangles are added.
     """
@@ -125,7 +127,7 @@ def _unfinished(made: _Cut, surface: Surface, part: float) -> NDArray[np.bool_]:
     return (made.texture >= 0) & (made.worst > TOLERANCE) & large
 
 
-def _texels(made: _Cut, surface: Surface) -> Array:
+def _texels(made: _Cut, surface: Surface) -> Floats:
     """(m, 3) lengths of the sides on the texture, in texels; 0 without one."""
     sizes = np.array([t.size for t in surface.textures], float)[made.texture]
     uv = made.values[..., _UV] * sizes[:, None]
@@ -134,8 +136,8 @@ def _texels(made: _Cut, surface: Surface) -> Array:
 
 
 def _compare(
-    made: _Cut, surface: Surface, rows: NDArray[np.int64], colors: Array
-) -> tuple[Array, Array]:
+    made: _Cut, surface: Surface, rows: NDArray[np.int64], colors: Floats
+) -> tuple[Floats, Floats]:
     """(k, 3) mean error, largest error and share that is seen of textured triangles `rows`, whose
     corners have `colors` (k, 3, 3); the areas by error."""
     found, bins = np.zeros((len(rows), 3)), np.zeros(BINS)
@@ -164,14 +166,14 @@ def _measure(made: _Cut, surface: Surface) -> None:
     made.worst[rows] = np.where((share > 0) & (share < 1), 2.0, worst)
 
 
-def _areas(made: _Cut, rows: NDArray[np.int64]) -> Array:
+def _areas(made: _Cut, rows: NDArray[np.int64]) -> Floats:
     a, b, c = np.moveaxis(made.points[made.triangles[rows]], 1, 0)
     return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
 
 
 def _at_corners(
     made: _Cut, surface: Surface, rows: NDArray[np.int64], level: NDArray[np.int64]
-) -> Array:
+) -> Floats:
     """(k, 3, 3) colours as shown at the corners of triangles, each looked up at its level."""
     values = made.values[rows]
     rgba = values[..., _RGBA].copy()
@@ -239,7 +241,7 @@ def _replace(made: _Cut, rows: Ints, edge: Ints, longest: Ints, middle: Ints) ->
     made.worst = np.concatenate([made.worst[kept], unknown])
 
 
-def _colored(made: _Cut, surface: Surface) -> tuple[Array, bool]:
+def _colored(made: _Cut, surface: Surface) -> tuple[Floats, bool]:
     """(m, 3, 4) shown colours of corners; whether some triangles had to stay too large.
 
     Where all triangles about a vertex are too large for the picture, it has the mean of its
@@ -260,7 +262,7 @@ def _colored(made: _Cut, surface: Surface) -> tuple[Array, bool]:
     return np.concatenate([shown, np.ones((*shown.shape[:2], 1))], axis=2), bool(large.any())
 
 
-def _off(made: _Cut, surface: Surface, colors: Array) -> tuple[float, float, NDArray[np.bool_]]:
+def _off(made: _Cut, surface: Surface, colors: Floats) -> tuple[float, float, NDArray[np.bool_]]:
     """The mean error in steps of 255, what 99 % of the surface keeps to, and (m,) what is seen."""
     seen = np.ones(len(made.triangles), bool)
     rows = np.flatnonzero(made.texture >= 0)

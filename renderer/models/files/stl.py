@@ -7,15 +7,8 @@ import struct
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.models.files.part import (
-    GREY,
-    Array,
-    Found,
-    Part,
-    grey,
-    linear_rgba,
-    too_many,
-)
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.files.part import GREY, Found, Part, grey, linear_rgba, too_many
 from seethrough.renderer.models.files.source import Refused, Source
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("points", "<f4", (3, 3)), ("more", "<u2")])
@@ -45,7 +38,7 @@ def read(source: Source) -> Found:
     return found
 
 
-def _colors(head: bytes, more: NDArray[np.uint16], found: Found) -> Array:
+def _colors(head: bytes, more: NDArray[np.uint16], found: Found) -> Floats:
     """(m, 3, 4) of the 16 bits behind each triangle.
 
     Magics names a colour of the whole in the header; a set uppermost bit says that the triangle
@@ -66,7 +59,7 @@ def _colors(head: bytes, more: NDArray[np.uint16], found: Found) -> Array:
     return np.repeat(linear_rgba(shown)[:, None], 3, axis=1)
 
 
-def _text(data: bytes) -> Array:
+def _text(data: bytes) -> Floats:
     """(3 m, 3) corners of a text file."""
     words = data.decode("utf-8", "replace").lower().split()
     places = [i for i, word in enumerate(words) if word == "vertex"]

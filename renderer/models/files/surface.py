@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from seethrough.renderer.models.files.part import Array, Part
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.files.part import Part
 from seethrough.renderer.models.files.texture import Texture
 
 _FLAT = 1e-9  # of its extent cubed: less volume has no inside
@@ -26,12 +27,12 @@ class Surface:
     """vertices (n, 3), no two at one place; triangles (m, 3); colors (m, 3, 4) linear RGBA and
     uv (m, 3, 2) of corners; texture (m,) which of `textures`, −1 for none; cutoff (m,)."""
 
-    vertices: Array
+    vertices: Floats
     triangles: NDArray[np.int64]
-    colors: Array
-    uv: Array
+    colors: Floats
+    uv: Floats
     texture: NDArray[np.int64]
-    cutoff: Array
+    cutoff: Floats
     textures: tuple[Texture, ...]
 
     def take(self, rows: NDArray[np.int64] | NDArray[np.bool_]) -> Surface:
@@ -111,7 +112,7 @@ def shown_from_outside(surface: Surface) -> tuple[Surface, NDArray[np.bool_], in
     closed = _closed(turned.triangles, component)
     a, b, c = np.moveaxis(surface.vertices[turned.triangles], 1, 0)
     count = int(component.max(initial=-1)) + 1
-    middle: Array = np.stack([np.bincount(component, a[:, i], count) for i in range(3)], axis=1)
+    middle: Floats = np.stack([np.bincount(component, a[:, i], count) for i in range(3)], axis=1)
     middle /= np.maximum(np.bincount(component, minlength=count), 1)[:, None]
     at = middle[component]
     sixth = np.einsum("ij,ij->i", a - at, np.cross(b - at, c - at)) / 6

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.models.forms.shapes import Array, Color, Shape, shape
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.forms.shapes import Color, Shape, shape
 
 Field = NDArray[np.float32]
 Point = tuple[float, float, float]
@@ -37,8 +38,8 @@ class Limb:
 
 
 def chain(
-    points: Sequence[Point] | Array,
-    radii: Sequence[float] | Array,
+    points: Sequence[Point] | Floats,
+    radii: Sequence[float] | Floats,
     color: Color,
     soft: float = 0.05,
     flat: Point = (1.0, 1.0, 1.0),
@@ -110,7 +111,7 @@ def _distance(limb: Limb, x: Field, y: Field, z: Field) -> Field:
     return d2
 
 
-def _step(flat: Array) -> np.float32:
+def _step(flat: Floats) -> np.float32:
     """Factor that keeps distances in a stretched space from exceeding the true ones."""
     return np.float32(flat.min())
 
@@ -119,7 +120,7 @@ CORNERS = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 EDGES = np.array([[a, a | bit] for bit in (1, 2, 4) for a in range(8) if not a & bit])
 
 
-def _surface_net(field: Field) -> tuple[Array, NDArray[np.int64], NDArray[np.int64]]:
+def _surface_net(field: Field) -> tuple[Floats, NDArray[np.int64], NDArray[np.int64]]:
     """Vertices (n, 3) in cells, triangles (m, 3), and the flat index (n,) of each vertex's cell.
 
     The border of the field lies outside, so flat indices may run over the end of a row: the cells

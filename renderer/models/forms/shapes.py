@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.scene.geometry import Mesh
 
-Array = NDArray[np.float64]
 Color = tuple[float, float, float]
 
 SHARP = 50.0
@@ -30,10 +30,10 @@ class Shape:
     """vertices (n, 3); triangles (m, 3), counter-clockwise from outside; colors (m, 3, 3), one RGB
     for each corner; crease (m,) cosine of the angle from which on an edge is sharp."""
 
-    vertices: Array
+    vertices: Floats
     triangles: NDArray[np.int64]
-    colors: Array
-    crease: Array
+    colors: Floats
+    crease: Floats
 
     def at(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Shape:
         """Moved by (x, y, z)."""
@@ -67,16 +67,16 @@ class Shape:
         """The shape and its mirror image."""
         return join(self, self.mirrored(axis))
 
-    def bent(self, move: Callable[[Array], Array]) -> Shape:
+    def bent(self, move: Callable[[Floats], Floats]) -> Shape:
         """With every vertex moved by `move`, (n, 3) to (n, 3)."""
         return replace(self, vertices=move(self.vertices))
 
-    def painted(self, color: Color, where: Callable[[Array], NDArray[np.bool_]]) -> Shape:
+    def painted(self, color: Color, where: Callable[[Floats], NDArray[np.bool_]]) -> Shape:
         """Whole triangles whose centroid (m, 3) lies `where` in another colour: a hard border."""
         chosen = where(self.vertices[self.triangles].mean(axis=1))
         return replace(self, colors=np.where(chosen[:, None, None], color, self.colors))
 
-    def tinted(self, color: Color, amount: Callable[[Array], Array]) -> Shape:
+    def tinted(self, color: Color, amount: Callable[[Floats], Floats]) -> Shape:
         """Vertices (n, 3) blended towards a colour by `amount` (n,) in [0, 1]: a soft border."""
         share = np.clip(amount(self.vertices), 0, 1)[self.triangles][..., None]
         return replace(self, colors=self.colors * (1 - share) + np.array(color) * share)
@@ -134,7 +134,7 @@ def shade(whole: Shape) -> Mesh:
     kept = label == np.arange(len(label))
     triangles = (np.cumsum(kept) - 1)[label]
     weights = (angles * faces[:, None].transpose(2, 0, 1)).reshape(3, -1)
-    normals: Array = np.stack([np.bincount(triangles, w) for w in weights], axis=1)
+    normals: Floats = np.stack([np.bincount(triangles, w) for w in weights], axis=1)
     return Mesh(
         vertices=whole.vertices[whole.triangles.ravel()[kept]],
         normals=normals / _lengths(normals)[:, None],
@@ -143,7 +143,7 @@ def shade(whole: Shape) -> Mesh:
     )
 
 
-def _areas_and_angles(whole: Shape) -> tuple[Array, Array]:
+def _areas_and_angles(whole: Shape) -> tuple[Floats, Floats]:
     """(m, 3) outward normals of the triangles, as long as twice their area; (m, 3) angles."""
     p = whole.vertices.T
     a, b, c = (p[:, corner] for corner in whole.triangles.T)
@@ -156,7 +156,7 @@ def _areas_and_angles(whole: Shape) -> tuple[Array, Array]:
     return faces, np.arctan2(_lengths(faces)[:, None], cosines)
 
 
-def _lengths(vectors: Array) -> Array:
+def _lengths(vectors: Floats) -> Floats:
     """(n,) of (n, 3) vectors."""
     return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
@@ -169,7 +169,7 @@ def _vertex_corners(whole: Shape) -> NDArray[np.int64]:
     return first[start]
 
 
-def _color_numbers(colors: Array) -> NDArray[np.int64]:
+def _color_numbers(colors: Floats) -> NDArray[np.int64]:
     """(3m,) one whole number for each corner's colour (m, 3, 3), to the thousandth."""
     red, green, blue = (colors.reshape(-1, 3).T * 1023).astype(np.int64)
     return (red << 20) + (green << 10) + blue
@@ -187,7 +187,7 @@ def _sharp_vertices(
 
 
 def _across_smooth_edges(
-    whole: Shape, faces: Array, color: NDArray[np.int64], chosen: NDArray[np.int64]
+    whole: Shape, faces: Floats, color: NDArray[np.int64], chosen: NDArray[np.int64]
 ) -> NDArray[np.int64]:
     """(3k,) for each corner of the chosen faces the next corner round its vertex, or itself where
     the edge is sharp.

@@ -9,7 +9,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seethrough.renderer.models.forms.shapes import SHARP, Array, Shape, shape
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.forms.shapes import SHARP, Shape, shape
 
 
 def tube(
@@ -80,7 +81,7 @@ def _weld(ids: NDArray[np.int64], same: NDArray[np.bool_]) -> NDArray[np.int64]:
 
 
 def _compact(
-    vertices: Array, triangles: NDArray[np.int64], color: ArrayLike, sharp: float
+    vertices: Floats, triangles: NDArray[np.int64], color: ArrayLike, sharp: float
 ) -> Shape:
     """A Shape without the vertices no triangle uses."""
     used = np.zeros(len(vertices), bool)
@@ -90,7 +91,7 @@ def _compact(
     return shape(vertices[used], (np.cumsum(used) - 1)[triangles], color, sharp)
 
 
-def curve(points: ArrayLike, n: int) -> Array:
+def curve(points: ArrayLike, n: int) -> Floats:
     """(n, d) points on the Catmull-Rom spline through (k, d) points, chord-length steps."""
     p = np.asarray(points, float)
     knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(p, axis=0), axis=1))])
@@ -108,13 +109,13 @@ def curve(points: ArrayLike, n: int) -> Array:
 
 
 @lru_cache(maxsize=64)
-def circle(n: int) -> Array:
+def circle(n: int) -> Floats:
     """(n, 2) points of the unit circle, counter-clockwise."""
     angle = 2 * np.pi * np.arange(n) / n
     return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def rounded(width: float, height: float, radius: float, steps: int = 3) -> Array:
+def rounded(width: float, height: float, radius: float, steps: int = 3) -> Floats:
     """(4 (steps + 1), 2) a rectangle about the origin with round corners, counter-clockwise."""
     angle = np.linspace(0, np.pi / 2, steps + 1) + np.pi / 2 * np.arange(4)[:, None]
     corner = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]) * (
@@ -222,7 +223,7 @@ def sweep(
     return tube(rings, color, sharp, closed)
 
 
-def _plane_normal(path: Array) -> Array:
+def _plane_normal(path: Floats) -> Floats:
     """(3,) unit normal of the plane nearest to a path; across y where the path is straight."""
     centred = path - path.mean(axis=0)
     _, spread, axes = np.linalg.svd(centred, full_matrices=False)
@@ -265,7 +266,7 @@ def slab(
     return tube(rings, color, sharp)
 
 
-def _inward(outline: Array) -> Array:
+def _inward(outline: Floats) -> Floats:
     """(m, 2) steps that shrink a counter-clockwise outline by one unit at every corner."""
     out = np.roll(outline, -1, axis=0) - outline
     out /= np.linalg.norm(out, axis=1, keepdims=True)
@@ -313,7 +314,7 @@ def boxes(sizes: ArrayLike, centers: ArrayLike, colors: ArrayLike, edge: float) 
     return replace(many, colors=np.broadcast_to(rgb[:, None], many.colors.shape))
 
 
-def _repeated(one: Shape, vertices: Array) -> Shape:
+def _repeated(one: Shape, vertices: Floats) -> Shape:
     """The shape's triangles over each of k sets of its vertices (k, n, 3)."""
     k, n = vertices.shape[:2]
     return Shape(

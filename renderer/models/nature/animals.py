@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.forms.blend import Limb, Point, body, chain
-from seethrough.renderer.models.forms.shapes import Array, Color, Shape, assemble, join
+from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join
 from seethrough.renderer.models.forms.surfaces import ball, curve, sweep
 
 BLACK: Color = (0.06, 0.05, 0.05)
@@ -32,7 +33,7 @@ def eye_pair(x: float, y: float, z: float, radius: float, iris: Color = BLACK) -
     return join(eye, pupil, glint).both()
 
 
-def _stripes(places: Array) -> Array:
+def _stripes(places: Floats) -> Floats:
     """How dark a tabby's coat is at (n, 3) places."""
     x, y, z = places.T
     wave = np.sin(30 * z + 7 * np.abs(x) + 3 * np.sin(9 * y))
@@ -144,7 +145,7 @@ def dog() -> Shape:
     return assemble(coat, nose, collar, eyes, size=1.45)
 
 
-def _tilted_circle(center: Point, axis: Point, radius: float, n: int = 24) -> Array:
+def _tilted_circle(center: Point, axis: Point, radius: float, n: int = 24) -> Floats:
     """(n, 3) a circle about an axis that lies in the plane x = 0."""
     up = np.array(axis) / np.linalg.norm(axis)
     across = np.array([1.0, 0, 0])
@@ -205,7 +206,7 @@ def horse() -> Shape:
     return assemble(coat, eyes, nostrils, size=1.9)
 
 
-def _blaze(p: Array) -> Array:
+def _blaze(p: Floats) -> Floats:
     """How white a horse's face is at (n, 3) places."""
     x, y, z = p.T
     ridge = np.minimum(1.3 - np.abs(x) / 0.04, (y + 0.95 * z - 0.62) / 0.05)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.models.forms.shapes import Array, Shape, assemble, join
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.forms.shapes import Shape, assemble, join
 from seethrough.renderer.models.forms.surfaces import curve, lathe, sweep, tube
 
 
@@ -41,7 +42,7 @@ def _leaf(reach: float, rise: float) -> Shape:
     return tube(rings, green, sharp=70).tinted(pale, lambda p: 1 - np.abs(p[:, 0]) / 0.03)
 
 
-def _section(middle: Array, tangent: Array, half: float) -> Array:
+def _section(middle: Floats, tangent: Floats, half: float) -> Floats:
     """A flat V across the blade, 6 corners; the blade lies in the plane x = 0."""
     across = np.array([half, 0.0, -half, -half, 0.0, half])
     up = np.array([0.032, 0.01, 0.032, 0.018, -0.004, 0.018]) * min(1.0, half / 0.03)

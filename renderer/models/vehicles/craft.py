@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seethrough.renderer.models.forms.shapes import Array, Color, Shape, assemble, join
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.forms.shapes import Color, Shape, assemble, join
 from seethrough.renderer.models.forms.surfaces import (
     box,
     circle,
@@ -24,7 +25,7 @@ WHITE: Color = (0.94, 0.94, 0.95)
 DARK: Color = (0.12, 0.12, 0.13)
 
 
-def _round_hull(z: Array, radius: Array, y: Array, color: Color, sides: int = 32) -> Shape:
+def _round_hull(z: Floats, radius: Floats, y: Floats, color: Color, sides: int = 32) -> Shape:
     """Circles along +z, their centres at the heights y."""
     flat = circle(sides)
     rings = np.empty((len(z), sides, 3))
@@ -45,7 +46,7 @@ def _fuselage() -> Shape:
     z = np.array([*places[:7], *np.linspace(-1.0, 0.9, 14), 1.2, 1.5, 1.8, 2.1, 2.3])
     y = 0.75 + np.interp(z, [-2.2, -1.75, -1.2, 0.9, 2.3], [-0.07, -0.02, 0, 0, 0.16])
 
-    def steep(p: Array) -> Array:
+    def steep(p: Floats) -> Floats:
         """Sine of the angle about the fuselage's middle line, so that borders follow its rings."""
         up = p[:, 1] - np.interp(p[:, 2], z, y)
         return up / np.hypot(p[:, 0], up)
@@ -127,7 +128,7 @@ def boat() -> Shape:
     )
 
 
-def _section(z: float, width: float, deck: float, keel: float) -> Array:
+def _section(z: float, width: float, deck: float, keel: float) -> Floats:
     """A boat's cross-section, with corners at the heights where its paint changes."""
     level = np.array([1.0, 0.62, 0.55, 0.5, 0.44, 0.36, 0.32, 0.28, 0.24, 0.2, 0.18, 0.0])
     y = np.clip(level, keel, deck)
@@ -137,7 +138,7 @@ def _section(z: float, width: float, deck: float, keel: float) -> Array:
     return np.column_stack([ring, np.full(len(ring), z)])
 
 
-def _on_deck(p: Array) -> NDArray[np.bool_]:
+def _on_deck(p: Floats) -> NDArray[np.bool_]:
     z = p[:, 2]
     t = (z + 1.5) / 2.8
     return p[:, 1] > 0.62 + 0.20 * (1 - t) ** 2 + 0.03 * t**2 - 0.004

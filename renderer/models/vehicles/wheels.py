@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from seethrough.renderer.models.forms.shapes import Array, Color, Shape, join
+from seethrough.renderer.arrays import Floats
+from seethrough.renderer.models.forms.shapes import Color, Shape, join
 from seethrough.renderer.models.forms.surfaces import (
     box,
     circle,
@@ -69,7 +70,7 @@ def hull(
     return tube(rings, color)
 
 
-def arched(z: Array, sill: float, axles: Sequence[float], axle_y: float, radius: float) -> Array:
+def arched(z: Floats, sill: float, axles: Sequence[float], axle_y: float, radius: float) -> Floats:
     """Height of a car's underside at the places z: the sill, with a round arch over each axle."""
     height = np.full(len(z), sill)
     for axle in axles:
@@ -80,7 +81,9 @@ def arched(z: Array, sill: float, axles: Sequence[float], axle_y: float, radius:
     return height
 
 
-def arch_stations(start: float, end: float, axles: Sequence[float], radius: float, n: int) -> Array:
+def arch_stations(
+    start: float, end: float, axles: Sequence[float], radius: float, n: int
+) -> Floats:
     """Places along a body: n even ones, and close ones where the wheel arches bend."""
     bends = [a + radius * s for a in axles for s in (-1.0001, -0.9999, 0.9999, 1.0001)]
     arcs = [a + radius * np.cos(t) for a in axles for t in np.linspace(0, np.pi, 15)[1:-1]]

@@ -9,7 +9,6 @@ as ever, beneath. Where many layers lie behind one another, their lines clutter 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -66,11 +65,11 @@ class Blueprint(Layering):
         tint[edge] = (*LINE, 1.0)
         return Look(found.kept, found.opacity, tint, found.doubt)
 
-    def uniforms(self, p: BlueprintParameters, state: Own, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: BlueprintParameters, state: Own, shot: Shot) -> dict[str, object]:
         """The fill."""
         return {**super().uniforms(p, state, shot), "fill": p.fill}
 
-    def edges(self, p: BlueprintParameters) -> dict[str, Any]:
+    def edges(self, p: BlueprintParameters) -> dict[str, object]:
         """The lines, as shaders/edges.frag draws them."""
         return {"line": (*LINE, p.line), "crease": float(np.cos(p.crease))}
 

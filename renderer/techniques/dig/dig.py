@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -142,7 +141,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
         pierced = np.full(seen.shot.size[0] * seen.shot.size[1], bool(state.holes))
         return removal.look(p, seen, signed, pierced, opened=touched)
 
-    def uniforms(self, p: DigParameters, state: Digging, shot: Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: DigParameters, state: Digging, shot: Shot) -> Mapping[str, object]:
         """The holes' axes."""
         axes = list(_axes(state, shot.camera.eye))
         none = [(np.zeros(3), np.zeros(3))] * (MOST - len(axes))

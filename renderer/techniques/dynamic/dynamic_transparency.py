@@ -114,3 +114,13 @@ class DynamicTransparency(Parameters):
             or self.layers is not None
             or self.model != "multiplicative"
         )
+
+
+def by_masks(technique: Parameters) -> DynamicTransparency:
+    """The parameters of a technique whose painter is MASKS: it draws this one and no other.
+
+    Raises TypeError for another's.
+    """
+    if not isinstance(technique, DynamicTransparency):
+        raise TypeError(f"{technique.technique.name} has no masks: expected another painter")
+    return technique

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -174,7 +173,7 @@ def _cap(front: _Front, s: int, p: DynamicTransparency) -> Floats:
 def _by_pixel(front: _Front, made: Mapping[int, Mask], p: DynamicTransparency) -> Floats:
     """(rows,) the masks behind each fragment, multiplied, or the least of them."""
     alpha = np.ones(len(front.rows))
-    join: Any = np.multiply if p.combine == "product" else np.minimum
+    join: np.ufunc = np.multiply if p.combine == "product" else np.minimum
     for s, mask in made.items():
         reduced = np.minimum(mask.opacity[front.pixel], _cap(front, s, p))
         alpha = join(alpha, np.where(front.depth < mask.place[front.pixel], reduced, 1.0))

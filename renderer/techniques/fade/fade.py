@@ -7,7 +7,6 @@ screen, whatever their depth.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -92,7 +91,7 @@ float opacity_of(Surface s) {
         alpha = np.where(ruled, p.least + (1 - p.least) * rise, 1.0)
         return self.look(p, seen, alpha)
 
-    def uniforms(self, p: FadeParameters, state: Pointing, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: FadeParameters, state: Pointing, shot: Shot) -> dict[str, object]:
         """Where the pointer is, and the distances, in pixels."""
         height = shot.size[1]
         return {

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,13 +77,17 @@ float opacity_of(Surface s) {{
         near = np.abs(seen.depth - known[seen.pixel]) <= 2 * seen.slack
         return self.look(p, seen, np.where(before, strength, 1.0), near & seen.penetrable)
 
-    def uniforms(self, p: ImportanceParameters, state: Own, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: ImportanceParameters, state: Own, shot: Shot) -> dict[str, object]:
         """How sparse."""
         style = {"least": p.least, "door": p.style == "screen door"}
         return {**super().uniforms(p, state, shot), **style}
 
     def pictures(
-        self, p: ImportanceParameters, state: Own, shot: Shot, needed: Mapping[str, Any]
+        self,
+        p: ImportanceParameters,
+        state: Own,
+        shot: Shot,
+        needed: Mapping[str, NDArray[np.float32]],
     ) -> Mapping[str, NDArray[np.float32]]:
         """The targets' depth."""
         return needed

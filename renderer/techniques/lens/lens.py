@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -138,7 +137,7 @@ bool pierced(Surface s) {
         doubt = (np.abs(inside) < 1e-3)[seen.pixel] & (before > 0)
         return removal.look(p, seen, signed, inside > 0, doubt)
 
-    def uniforms(self, p: LensParameters, state: Pointing, shot: Shot) -> Mapping[str, Any]:
+    def uniforms(self, p: LensParameters, state: Pointing, shot: Shot) -> Mapping[str, object]:
         """Where the lens is and how large."""
         middle, radius = _ball(p, state, shot)
         return {

@@ -6,7 +6,6 @@ Which ones, the study says by their kind; targets and what is impenetrable stay 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +43,7 @@ class SeeThrough(Layering):
         """The same for each surface of the kinds."""
         return self.look(p, seen, np.full(len(seen.depth), p.alpha))
 
-    def uniforms(self, p: SeeThroughParameters, state: Own, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: SeeThroughParameters, state: Own, shot: Shot) -> dict[str, object]:
         """The opacity."""
         return {**super().uniforms(p, state, shot), "alpha": p.alpha}
 

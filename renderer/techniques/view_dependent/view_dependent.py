@@ -9,7 +9,6 @@ has nothing left of it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -56,7 +55,7 @@ float opacity_of(Surface s) {
         alpha = p.least + (p.most - p.least) * (1 - np.minimum(facing, 1.0) ** p.falloff)
         return self.look(p, seen, alpha)
 
-    def uniforms(self, p: ViewDependentParameters, state: Own, shot: Shot) -> dict[str, Any]:
+    def uniforms(self, p: ViewDependentParameters, state: Own, shot: Shot) -> dict[str, object]:
         """The curve."""
         curve = {"least": p.least, "most": p.most, "falloff": p.falloff}
         return {**super().uniforms(p, state, shot), **curve}

@@ -12,8 +12,8 @@ from made_data import Made, make_folder
 from scipy import stats
 
 from seethrough.analysis.before import design_before
-from seethrough.analysis.difficulty import balance, with_certificate
 from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.matching import balance, with_certificate
 from seethrough.analysis.load.schema import certificate_columns
 from seethrough.analysis.load.study import load_study
 from seethrough.analysis.page.blocks import Table, walk

@@ -10,10 +10,10 @@ from scipy import stats
 from seethrough.analysis.comparison import Pair, compare, compare_logs
 from seethrough.analysis.equivalence import Margin, equivalence, log_equivalence
 from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.plan import make_plan
 from seethrough.analysis.load.study import load_study
 from seethrough.analysis.page.blocks import Table, walk
 from seethrough.analysis.page.markdown import as_markdown
-from seethrough.analysis.plan import make_plan
 from seethrough.analysis.report import Options, make_report
 from seethrough.analysis.stats.paired import ratio_of_means, ratio_within
 from seethrough.analysis.stats.undefined import Undefined

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.benchmarks import accuracy, vtk_peeling
-from seethrough.benchmarks.breaking import BREAKING
-from seethrough.benchmarks.speed import row
+from seethrough.benchmarks.drawing import accuracy, vtk_peeling
+from seethrough.benchmarks.drawing.breaking import BREAKING
+from seethrough.benchmarks.drawing.speed import row
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at

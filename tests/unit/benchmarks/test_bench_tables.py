@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from seethrough.benchmarks import tables
-from seethrough.benchmarks.speed import row
+from seethrough.benchmarks.drawing.speed import row
 from seethrough.experiment.cli import main
 
 ROWS = [

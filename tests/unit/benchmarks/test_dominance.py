@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from seethrough.benchmarks import dominance
-from seethrough.benchmarks.dominance import PAIRS, Shown, compared, play
+from seethrough.benchmarks.drawing import dominance
+from seethrough.benchmarks.drawing.dominance import PAIRS, Shown, compared, play
 
 SEEDS = range(24)
 

@@ -8,9 +8,9 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from seethrough.benchmarks import ordering_accuracy, ordering_exactness, paper_figures
-from seethrough.benchmarks.ordering_advice import advice
-from seethrough.benchmarks.ordering_exactness import edge_distance
+from seethrough.benchmarks.orderings import ordering_accuracy, ordering_exactness, paper_figures
+from seethrough.benchmarks.orderings.ordering_advice import advice
+from seethrough.benchmarks.orderings.ordering_exactness import edge_distance
 from seethrough.experiment import cli
 from seethrough.renderer.models.translucent.scenes import panels
 from seethrough.renderer.polygons.polygons import polygons_from

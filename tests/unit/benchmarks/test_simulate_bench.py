@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seethrough.benchmarks import simulate
+from seethrough.benchmarks.sessions import simulate
 from seethrough.experiment import cli
 from seethrough.tasks.kit.events import KeyPress, KeyRelease, Tick
 
@@ -13,7 +13,10 @@ from seethrough.tasks.kit.events import KeyPress, KeyRelease, Tick
 @pytest.mark.parametrize(
     "words, message",
     [
-        ("bench simulate --only speed", "--only = speed: expected some of visual, data, many"),
+        (
+            "bench simulate --only speed",
+            "--only = speed: expected some of visual, memory, data, many",
+        ),
         (
             "bench statistics --only data",
             "--only = data: expected some of sizes, accuracy, reports",

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.benchmarks import sizes
-from seethrough.benchmarks.sizes import Studies, inside, kinds
+from seethrough.benchmarks.inference import sizes
+from seethrough.benchmarks.inference.sizes import Studies, inside, kinds
 
 
 def test_every_line_holds_in_a_small_part_of_the_runs():

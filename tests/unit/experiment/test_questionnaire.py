@@ -14,12 +14,12 @@ from seethrough.experiment.pages.pages import Choice, PlatePicture, Scale, TextF
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.questions.depth_test.depth_pairs import RATIO, depth_test
 from seethrough.experiment.questions.kit import Asking
-from seethrough.experiment.questions.ready import READY, question
 from seethrough.experiment.questions.tlx.tlx_question import TLX
 from seethrough.experiment.session import questionnaire
 from seethrough.experiment.session.questionnaire import Said
 from seethrough.experiment.study.config import find, load, parse
 from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.ready import READY, question
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 PUBLISHED = load("published")

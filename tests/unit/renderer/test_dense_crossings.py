@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from seethrough.benchmarks.ordering import crossing
+from seethrough.benchmarks.orderings.ordering import crossing
 from seethrough.renderer.plan import clusters
 from seethrough.renderer.plan.explain import of_cluster
 from seethrough.renderer.polygons import bsp, feudal

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from seethrough.renderer.plan.levels import levels
-from seethrough.renderer.plan.order import BEHIND, IN_FRONT, decide, doubtful
+from seethrough.renderer.plan.order import BEHIND, IN_FRONT, Placed, Related, decide, doubtful
 
 WIDE = np.tile([0.0, 0, 100, 100], (6, 1))  # every box overlaps every other
 
@@ -15,8 +15,8 @@ def drawn(relation, blended, masked, extents=None):
     n = len(relation)
     boxes = WIDE[:n] if extents is None else extents
     reach = boxes + np.array([-10.0, -10, 10, 10])
-    args = (np.arange(n), boxes, reach, relation, blended, masked)
-    return levels(*args), boxes, reach
+    related = Related(np.arange(n), boxes, reach, relation, blended, masked)
+    return levels(related), related
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -27,7 +27,7 @@ def test_what_is_not_broken_holds(seed):
     relation = np.triu(rng.choice(np.array([-1, 0, 1], np.int8), (n, n)), 1)
     relation -= relation.T
     masked, blended = rng.random(n) < 0.5, rng.random(n) < 0.8
-    (of_object, of_mask, broken), _, _ = drawn(relation, blended, masked)
+    (of_object, of_mask, broken), _ = drawn(relation, blended, masked)
     assert (of_object[blended] >= 0).all() and (of_mask[masked] >= -1).all()
     for i in np.nonzero(blended)[0]:
         for j in np.nonzero(relation[i] == IN_FRONT)[0]:
@@ -43,25 +43,12 @@ def test_of_a_circle_with_a_target_the_target_loses_nothing():
     relation = np.array([[0, 1, -1], [-1, 0, 1], [1, -1, 0]], np.int8)
     for target in range(3):
         masked = np.arange(3) == target
-        (of_object, of_mask, broken), boxes, reach = drawn(relation, np.ones(3, bool), masked)
+        (of_object, of_mask, broken), related = drawn(relation, np.ones(3, bool), masked)
         assert broken.any()
         front = int(np.nonzero(relation[:, target] == IN_FRONT)[0][0])
         assert of_object[front] > max(of_object[target], of_mask[target])
         no = np.zeros((3, 3), bool)
-        size = np.array([100.0, 100.0])
-        args = (
-            np.arange(3),
-            boxes,
-            reach,
-            relation,
-            no,
-            np.ones(3, bool),
-            masked,
-            broken,
-            no,
-            size,
-        )
-        found, must = doubtful(*args)
+        found, must = doubtful(related, no, broken, no, np.array([100.0, 100.0]))
         assert len(found) and not must.any()
 
 
@@ -71,9 +58,8 @@ def test_a_circle_of_targets_must_be_sorted():
     yes, no, size = np.ones(3, bool), np.zeros((3, 3), bool), np.array([100.0, 100.0])
     corners = np.array([[0.0, 0, 50, 50], [48, 48, 98, 98], [47, 0, 97, 49]])
     for extents, expected in ((WIDE[:3], True), (corners, False)):
-        (_, _, broken), boxes, reach = drawn(relation, yes, yes, extents)
-        args = (np.arange(3), boxes, reach, relation, no, yes, yes, broken, no, size)
-        assert doubtful(*args)[1].any() == expected
+        (_, _, broken), related = drawn(relation, yes, yes, extents)
+        assert doubtful(related, no, broken, no, size)[1].any() == expected
 
 
 def decided(targets, hard=(False, False), swapped=False):
@@ -85,10 +71,11 @@ def decided(targets, hard=(False, False), swapped=False):
     near, far = np.array([4.0, 4.2]), np.array([6.0, 6.2])
     no = np.zeros(2, bool)
     known = np.full((2, 2), 2, np.int8)
-    return decide(
+    placed = Placed(
         *(order, boxes, boxes, centers, sides, np.full(2, 1.8), near, far),
-        *(np.array(targets), np.array(hard), no, known, False),
+        *(np.array(targets), np.array(hard)),
     )
+    return decide(placed, no, known, False)
 
 
 @pytest.mark.parametrize("swapped", [False, True])

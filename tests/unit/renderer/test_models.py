@@ -9,8 +9,8 @@ from seethrough.renderer.masks.silhouettes import topology
 from seethrough.renderer.models import BUILDERS, MODELS, proxy
 from seethrough.renderer.models.forms.outline import outline
 from seethrough.renderer.models.forms.shapes import shade
-from seethrough.renderer.models.forms.sheet import contact_sheet_scene, grid
 from seethrough.renderer.models.proxies import connected_parts, outline_error
+from seethrough.renderer.models.sheet import contact_sheet_scene, grid
 
 BUILD = {build.__name__: build for build in BUILDERS}
 VIEWS = [(0.0, 0.1), (np.pi / 2, 0.1), (0.6, 0.3), (2.4, 0.3), (0.3, 1.0), (4.0, -0.4)]

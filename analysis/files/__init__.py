@@ -1,0 +1,1 @@
+"""Files that the analysis writes, whole or not at all."""

@@ -1,0 +1,1 @@
+"""How right statistics are: sizes of tests, and against other programs."""

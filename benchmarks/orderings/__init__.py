@@ -1,0 +1,1 @@
+"""Orders of polygons: how right, how quick."""

@@ -1,0 +1,1 @@
+"""What sessions cost, real and simulated, and what simulated people do."""
