@@ -55,6 +55,7 @@ class OrderPainter:
         """
         technique, state, shot = ruled.technique, ruled.state, ruled.shot
         method = technique.technique.order(technique)
+        assert method is not None  # else painters.of names another
         every = np.nonzero(technique.technique.touches(technique, state, shot))[0]
         made = self._ordered(shot.scene, every, method)
         order = made.prepared.order(eye=shot.camera.eye, view=shot.camera.forward)
