@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.benchmarks.looks import errors
+from seethrough.benchmarks.drawing.looks import errors
 from seethrough.experiment.suites import technique_scenes
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.look.dressed import dressed

@@ -48,21 +48,21 @@ class OrderPainter:
         self._kept: dict[bytes, _Ordered] = {}
         self.found: list[Drawn] = []
 
-    def draw(self, ruled: Ruled, target: FrameTarget) -> int:
+    def draw(self, asked: Ruled, target: FrameTarget) -> int:
         """Draw the plan's ruled objects over those already in the target. Returns the draws.
 
         Raises CannotDraw where there are too many polygons to put in order, or cross too densely.
         """
-        technique, state, shot = ruled.technique, ruled.state, ruled.shot
+        technique, shot = asked.technique, asked.shot
         method = technique.technique.order(technique)
-        assert method is not None  # else painters.of names another
-        every = np.nonzero(technique.technique.touches(technique, state, shot))[0]
+        assert method is not None, "painters.of asks for this painter where there is an order"
+        every = np.nonzero(technique.technique.touches(technique, asked.state, shot))[0]
         made = self._ordered(shot.scene, every, method)
         order = made.prepared.order(eye=shot.camera.eye, view=shot.camera.forward)
         made.store.get(made.mesh, False).reorder(made.prepared.drawable.triangles[order])
-        shader = self._programs.ready(ruled)
-        number = np.ones(1)  # the technique's, of what is transparent
-        sequence, runs = made.table.sequence([np.zeros(1, np.int64)], shot.camera, [number])
+        shader = self._programs.ready(asked)
+        ruled = np.ones(1)  # the technique's number of what is transparent
+        sequence, runs = made.table.sequence([np.zeros(1, np.int64)], shot.camera, [ruled])
         target.framebuffer.depth_mask = False
         target.framebuffer.use()  # after the mask: a bound framebuffer would keep its own
         sides = technique.technique.sides(technique)
@@ -72,7 +72,7 @@ class OrderPainter:
         )
         context.depth_func = "<="
         pipeline.blend(context, OVER)
-        draw(context, shader, made.table, sequence, runs[0], shot.camera, ruled.matrix)
+        draw(context, shader, made.table, sequence, runs[0], shot.camera, asked.matrix)
         target.framebuffer.depth_mask = True
         target.framebuffer.use()
         return len(runs[0])
