@@ -14,7 +14,7 @@ from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw
-from seethrough.renderer.plan.clusters import Indices, polygons_of
+from seethrough.renderer.plan.clusters import polygons_of
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.polygons.fragments import TooManyPieces
 from seethrough.renderer.polygons.methods import prepare
@@ -22,7 +22,7 @@ from seethrough.renderer.polygons.prepared import Prepared
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import Own, Shot
+from seethrough.renderer.techniques.base import Indices, Own, Shot
 
 OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
 MOST = 40_000  # triangles of a scene: a tree of as many takes seconds
