@@ -29,7 +29,7 @@ BUILDING = 3  # the seed of one whose first room has models behind its walls
 
 def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     """The gallery from top to bottom."""
-    scenes = _views(aspect, seed)
+    scenes = views(aspect, seed)
     yield Section(
         "The three scenes and the models",
         "Standard rendering beside dynamic transparency.",
@@ -41,7 +41,7 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     yield from gallery_hard.sections()
 
 
-def _views(aspect: float, seed: int) -> dict[str, tuple[Scene, Camera]]:
+def views(aspect: float, seed: int) -> dict[str, tuple[Scene, Camera]]:
     """Elmqvist2009's scenes by name, and from where they are seen."""
     from seethrough.renderer.models.vehicles.jeep import jeep_scene
 

@@ -127,10 +127,10 @@ def read(study: Study, path: Path, file: str) -> dict[str, str]:
     lines = [f"{place}: {line}" for line in _faults(study, found)]
     if lines:
         raise gathered(lines)
-    return found
+    return {name: str(text) for name, text in found.items()}
 
 
-def _faults(study: Study, found: Mapping[str, str]) -> Iterator[str]:
+def _faults(study: Study, found: Mapping[str, object]) -> Iterator[str]:
     wanted, every = needed(study), {*Texts("en").keys(), *own_texts(study)}
     for key, text in found.items():
         if key not in every:
@@ -167,7 +167,7 @@ def own_words(study: Study, language: str) -> dict[str, str]:
     return {text: given[k] for k, text in own_texts(study).items() if k in given} if given else {}
 
 
-def template(study: Study, given: Mapping[str, str]) -> str:
+def template(study: Study, given: Mapping[str, object]) -> str:
     """What is to be translated, as a file of texts: each text with its English, and what there is
     of it already."""
     parts = [f"# Texts of the study {study.study.name}: fill in what stands between the quotes."]

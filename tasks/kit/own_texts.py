@@ -35,15 +35,24 @@ def _languages(package: str) -> tuple[str, ...]:
 @cache
 def _read(package: str, language: str) -> Mapping[str, str]:
     file = resources.files(package).joinpath("texts", f"{language}.toml")
-    return flat(tomllib.loads(file.read_text(encoding="utf-8")))
+    return texts_in(tomllib.loads(file.read_text(encoding="utf-8")))
 
 
-def flat(table: Mapping[str, object], prefix: str = "") -> dict[str, str]:
-    """Texts in tables as one table, by the names `table.key`."""
-    found: dict[str, str] = {}
+def texts_in(table: Mapping[str, object]) -> dict[str, str]:
+    """The texts of a file of ours, by the names `table.key`. Raises TypeError for what is none."""
+    found = flat(table)
+    wrong = [name for name, value in found.items() if not isinstance(value, str)]
+    if wrong:
+        raise TypeError(f"{wrong[0]} = {found[wrong[0]]!r}: expected a text")
+    return {name: str(value) for name, value in found.items()}
+
+
+def flat(table: Mapping[str, object], prefix: str = "") -> dict[str, object]:
+    """What stands in tables as one table, by the names `table.key`."""
+    found: dict[str, object] = {}
     for key, value in table.items():
         if isinstance(value, Mapping):
             found |= flat(value, f"{prefix}{key}.")
         else:
-            found[prefix + key] = str(value)
+            found[prefix + key] = value
     return found
