@@ -61,8 +61,13 @@ class Pair:
 
     @property
     def names(self) -> tuple[str, str]:
-        """The two levels' names, as headings have them."""
-        return (self.contrast.baseline, self.contrast.level) if self.contrast else SIDES
+        """The two levels' names, as headings have them; numbers with their factor's name."""
+        if self.contrast is None:
+            return SIDES
+        pair = (self.contrast.baseline, self.contrast.level)
+        if all(_is_number(level) for level in pair):
+            return f"{self.contrast.factor} {pair[0]}", f"{self.contrast.factor} {pair[1]}"
+        return pair
 
     @property
     def said(self) -> tuple[str, str]:
@@ -71,6 +76,14 @@ class Pair:
 
 
 SIDES = ("baseline", "level")
+
+
+def _is_number(level: str) -> bool:
+    try:
+        float(level)
+    except ValueError:
+        return False
+    return True
 
 
 def pair_of(

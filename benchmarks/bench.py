@@ -25,6 +25,7 @@ BENCHES = {
     "simulate": "sessions.simulate",
     "speed": "drawing.speed",
     "statistics": "inference.statistics",
+    "studies": "sessions.studies",
     "techniques": "drawing.techniques",
     "worlds": "drawing.worlds",
 }
@@ -34,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("bench", choices=BENCHES, help="what to measure")
     parser.add_argument(
-        "--only", metavar="PART,…", help="some parts of the table (simulate, statistics)"
+        "--only", metavar="PART,…", help="some parts of the table (simulate, statistics, studies)"
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table to a file")
     parser.add_argument(

@@ -41,7 +41,8 @@ def level_means(key: str, title: str, axis: str, cells: Cells, context: Context)
     for task in cells.factors[TASK]:
         own = cells.pick(task=task)
         for where, members in groups or [({}, np.ones(len(own.participants), bool))]:
-            name = ", ".join([design.task_said(task), *where.values()])
+            said = [design.factor(f).label(level) for f, level in where.items()]
+            name = ", ".join([design.task_said(task), *said])
             rows = _means(own, members)
             if rows:
                 panels.append((name, rows))
@@ -50,11 +51,13 @@ def level_means(key: str, title: str, axis: str, cells: Cells, context: Context)
     low = min((r.low for _, rows in panels for r in rows), default=0.0)
     domain = [min(0.0, low), top]
     names = _colours(cells)
-    drawn = [_panel(name, rows, axis, domain, names) for name, rows in panels]
+    factors = [f for f in cells.factors if f != TASK]
+    drawn = [_panel(name, rows, axis, domain, names, factors) for name, rows in panels]
     within = any(len(known) > 1 for f, known in cells.factors.items() if f != TASK)
     words = "within-participant intervals" if within else "intervals of the mean"
     alt = f"Points with 95 % {words}. {'; '.join(told)}."
-    return Figure(key, f"{title} (95 % {words})", alt, in_rows(drawn, WIDE))
+    wide = len(groups) if 1 < len(groups) <= WIDE else WIDE  # a task's groups side by side
+    return Figure(key, f"{title} (95 % {words})", alt, in_rows(drawn, wide))
 
 
 def _colours(cells: Cells) -> tuple[str, ...]:
@@ -107,8 +110,10 @@ def _panel(
     axis: str,
     domain: list[float],
     levels: tuple[str, ...],
+    factors: list[str],
 ) -> Spec:
-    """Levels of the first factor along x, those of the last in colour and side by side."""
+    """Levels of the first factor along x, those of the last in colour and side by side; `factors`
+    are their names."""
     firsts = list(dict.fromkeys(r.first for r in rows))
     several = len({r.level for r in rows}) > 1 and any(r.first != r.level for r in rows)
     shown = list(levels) if several else firsts
@@ -123,9 +128,9 @@ def _panel(
         )
         points.append({"x": x, "y": r.mean, "level": level, "tip": tip})
         ends.append({"x": x, "low": r.low, "high": r.high, "level": level})
-    along = {"field": "x", **categories(firsts)}
+    along = {"field": "x", **categories(firsts), "title": factors[0] if factors else None}
     scale = {"domain": domain, "nice": True, "zero": False}
-    colour = {"color": level_colour(shown)}
+    colour = {"color": level_colour(shown, factors[-1] if several else None)}
     low = number("low", axis, scale=scale)
     lines = {"x": along, "y": low, "y2": {"field": "high"}, **colour}
     dots = {"x": along, "y": number("y", axis, scale=scale), **colour}

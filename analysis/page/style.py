@@ -29,13 +29,13 @@ NO_DATA: Spec = {"values": []}
 MOST_DOTS = 200
 
 
-def level_colour(levels: Sequence[str]) -> Spec:
-    """The channel that colours levels, the baseline first."""
+def level_colour(levels: Sequence[str], factor: str | None = None) -> Spec:
+    """The channel that colours levels, the baseline first; `factor` names what they are of."""
     colours = [PALETTE[i % len(PALETTE)] for i in range(len(levels))]
     return {
         "field": "level",
         "type": "nominal",
-        "title": None,
+        "title": factor,
         "scale": {"domain": list(levels), "range": colours},
         "legend": {"orient": "top"},
     }

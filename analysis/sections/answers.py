@@ -35,10 +35,11 @@ def p_runs(table: Table, row: Mapping[str, object], column: str) -> list[str | C
 
 def depends(tables: Mapping[str, Table], factor: str, alpha: float) -> list[str | Cited]:
     """On which other factors an effect was found to depend: its mean over their levels is none of
-    theirs. That of tasks is told beside the tasks' own rows."""
+    theirs. That of tasks, and of what tasks are nested in, is told beside the tasks' own rows."""
     runs: list[str | Cited] = []
     for name, table in tables.items():
-        for row in table.rows if name.startswith("anova") else ():
+        told = name in ("anova", f"anova_{TASK}") or name.startswith("anova_in_")
+        for row in table.rows if told else ():
             effect = str(row["effect"])
             others = [part for part in effect.split(" × ") if part != factor]
             if len(others) != 1 or factor not in effect.split(" × ") or others == [TASK]:

@@ -360,7 +360,11 @@ def _sentences(context: Context, table: Table, measure: Measured, log: bool) -> 
     if len(shown) > MOST:
         said.append(say(f"{len(shown) - MOST} more contrasts differ: see the table."))
     none = [str(r["label"]) for r in table.rows if r not in shown]
-    if none:
+    if len(none) == len(table.rows) > MOST // 2:
+        said.append(say(f"{measure.said[:1].upper()}{measure.said[1:]}: none of {len(none)} "
+                        "contrasts with their own error shows a difference, which is no evidence "
+                        "of equality."))  # fmt: skip
+    elif none:
         more = f" and {len(none) - MOST} more" if len(none) > MOST else ""
         said.append(say(f"No difference shown: {'; '.join(none[:MOST])}{more}. That is no evidence "
                         "of equality."))  # fmt: skip

@@ -132,7 +132,8 @@ def _start(measure: Measured) -> str:
 
 
 def _cells(context: Context, measure: Measured, cells: Cells, logs: Cells | None) -> Table:
-    names = " and ".join([", ".join(list(cells.factors)[:-1]), list(cells.factors)[-1]])
+    own = [TASK, *(f.name for f in context.design.groups), *list(cells.factors)[1:]]
+    names = " and ".join([", ".join(own[:-1]), own[-1]]) if len(own) > 1 else TASK
     note = "Mean and SD over participants' values of their trials in the cell."
     if logs is not None:
         note = (

@@ -76,7 +76,7 @@ def _design(context: Context) -> Prose:
     for factor in design.factors:
         kind = {"within": "within participants", "between": "between participants",
                 "measured": "between participants, not assigned"}[factor.kind]  # fmt: skip
-        order = f", order {factor.order}" if factor.order else ""
+        order = f", order {factor.order}" if factor.order and factor.within else ""
         parts.append(f"{factor.name} ({', '.join(factor.levels)}; {kind}{order})")
     left = [" × ".join(cell.values()) for cell in design.excluded]
     out = f" Left out for everybody: {'; '.join(left)}." if left else ""

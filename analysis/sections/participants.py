@@ -7,10 +7,10 @@ from collections.abc import Mapping
 
 from seethrough.analysis.exclude import why
 from seethrough.analysis.load.study import config_of
-from seethrough.analysis.measures import TASK, levels_of
+from seethrough.analysis.measures import TASK, groups_of, levels_of
 from seethrough.analysis.page.blocks import Block, Column, Fold, Prose, Section, Table, say
 from seethrough.analysis.sections.context import Context
-from seethrough.analysis.stats.distributions import detectable
+from seethrough.analysis.stats.distributions import detectable, detectable_between
 from seethrough.analysis.stats.ranks import sign_test
 from seethrough.analysis.stats.undefined import number_in
 
@@ -54,7 +54,7 @@ def participants_section(context: Context) -> Section:
     )
     found = reach(context)
     if found is not None:
-        blocks.append(reach_sentence(found))
+        blocks += [reach_sentence(found), *groups_sentence(found)]
     counted = [
         total,
         *([found] if found else []),
@@ -213,7 +213,7 @@ REACH = (
     Column("n", "n", "int"),
     Column("alpha", "α", "bound3"),
     Column("power", "power", "bound2"),
-    Column("dz", "d_z", "fixed2", "the smallest that is found so often"),
+    Column("dz", "d_z", "fixed2", "the smallest that is found so often; of groups d"),
     Column("sign_p", "least p", "p", "of the exact sign test"),
 )
 
@@ -225,7 +225,42 @@ def reach(context: Context) -> Table | None:
         return None
     row = {"what": "paired test", "n": n, "alpha": alpha, "power": POWER}
     row["dz"], row["sign_p"] = detectable(n, alpha, POWER), sign_test(n, 0)
-    return Table("smallest_effect", "What so many participants can find", REACH, (row,))
+    rows = (row, *_between(context))
+    title = "What so many participants can find"
+    note = "d of groups: in units of the spread within a group, taken to be alike." if (
+        len(rows) > 1) else ""  # fmt: skip
+    return Table("smallest_effect", title, REACH, rows, note=note)
+
+
+def _between(context: Context) -> list[dict[str, object]]:
+    """The same of each level between people against its baseline."""
+    names = sorted({str(n) for n in context.study.trials["participant"]})
+    rows: list[dict[str, object]] = []
+    for factor in context.design.groups:
+        own = groups_of(context.study.trials, factor, names)
+        for c in factor.contrasts():
+            first, second = own.count(c.baseline), own.count(c.level)
+            if min(first, second) < 2:
+                continue
+            found = detectable_between(first, second, context.plan.alpha, POWER)
+            rows.append(
+                {"what": f"{c.factor}, {c.baseline} − {c.level}", "n": first + second,
+                 "alpha": context.plan.alpha, "power": POWER, "dz": found, "sign_p": None}
+            )  # fmt: skip
+    return rows
+
+
+def groups_sentence(found: Table) -> list[Prose]:
+    """What so few people in each group can find, which is less than within people."""
+    return [
+        say(
+            f"Between groups ({r['what']}) a difference must be as large as d = {{}} to be found "
+            "in a share of {} of studies.",
+            found.cite(str(r["what"]), "dz"),
+            found.cite(str(r["what"]), "power"),
+        )
+        for r in found.rows[1:]
+    ]
 
 
 def reach_sentence(found: Table) -> Prose:

@@ -80,11 +80,15 @@ def asked(design: Design, prediction: Prediction) -> tuple[Contrast, ...]:
 
 def _words(context: Context, prediction: Prediction) -> str:
     """What a prediction says where the study gave it no text."""
-    known = {n: m.said for m in context.design.measures() for n in (m.name, m.column)}
-    measures = ", ".join(known.get(name, name) for name in prediction.measures)
+    known: dict[str, str] = {}
+    for measure in context.design.measures():
+        known.setdefault(measure.column, measure.said)
+    known |= {m.name: m.said for m in context.design.measures()}
+    measures = ", ".join(known.get(n, n.replace("_", " ")) for n in prediction.measures)
     factor = next((f for f in context.design.factors if f.name == prediction.contrast), None)
     if factor is None:
-        return f"{measures} {prediction.expect}"
+        value = "" if prediction.value is None else f" {prediction.value:g}"
+        return f"{measures} {prediction.expect}{value}"
     levels = prediction.level or " or ".join(c.level for c in factor.contrasts())
     how = {"less": "less with", "more": "more with", "not worse": "not worse with"}
     words = how.get(prediction.expect, f"{prediction.expect} with")

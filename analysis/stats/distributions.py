@@ -201,9 +201,19 @@ def negligible_p(f: float, df1: int, df2: int, pes: float) -> float:
 
 def detectable(n: int, alpha: float, power: float) -> float:
     """The |d_z| that a two-sided paired t test of n ≥ 2 finds with this power."""
-    critical = t_quantile(1 - alpha / 2, n - 1) ** 2
-    missed = _solve(lambda nc: noncentral_f_cdf(critical, 1, n - 1, nc**2), 1 - power, 3.0, 1.0)
-    return missed / float(np.sqrt(n))
+    return _shift(n - 1, alpha, power) / float(np.sqrt(n))
+
+
+def detectable_between(first: int, second: int, alpha: float, power: float) -> float:
+    """The |d| that a two-sided t test of two groups, n ≥ 2 each, finds with this power where they
+    spread alike."""
+    return _shift(first + second - 2, alpha, power) * float(np.sqrt(1 / first + 1 / second))
+
+
+def _shift(df: int, alpha: float, power: float) -> float:
+    """The noncentrality that t of `df` finds with this power."""
+    critical = t_quantile(1 - alpha / 2, df) ** 2
+    return _solve(lambda nc: noncentral_f_cdf(critical, 1, df, nc**2), 1 - power, 3.0, 1.0)
 
 
 def holm(p: list[float]) -> list[float]:

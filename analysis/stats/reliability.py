@@ -15,9 +15,10 @@ LEAST_ITEMS = 3
 """Of two items there is no factor to fit, and α is a correlation."""
 LEAST_OWN = 0.005
 """Of an item's variance, what is its own at least, as R's factanal has it."""
-APART = "an item seems to have nothing in common with the others"
+APART = "fewer than three items have anything in common"
 MOST_OWN = 0.99
-"""Where it is more, the likelihood is flat, and what the others have in common not to be told."""
+"""An item with more has nothing in common with others. Of two items that have, nobody can tell how
+much of it is whose: the likelihood is flat."""
 HEYWOOD = "an item seems to have no variance of its own"
 
 
@@ -87,7 +88,7 @@ def _omega(cov: Array) -> Number:
     psi = found.x
     if np.any(psi <= LEAST_OWN * (1 + 1e-6)):
         return Undefined(HEYWOOD)
-    if np.any(psi >= MOST_OWN):
+    if np.sum(psi < MOST_OWN) < LEAST_ITEMS:
         return Undefined(APART)
     root = np.sqrt(psi)
     values, vectors = np.linalg.eigh(r / np.outer(root, root))

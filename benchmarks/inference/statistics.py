@@ -8,6 +8,7 @@ rows start the program itself, on made data of 384 and 240,000 trials. The rows 
 
 from __future__ import annotations
 
+import itertools
 import json
 import tempfile
 import time
@@ -51,6 +52,8 @@ def figures(only: Sequence[str] = PARTS) -> Iterator[Row]:
         yield from accuracy()
     for participants, seconds, gib in REPORTS if "reports" in only else ():
         yield from reports(participants, seconds, gib)
+    if "reports" in only:
+        yield from many_factors()
 
 
 def contrast_scores(y: Array) -> float:
@@ -137,6 +140,52 @@ def reports(participants: int, seconds: float, gib: float | None) -> Iterator[Ro
             yield row("memory of the report", scene, used.peak / 1024, "GiB", gib)
         size = (Path(folder) / "out" / "report.html").stat().st_size / 2**20
         yield row("report.html", scene, size, "MiB", 3.0 if participants == 16 else None)
+
+
+def many_factors(people: int = 60, factors: int = 6, must: float = 20.0) -> Iterator[Row]:
+    """A report of so many factors of two levels, each person once in every cell."""
+    scene = f"{people} people × {factors} factors"
+    with tempfile.TemporaryDirectory() as folder:
+        data = make_factors(Path(folder) / "data", people, factors)
+        start = time.perf_counter()
+        used = used_by(REPORT, "report", str(data), "--out", f"{folder}/out")
+        yield row("report", scene, time.perf_counter() - start, "s", must)
+        yield row("report, processor time", scene, used.cpu, "s")
+
+
+def make_factors(folder: Path, people: int, factors: int) -> Path:
+    """A data folder of 2^factors cells within people: log-normal times, and a distance."""
+    names = [f"f{i}" for i in range(1, factors + 1)]
+    time_of = {"name": "time", "column": "time", "unit": "s", "direction": "less",
+               "scale": "ratio", "adds": "mean", "log": True, "rows": "all"}  # fmt: skip
+    off = {**time_of, "name": "off", "column": "off", "unit": "mm", "log": False}
+    entry = {
+        "factors": [{"name": n, "kind": "within", "levels": ["a", "b"], "baseline": "a"}
+                    for n in names],
+        "tasks": [{"name": "find", "code": "T1", "measures": [time_of, off]}],
+    }  # fmt: skip
+    folder.mkdir(parents=True)
+    (folder / "dataset_description.json").write_text('{"name": "bench"}', "utf-8")
+    rng = np.random.default_rng(3)
+    cells = list(itertools.product("ab", repeat=factors))
+    for slot in range(1, people + 1):
+        name = f"P{slot:05d}"
+        own = folder / "data" / "human" / name
+        own.mkdir(parents=True)
+        times = np.exp(rng.normal(3, 0.3) + rng.normal(0, 0.4, len(cells)))
+        far = rng.gamma(3, 2, len(cells))
+        rows = []
+        for number, cell in enumerate(cells, start=1):
+            made = _trial(name, slot, number, (1, "standard", "abstract", "find", 1), 1.0, 0)
+            kept = {k: v for k, v in made.items() if k not in DESIGN.levels}
+            kept |= dict(zip(names, cell, strict=True))
+            kept["time"] = kept["time_clean"] = repr(float(times[number - 1]))
+            rows.append({**kept, "off": repr(float(far[number - 1]))})
+        stem = own / f"study-bench_subject-{name}_session-1"
+        _write(Path(f"{stem}_trials_data.csv"), dict.fromkeys(rows[0], ""), rows)
+        sidecar = {"study": "bench", "design": entry}
+        Path(f"{stem}_trials_data.json").write_text(json.dumps(sidecar), "utf-8")
+    return folder
 
 
 def make_data(folder: Path, participants: int) -> Path:

@@ -40,10 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
     before = {}
     if beside.exists():
-        try:
-            before = flat(parse_toml(read_regular(beside, LARGEST_TEXT), str(beside)))
-        except TypeError as error:
-            raise InputError(f"{beside}: {error}") from None
+        before = flat(parse_toml(read_regular(beside, LARGEST_TEXT), str(beside)))
     texts = needed(study)
     missing = sum(not before.get(key, "") for key in texts)
     try:

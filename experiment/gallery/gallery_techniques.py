@@ -75,6 +75,7 @@ def _plate(name: str, where: str, shot: Shot, reach: float) -> Plate:
     if "kinds" in {field.name for field in fields(p)}:
         # Of one kind only, so that it is not taken for constant transparency.
         kinds = Counter(o.kind for o in shot.scene.objects if not o.target)
-        p = replace(p, kinds=(kinds.most_common(1)[0][0],))
+        only: dict[str, object] = {"kinds": (kinds.most_common(1)[0][0],)}
+        p = replace(p, **only)
     title = f"{p.technique.title}, {where}"
     return Plate(f"technique-{where}-{name}", title, shot.scene, shot.camera, p, state=state)

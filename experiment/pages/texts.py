@@ -8,7 +8,7 @@ from importlib import resources
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, short, shown, unknown
-from seethrough.tasks.kit.own_texts import flat
+from seethrough.tasks.kit.own_texts import texts_in
 from seethrough.tasks.kit.world import Texts as OwnTexts
 
 
@@ -34,7 +34,7 @@ class Texts:
             raise InputError(
                 f"study.language = {shown(language)}: expected one of {', '.join(languages())}"
             )
-        self._texts = flat(tomllib.loads(file.read_text(encoding="utf-8")))
+        self._texts = texts_in(tomllib.loads(file.read_text(encoding="utf-8")))
         self._texts |= _of_plugins(language)
         for key, text in (replaced or {}).items():
             if key not in self._texts:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -113,7 +113,7 @@ def _take(own: PluginFile, path: Path, where: str, tried: bool = False) -> None:
 def provide(own: PluginFile, path: Path, where: str) -> str:
     """Run the file and make its plug-in known by its name. Raises InputError."""
     constant = registry.KINDS[own.kind].constant
-    module = ModuleType(f"seethrough_own_{own.kind}_{own.name}")
+    module = ModuleType(f"seethrough_own_{own.sha256[:16]}")  # the same in every process
     module.__file__ = str(path)
     sys.modules[module.__name__] = module  # dataclasses look there
     try:
@@ -178,17 +178,24 @@ def from_path(kind: str, path: Path) -> str:
     return provide(own, path.resolve(), where)
 
 
-def keep(described: list[dict[str, str]], data: Path) -> None:
-    """Put the files that a study brought along into the data folder. Raises InputError."""
+def files_of(described: Sequence[Mapping[str, str]]) -> list[PluginFile]:
+    """The files among a study's plug-ins that it brought along."""
+    found = []
     for said in described:
         origin = registry.origin(said["kind"], said["name"])
-        if origin is None or not origin.beside:
-            continue
-        path = kept_as(said, data)
+        if origin is not None and origin.beside:
+            found.append(PluginFile(said["kind"], said["name"], origin.beside, origin.content))
+    return found
+
+
+def keep(described: list[dict[str, str]], data: Path) -> None:
+    """Put the files that a study brought along into the data folder. Raises InputError."""
+    for own in files_of(described):
+        path = kept_as({"kind": own.kind, "name": own.name, "sha256": own.sha256}, data)
         try:
             make_folder(path.parent)
             if not path.exists():
-                write_new(path, origin.content)
+                write_new(path, own.content)
         except FileExistsError:
             pass  # another station kept it first
         except OSError as error:

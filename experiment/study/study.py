@@ -5,12 +5,15 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Callable, Mapping
+import pickle
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from seethrough import registry
+from seethrough.experiment.study import plugin_files
 from seethrough.experiment.study.cells import Part
 from seethrough.experiment.study.design import Design, Trial
 from seethrough.experiment.study.factors import Cell, Factor, Levels
@@ -54,6 +57,14 @@ class Study:
     parts: Mapping[Cell, Part] = field(hash=False)
     excluded: tuple[Levels, ...] = field(hash=False)
     translations: Mapping[str, Mapping[str, str]] = field(default_factory=dict, hash=False)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """For another process, which has to know the code that the study brings along before it can
+        read anything else of it."""
+        files = plugin_files.files_of(self.plugins())
+        if not files:
+            return (Study.__new__, (Study,), self.__dict__)
+        return (_restored, (files, pickle.dumps(self.__dict__)))
 
     @cached_property
     def plan(self) -> Design:
@@ -156,6 +167,15 @@ class Study:
         """SHA-256 of the resolved study: two sessions with the same digest ran the same study."""
         text = json.dumps(self.resolved(), sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _restored(files: Sequence[plugin_files.PluginFile], data: bytes) -> Study:
+    """A study from another process of ours."""
+    for own in files:
+        plugin_files.provide(own, Path(own.file), f"{own.kind} {own.name}")
+    study = Study.__new__(Study)
+    study.__dict__.update(pickle.loads(data))
+    return study
 
 
 def _question_table(asked: Question) -> dict[str, object]:

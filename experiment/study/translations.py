@@ -20,7 +20,7 @@ from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
 from seethrough.experiment.study.toml_file import parse_toml
 from seethrough.renderer.declared import declared
-from seethrough.tasks.kit.own_texts import flat_values
+from seethrough.tasks.kit.own_texts import flat
 
 OWN = "study."  # begins the names of a study's own texts
 PLACE = re.compile(r"\{\w+\}")
@@ -123,11 +123,11 @@ def read(study: Study, path: Path, file: str) -> dict[str, str]:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise InputError(f"{where}: expected a file of texts beside the study ({reason})") from None
     place = str(path.parent / file)
-    found = flat_values(parse_toml(data, place))
+    found = flat(parse_toml(data, place))
     lines = [f"{place}: {line}" for line in _faults(study, found)]
     if lines:
         raise gathered(lines)
-    return {key: text for key, text in found.items() if isinstance(text, str)}
+    return {name: str(text) for name, text in found.items()}
 
 
 def _faults(study: Study, found: Mapping[str, object]) -> Iterator[str]:
@@ -167,7 +167,7 @@ def own_words(study: Study, language: str) -> dict[str, str]:
     return {text: given[k] for k, text in own_texts(study).items() if k in given} if given else {}
 
 
-def template(study: Study, given: Mapping[str, str]) -> str:
+def template(study: Study, given: Mapping[str, object]) -> str:
     """What is to be translated, as a file of texts: each text with its English, and what there is
     of it already."""
     parts = [f"# Texts of the study {study.study.name}: fill in what stands between the quotes."]

@@ -35,25 +35,24 @@ def _languages(package: str) -> tuple[str, ...]:
 @cache
 def _read(package: str, language: str) -> Mapping[str, str]:
     file = resources.files(package).joinpath("texts", f"{language}.toml")
-    return flat(tomllib.loads(file.read_text(encoding="utf-8")))
+    return texts_in(tomllib.loads(file.read_text(encoding="utf-8")))
 
 
-def flat(table: Mapping[str, object]) -> dict[str, str]:
-    """Texts in tables as one table, by the names `table.key`. Raises TypeError for what is none."""
-    found: dict[str, str] = {}
-    for key, value in flat_values(table).items():
-        if not isinstance(value, str):
-            raise TypeError(f"{key} = {value!r}: expected text")
-        found[key] = value
-    return found
+def texts_in(table: Mapping[str, object]) -> dict[str, str]:
+    """The texts of a file of ours, by the names `table.key`. Raises TypeError for what is none."""
+    found = flat(table)
+    wrong = [name for name, value in found.items() if not isinstance(value, str)]
+    if wrong:
+        raise TypeError(f"{wrong[0]} = {found[wrong[0]]!r}: expected a text")
+    return {name: str(value) for name, value in found.items()}
 
 
-def flat_values(table: Mapping[str, object], prefix: str = "") -> dict[str, object]:
-    """What tables hold, texts or not, by the names `table.key`."""
+def flat(table: Mapping[str, object], prefix: str = "") -> dict[str, object]:
+    """What stands in tables as one table, by the names `table.key`."""
     found: dict[str, object] = {}
     for key, value in table.items():
         if isinstance(value, Mapping):
-            found |= flat_values(value, f"{prefix}{key}.")
+            found |= flat(value, f"{prefix}{key}.")
         else:
             found[prefix + key] = value
     return found

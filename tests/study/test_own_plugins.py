@@ -5,8 +5,11 @@ from __future__ import annotations
 
 import csv
 import json
+import pickle
 import shutil
+import sys
 import time
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -22,7 +25,7 @@ from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study import plugin_files
-from seethrough.experiment.study.config import load
+from seethrough.experiment.study.config import load, parse
 from seethrough.experiment.suites.suite import findings
 from seethrough.tasks.catalog import TASKS
 
@@ -193,6 +196,26 @@ def test_an_entry_that_names_no_code_is_refused(own, entry, words):
     with pytest.raises(plugin_files.InputError) as error:
         load(str(own / "few.toml"))
     assert any(words in line for line in error.value.faults)
+
+
+def test_a_study_goes_to_another_process_with_its_code(own):
+    """Which has to know the code before it can read the study."""
+    trust.trust_everything()
+    for kind in ("task", "world", "question", "technique"):
+        path = own / f"toy_{kind}.py"
+        plugin = plugin_files.PluginFile(kind, "", path.name, path.read_bytes())
+        plugin_files.provide(plugin, path, "here")
+    table = tomllib.loads(STUDY)
+    for kind in ("task", "world", "technique"):
+        for given in table[kind].values():
+            given.pop("file", None)
+    del table["question"]
+    config = parse(table, "toys")
+    sent = pickle.dumps(config)
+    registry._provided.clear()
+    for name in [name for name in sys.modules if name.startswith("seethrough_own_")]:
+        del sys.modules[name]
+    assert pickle.loads(sent).digest() == config.digest()
 
 
 def test_a_task_cannot_take_the_name_of_ours(own):

@@ -21,7 +21,7 @@ from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
 from seethrough.renderer.gpu.rules import painters
-from seethrough.renderer.gpu.rules.rule_program import RulePrograms
+from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
@@ -161,7 +161,9 @@ class Layer:
         if name not in self._ruled:
             self._ruled[name] = painters.PAINTERS[name](self._context, self._defines)
         painter = self._ruled[name]
-        self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
+        self._draws += painter.draw(
+            Ruled(table, frame, technique, state, shot, self._matrix), target
+        )
         self._passes += 1
         self.peeled = painter.found[::-1]
 

@@ -48,6 +48,20 @@ class ExactJob:
         self.table.set_look(shader, self.camera, self.size[1])
 
 
+@dataclass(frozen=True, eq=False)
+class MaskCells:
+    """The cells that masks are drawn into, each of `size`: of each cell its targets (`parts`), its
+    corner in the picture, the slices of its targets (`owners`, −1: none), and where the part's
+    slices begin and how many there are (`bases`). `wiped` (k, 4) is what has to be empty before."""
+
+    size: tuple[int, int]
+    parts: list[NDArray[np.int64]]
+    corners: list[tuple[int, int]]
+    owners: list[NDArray[np.int64]]
+    bases: list[tuple[int, int]]
+    wiped: NDArray[np.float64] | None
+
+
 class ExactMasks:
     """The masks of one frame at a time."""
 
@@ -101,20 +115,17 @@ class ExactMasks:
     def fill(
         self,
         job: ExactJob,
-        size: tuple[int, int],
-        parts: list[NDArray[np.int64]],
-        corners: list[tuple[int, int]],
-        owners: list[NDArray[np.int64]],
-        bases: list[tuple[int, int]],
-        wiped: NDArray[np.float64] | None,
+        cells: MaskCells,
         slices: Cells,
         hard: moderngl.Texture,
     ) -> int:
         """Draw the entries of all masks, which look up where their targets show in `slices`, and
         what is `hard`. Returns the draw calls."""
+        size, parts, corners = cells.size, cells.parts, cells.corners
+        owners, bases = cells.owners, cells.bases
         components = 2 if job.technique.granularity == "pixel" else 4
         kind = ("f4", False, False, components)
-        self.entries = emptied(self._context, self.entries, size, len(parts), kind, wiped)
+        self.entries = emptied(self._context, self.entries, size, len(parts), kind, cells.wiped)
         self._context.enable_only(moderngl.NOTHING)
         painter = self._painter
         depths, extents = _window_depth(job), job.frame.boxes.extents + SLACK

@@ -19,7 +19,7 @@ from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
-from seethrough.renderer.gpu.per_pixel.exact_masks import SLACK, ExactJob, ExactMasks
+from seethrough.renderer.gpu.per_pixel.exact_masks import SLACK, ExactJob, ExactMasks, MaskCells
 from seethrough.renderer.gpu.per_pixel.exact_sorter import Filled, PixelSorter
 from seethrough.renderer.gpu.per_pixel.few_sorter import too_many
 from seethrough.renderer.gpu.per_pixel.pixel_cells import (
@@ -194,8 +194,8 @@ class ExactPainter:
         over = any(too_many(b[0], b[1]) for b in self._bits if b is not None)
         if self._looked_up is not None and not over:
             return draws
-        args = (job, size, entries, corners[1], owners, bases, wiped[1])
-        return draws + self._masks.fill(*args, made, self._textures["parts"])
+        into = MaskCells(size, entries, corners[1], owners, bases, wiped[1])
+        return draws + self._masks.fill(job, into, made, self._textures["parts"])
 
     def _cover(
         self, job: ExactJob, part: Ints, objects: Ints, which: Ints

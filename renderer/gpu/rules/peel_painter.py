@@ -14,12 +14,10 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
-from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
+from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms, draw, numbers
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import Parameters, Shot
 
 # Texture units, beyond those of a rule's pictures.
 ABOVE, BELOW, COVERED, LAYER = 10, 11, 12, 13
@@ -90,17 +88,10 @@ class PeelPainter:
         self._query = context.query(samples=True)
         self.found: list[Drawn] = []
 
-    def draw(
-        self,
-        table: SceneTable,
-        frame: FramePlan,
-        technique: Parameters,
-        state: object,
-        shot: Shot,
-        target: FrameTarget,
-        matrix: bytes,
-    ) -> int:
+    def draw(self, ruled: Ruled, target: FrameTarget) -> int:
         """Draw the plan's ruled objects over those already in the target. Returns the draws."""
+        table, frame, technique = ruled.table, ruled.frame, ruled.technique
+        shot, matrix = ruled.shot, ruled.matrix
         context, size = self._context, target.size
         lines = technique.technique.edges(technique)
         if self._buffers is None or self._buffers.key != (size, bool(lines)):
@@ -112,7 +103,7 @@ class PeelPainter:
         scope = _scope(frame, size)
         for framebuffer in (*buffers.layers, buffers.total, buffers.lines, target.framebuffer):
             framebuffer.scissor = scope
-        shader = self._programs.ready(table, technique, state, shot, matrix)
+        shader = self._programs.ready(ruled)
         sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
         buffers.total.clear()
         shader.set(above=ABOVE, below=BELOW, covered=COVERED, lined=bool(lines))

@@ -6,12 +6,9 @@ from collections.abc import Sequence
 
 import moderngl
 
-from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.rules.rule_program import RulePrograms, draw, numbers
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms, draw, numbers
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import Parameters, Shot
 
 
 class RemovalPainter:
@@ -22,18 +19,11 @@ class RemovalPainter:
         self._programs = RulePrograms(context, defines)
         self.found: list[Drawn] = []  # one layer, which is the picture
 
-    def draw(
-        self,
-        table: SceneTable,
-        frame: FramePlan,
-        technique: Parameters,
-        state: object,
-        shot: Shot,
-        target: FrameTarget,
-        matrix: bytes,
-    ) -> int:
+    def draw(self, ruled: Ruled, target: FrameTarget) -> int:
         """Draw the plan's ruled objects among those already in the target. Returns the draws."""
-        shader = self._programs.ready(table, technique, state, shot, matrix)
+        table, frame, technique = ruled.table, ruled.frame, ruled.technique
+        shot, matrix = ruled.shot, ruled.matrix
+        shader = self._programs.ready(ruled)
         sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
         target.framebuffer.use()
         sides = technique.technique.sides(technique)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import moderngl
@@ -12,10 +13,24 @@ from numpy.typing import NDArray
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
+from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.base import Parameters, Shot
 
 PICTURES = 5  # the first texture unit of a rule's pictures
+
+
+@dataclass(frozen=True, eq=False)
+class Ruled:
+    """What a rule's painter draws in a frame: the plan's ruled objects of a scene in its `table`,
+    by a technique in a state; `matrix` is clip ← (world − eye)."""
+
+    table: SceneTable
+    frame: FramePlan
+    technique: Parameters
+    state: object
+    shot: Shot
+    matrix: bytes
 
 
 class RulePrograms:
@@ -28,20 +43,19 @@ class RulePrograms:
         self._depth = program(context, "object.vert", "view_depth.frag")
         self._framebuffers: dict[tuple[int, int], moderngl.Framebuffer] = {}
 
-    def ready(
-        self, table: SceneTable, technique: Parameters, state: object, shot: Shot, matrix: bytes
-    ) -> Shader:
+    def ready(self, ruled: Ruled) -> Shader:
         """The technique's program with everything set but the sequence. Binds a framebuffer where
         the technique needs to know the targets' depth."""
+        technique, state, shot, table = ruled.technique, ruled.state, ruled.shot, ruled.table
         rules = technique.technique
-        needed = self.needed(table, technique, shot, matrix)
+        needed = self.needed(table, technique, shot, ruled.matrix)
         if rules.glsl not in self._programs:
             values = {"rule": rules.glsl}
             self._programs[rules.glsl] = program(
                 self._context, "object.vert", "rule.frag", self._defines, values=values
             )
         shader = self._programs[rules.glsl]
-        use(shader, shot.camera, matrix)
+        use(shader, shot.camera, ruled.matrix)
         table.set_look(shader, shot.camera, shot.size[1])
         shader.set(size=shot.size, lens=0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
         for name, value in rules.uniforms(technique, state, shot).items():

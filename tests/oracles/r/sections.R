@@ -221,7 +221,7 @@ omega_of <- function(x) {
   best <- fits[[which.min(sapply(fits, function(f) f$objective))]]$par
   load <- best[1:k]
   own <- best[-(1:k)]
-  if (any(own <= 0.005 * (1 + 1e-4)) || any(own >= 0.99)) return(undefined)
+  if (any(own <= 0.005 * (1 + 1e-4)) || sum(own < 0.99) < 3) return(undefined)
   theirs <- try(factanal(covmat = cov(x), n.obs = nrow(x), factors = 1), silent = TRUE)
   if (!inherits(theirs, "try-error")) stopifnot(loss(c(theirs$loadings[, 1], theirs$uniquenesses)) >= loss(best) - 1e-6)
   sum_of <- sum(load * apply(x, 2, sd))^2

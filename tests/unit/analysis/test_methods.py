@@ -53,7 +53,7 @@ def test_the_flow_counts_rows_people_and_values(tmp_path):
     ("name", "words"),
     [
         ("mixed", "Participants: 14 participants (training, assigned: none 9, criterion 5)"),
-        ("mixed", "training (none, criterion; between participants, order latin)"),
+        ("mixed", "training (none, criterion; between participants)"),
         ("between", "training, brought along: none 4, short 7, long 9"),
         ("left_out", "Left out for everybody: plain × 380."),
         ("four", "2 predictions"),
