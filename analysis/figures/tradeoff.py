@@ -102,7 +102,7 @@ def _mean(
         f"means: {significant(x[0])} to {significant(x[1])} s (geometric), {c.error_label} "
         f"{significant(y[0])} to {significant(y[1])}"
     )
-    line = {"x": x[0], "y": y[0], "x2": x[1], "y2": y[1]}
+    line: Spec = {"x": x[0], "y": y[0], "x2": x[1], "y2": y[1]}
     return line, {"x": x[1], "y": y[1], "angle": float(np.degrees(np.arctan2(-up, right))),
                   "tip": tip}  # fmt: skip
 
