@@ -12,6 +12,7 @@ from typing import NoReturn
 from seethrough.analysis.errors import DataError
 from seethrough.experiment import streams
 from seethrough.experiment.errors import InputError, one_line, unknown
+from seethrough.renderer.errors import CannotDraw
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
@@ -128,6 +129,8 @@ def _run(words: Sequence[str]) -> int:
         return _failed(error.lines, 2)
     except DataError as error:
         return _failed(error.shown(), 2)
+    except CannotDraw as error:
+        return _failed([str(error)], 2)
     except OSError as error:
         if error.filename is None:
             raise

@@ -37,8 +37,9 @@ def draw(rows: list[Row], path: Path) -> None:
     ways = list(table["time"])
     ways.remove("idle")
     scenes = [s for s in COLORS if any(s in found for found in table["time"].values())]
-    figure = Figure(figsize=(9.6, 3.1 + 0.235 * len(ways)), layout="constrained", facecolor=PAPER)
-    parts = figure.subfigures(2, 1, height_ratios=[2.6, 0.5 + 0.235 * len(ways)], squeeze=False)
+    tall = 1.7 + 0.2 * len(ways)  # inches: headings and legend, then a line a way
+    figure = Figure(figsize=(9.6, 2.6 + tall), layout="constrained", facecolor=PAPER)
+    parts = figure.subfigures(2, 1, height_ratios=[2.6, tall], squeeze=False)
     upper, lower = parts.ravel()
     panels = upper.subplots(1, len(scenes), sharey=True, squeeze=False).ravel()
     for axes, scene in zip(panels, scenes, strict=True):

@@ -37,6 +37,7 @@ PROFILE = "calibrated"
 POOL = 200
 WORKERS = 2
 MANY = 10_000
+VISITORS = 500  # of visual mode, whose memory is measured
 WALKERS = 128  # whose way through the buildings is drawn into the tables
 LONG = 64  # participants whose seconds are measured
 CHUNK = 4  # of them that a worker plays at a time
@@ -73,6 +74,17 @@ def visual() -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as folder:
         seconds, _ = timed(lambda: simulate(study, 16, 1, Path(folder) / "data"))
     yield figure("16 participants, visual", seconds / 60, "min", 10, 3)
+
+
+def memory() -> Iterator[Row]:
+    """Many people in visual mode, one after the other before one pair of eyes."""
+    words = ["simulate", "demo", "--participants", VISITORS]
+    with tempfile.TemporaryDirectory() as folder, Watch(own=False) as watch:
+        command = [sys.executable, "-m", "seethrough", *map(str, words), "--out", f"{folder}/data"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    if watch.peak is not None:
+        name = f"memory, visual, after {VISITORS} people"
+        yield row(name, "demo", watch.peak, "MiB", 600, None)
 
 
 def make_tables(job: batch.Batch) -> Iterator[Row]:
@@ -174,7 +186,7 @@ def _eyes() -> Iterator[Row]:
         yield {**told(f"eyes: {way['scene']}", way["value"], way["unit"]), **more}
 
 
-PARTS = ("visual", "data", "many", "calibration", "eyes")
+PARTS = ("visual", "memory", "data", "many", "calibration", "eyes")
 
 
 def figures(
@@ -185,6 +197,7 @@ def figures(
         job = batch.Batch(STUDY, 1, POOL, tables or Path(folder) / "tables.db")
         parts: dict[str, Callable[[], Iterator[Row]]] = {
             "visual": visual,
+            "memory": memory,
             "data": lambda: data(job),
             "many": lambda: many(job, count),
             "calibration": lambda: calibration(job, find(PROFILE)),

@@ -21,6 +21,7 @@ from seethrough.experiment.study.factors import ALONE, WITHIN
 from seethrough.experiment.study.own_model_files import models_of
 from seethrough.experiment.study.translations import languages_of, texts_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
+from seethrough.renderer.errors import CannotDraw
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.world import FILES
 
@@ -326,7 +327,11 @@ def _machine(
     for (world, _), own in drawn.items():
         hardest = max(own, key=lambda d: (d.occluders, d.targets))
         part = study.part(hardest.trial.levels)
-        times = frame_times(study, hardest.trial, context, seconds)
+        try:
+            times = frame_times(study, hardest.trial, context, seconds)
+        except CannotDraw as error:
+            said.say("machine", f"{world}, {part.technique_name}", FAILS, str(error))
+            continue
         rate = part.display.refresh
         text = (
             f"{world}, {part.technique_name}: {times.frames} frames of {hardest.trial.scene}, "

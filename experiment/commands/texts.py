@@ -40,7 +40,10 @@ def run(arguments: argparse.Namespace) -> int:
         )
     before = {}
     if beside.exists():
-        before = flat(parse_toml(read_regular(beside, LARGEST_TEXT), str(beside)))
+        try:
+            before = flat(parse_toml(read_regular(beside, LARGEST_TEXT), str(beside)))
+        except TypeError as error:
+            raise InputError(f"{beside}: {error}") from None
     texts = needed(study)
     missing = sum(not before.get(key, "") for key in texts)
     try:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, Plate, Section
 from seethrough.renderer.look.dressed import dressed
@@ -14,21 +13,35 @@ from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard
 
 # Each key at a value that suits the scene's size: what is as large as a room, a cloud, a car.
-WORLD: dict[str, dict[str, dict[str, float]]] = {
-    "abstract": {"fog": {"fog": 120.0, "fog_start": 90.0}, "floor_grid": {"floor_grid": 10.0}},
-    "walkthrough": {"fog": {"fog": 25.0}, "floor_grid": {"floor_grid": 2.0}},
-    "jeep": {"fog": {"fog": 4.0, "fog_start": 2.0}, "floor_grid": {"floor_grid": 0.5}},
+EDGES = {
+    "occlusion": Look(occlusion=0.8),
+    "antialiasing": Look(antialiasing="edges"),
+    "outlines": Look(antialiasing="edges", outlines=1.5),
+}
+WORLD = {
+    "abstract": {
+        "fog": Look(fog=120.0, fog_start=90.0),
+        "floor_grid": Look(floor_grid=10.0),
+        "ground_shadows": Look(ground_shadows=0.7, shadow_reach=60.0),
+    },
+    "walkthrough": {
+        "fog": Look(fog=25.0),
+        "floor_grid": Look(floor_grid=2.0),
+        "ground_shadows": Look(ground_shadows=0.8),
+    },
+    "jeep": {
+        "fog": Look(fog=4.0, fog_start=2.0),
+        "floor_grid": Look(floor_grid=0.5),
+        "ground_shadows": Look(ground_shadows=0.8),
+    },
 }
 
 
 def looks(world: str) -> dict[str, Look]:
     """Name → look: "none", each key by its name, "all"."""
-    found = {"none": PLAIN}
-    both: dict[str, float] = {}
-    for name, values in WORLD[world].items():
-        found[name] = replace(PLAIN, **values)
-        both |= values
-    return {**found, "all": replace(PLAIN, **both)}
+    alone = WORLD[world] | EDGES
+    every = {key: getattr(look, key) for look in alone.values() for key in look.on}
+    return {"none": PLAIN, **alone, "all": Look(**every)}
 
 
 def sections(scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[Section]:

@@ -29,7 +29,7 @@ BUILDING = 3  # the seed of one whose first room has models behind its walls
 
 def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     """The gallery from top to bottom."""
-    scenes = _views(aspect, seed)
+    scenes = views(aspect, seed)
     yield Section(
         "The three scenes and the models",
         "Standard rendering beside dynamic transparency.",
@@ -41,7 +41,7 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     yield from gallery_hard.sections()
 
 
-def _views(aspect: float, seed: int) -> dict[str, tuple[Scene, Camera]]:
+def views(aspect: float, seed: int) -> dict[str, tuple[Scene, Camera]]:
     """Elmqvist2009's scenes by name, and from where they are seen."""
     from seethrough.renderer.models.vehicles.jeep import jeep_scene
 
@@ -88,7 +88,8 @@ def stage() -> tuple[Scene, Camera]:
     for k in range(12):
         wood = tuple(np.array([0.55, 0.5, 0.42]) + rng.uniform(-0.14, 0.14, 3))
         place = transforms.translation(0.72 * (k - 5.5), 0.0, 0.0)
-        objects.append(Object(geometry.box(0.68, 4.6, 0.12), place, wood, group=k // 4))
+        plank = Object(geometry.box(0.68, 4.6, 0.12), place, wood, kind="plank", group=k // 4)
+        objects.append(plank)
     ball = transforms.translation(-0.4, -0.9, 1.3)
     objects.append(Object(geometry.sphere(1.0, 2), ball, (0.25, 0.5, 0.75)))
     for name, x, y, size, turn in (("horse", -0.3, -0.2, 2.8, 0.5), ("chair", 2.6, -0.4, 2.0, 2.6)):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import fields, replace
 
@@ -71,5 +72,10 @@ def placed(name: str, shot: Shot, reach: float) -> tuple[Parameters, object]:
 
 def _plate(name: str, where: str, shot: Shot, reach: float) -> Plate:
     p, state = placed(name, shot, reach)
+    if "kinds" in {field.name for field in fields(p)}:
+        # Of one kind only, so that it is not taken for constant transparency.
+        kinds = Counter(o.kind for o in shot.scene.objects if not o.target)
+        only: dict[str, object] = {"kinds": (kinds.most_common(1)[0][0],)}
+        p = replace(p, **only)
     title = f"{p.technique.title}, {where}"
     return Plate(f"technique-{where}-{name}", title, shot.scene, shot.camera, p, state=state)

@@ -122,6 +122,9 @@ def _test(
     place = where if where == OVERALL else design.task_said(where)
     several = len(design.contrasts()) > 1
     name = f"{measure.said} {place}" + (f", {contrast.key}" if several else "")
+    if measure.ranked and contrast.between:
+        plans.left_out.append(f"{prediction.name}: {name}: ranks between groups are not played")
+        return None
     column = plans.column(difference)
     test = Test(name, column, weights=_weights(design, contrast), ranked=measure.ranked,
                 log=measure.log, unit=measure.unit)  # fmt: skip

@@ -22,6 +22,7 @@ from seethrough.experiment.power.planned import Plans, Score, groups_of
 from seethrough.experiment.power.sources import Sampled
 
 Array = NDArray[np.float64]
+ASKED = ("factors", "tasks", "excluded", "predictions")  # of a design, what scores rest on
 
 
 def context_of(folder: Path, source: str | None, design: Design) -> Context:
@@ -33,11 +34,10 @@ def context_of(folder: Path, source: str | None, design: Design) -> Context:
         study = load_study(folder, source)
     except DataError as error:
         raise DataError(f"--effect = {folder}: {line}" for line in error.lines) from None
-    if study.design != design:
-        raise InputError(
-            f"--effect = {folder}: expected data of this study: its factors, tasks, measures or "
-            "predictions are others"
-        )
+    other = [part for part in ASKED if getattr(study.design, part) != getattr(design, part)]
+    if other:
+        words = "levels left out" if other == ["excluded"] else " and ".join(other)
+        raise InputError(f"--effect = {folder}: expected data of this study: other {words} there")
     plan = make_plan(study)
     trials, excluded = apply_rules(study.trials, plan.exclude, plan.too_fast)
     return Context(study, plan, trials, excluded, 1)

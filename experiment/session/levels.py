@@ -66,7 +66,8 @@ def named(study: Study, page: Page, pairs: Iterable[tuple[str, str]], language: 
     text of that name, and wherever it names a level."""
     said = {f"name.{level}": name(study, factor, level) for factor, level in pairs}
     title = page.title
-    if page.about and not known(study, title):
+    named_after = "".join(f".{level}" for _, level in page.about)  # as ready-made pages are
+    if page.about and title.endswith(named_after) and not known(study, title):
         told = own_words(study, language)
         labels = [study.factor(f).level(level).label or level for f, level in page.about]
         title = ", ".join(told.get(label, label) for label in labels)

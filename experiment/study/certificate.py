@@ -23,7 +23,8 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.base import View
+from seethrough.tasks.kit.base import Setting, View
+from seethrough.tasks.kit.world import moving_of
 
 if TYPE_CHECKING:
     from moderngl import Context
@@ -129,7 +130,7 @@ class Certifier:
             int((shown == 0).sum()),
             float(np.mean([occluders for _, occluders, _ in looks])),
             float(np.mean([clutter for _, _, clutter in looks])),
-            setting.world.path(first.camera, scene.centers[asked]),
+            _path(setting, first.camera, scene.centers[asked]),
         )
 
     def _looked(self, scene: Scene, camera: Camera) -> Looked:
@@ -152,6 +153,12 @@ class Certifier:
         pixels = self._looking.size[0] * self._looking.size[1]
         hides = ((plain.area - alone.area) * pixels > LOST) & ~scene.targets
         return np.minimum(fraction, 1.0), int(hides.sum()), int(plain.visible.sum())
+
+
+def _path(setting: Setting, first: Camera, asked: NDArray[np.float64]) -> float:
+    """World units to go; 0 where nobody walks."""
+    walks = moving_of(setting.world, setting.place) == "walk"
+    return setting.world.path(first, asked) if walks else 0.0
 
 
 # What is matched between levels. The path is one of the building's: sets are crossed with levels.

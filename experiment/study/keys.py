@@ -208,7 +208,7 @@ study."""
 
 _TAIL = """## `[texts]`
 
-object text that participants read, by its name in `experiment/pages/languages/en.toml` or in the
+Any text that participants read, by its name in `experiment/pages/languages/en.toml` or in the
 `texts/en.toml` of a task or world, table and key with a dot between: `"welcome.text" = "Hello."`
 An unknown name is refused.
 

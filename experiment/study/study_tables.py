@@ -227,8 +227,8 @@ class DisplayTable(Table):
     ] = 60.0  # fmt: skip
     samples: Annotated[
         Literal["auto", 0, 2, 4, 8],
-        key("samples a pixel, against jagged edges; auto: 4 on a graphics card, none without, "
-            "where they would miss 60 Hz", scope=SESSION),
+        key("samples a pixel where look.antialiasing is auto; auto: 4 on a graphics card, none "
+            "without, where they would miss 60 Hz", scope=SESSION),
     ] = "auto"  # fmt: skip
 
 

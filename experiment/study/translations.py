@@ -20,7 +20,7 @@ from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
 from seethrough.experiment.study.toml_file import parse_toml
 from seethrough.renderer.declared import declared
-from seethrough.tasks.kit.own_texts import flat
+from seethrough.tasks.kit.own_texts import flat_values
 
 OWN = "study."  # begins the names of a study's own texts
 PLACE = re.compile(r"\{\w+\}")
@@ -123,14 +123,14 @@ def read(study: Study, path: Path, file: str) -> dict[str, str]:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise InputError(f"{where}: expected a file of texts beside the study ({reason})") from None
     place = str(path.parent / file)
-    found = flat(parse_toml(data, place))
+    found = flat_values(parse_toml(data, place))
     lines = [f"{place}: {line}" for line in _faults(study, found)]
     if lines:
         raise gathered(lines)
-    return found
+    return {key: text for key, text in found.items() if isinstance(text, str)}
 
 
-def _faults(study: Study, found: Mapping[str, str]) -> Iterator[str]:
+def _faults(study: Study, found: Mapping[str, object]) -> Iterator[str]:
     wanted, every = needed(study), {*Texts("en").keys(), *own_texts(study)}
     for key, text in found.items():
         if key not in every:

@@ -12,6 +12,7 @@ from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.edges.edge_painter import EdgePainter
 from seethrough.renderer.gpu.levels.layer import FrameStats, Layer
 from seethrough.renderer.look.shaders import defines
 from seethrough.renderer.plan.planner import SHORTCUTS, FramePlan, plan
@@ -52,22 +53,34 @@ class Renderer:
         self._tables: dict[int, SceneTable] = {}
         self._present = program(context, "present.vert", "present.frag")
         self._triangle = context.vertex_array(self._present.program, [])
-        self._samples = min(samples, context.max_samples)
-        self._target = FrameTarget(context, _checked(size), self._samples)
+        self._samples = samples
+        self._targets: dict[int, FrameTarget] = {}
+        self._size = _checked(size)
+        self._target = self._with_samples(samples)
+        self._edges = EdgePainter(context)
         self._small: FrameTarget | None = None
         self._shown: tuple[Scene, Camera, Parameters, object] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
         """(width, height) of the pictures, in pixels."""
-        return self._target.size
+        return self._size
 
     def resize(self, size: tuple[int, int]) -> None:
         """Draw pictures of another size from now on."""
-        if _checked(size) != self._target.size:
-            self._target.release()
-            self._target = FrameTarget(self.context, size, self._samples)
+        if _checked(size) != self._size:
+            for target in self._targets.values():
+                target.release()
+            self._targets, self._size = {}, _checked(size)
+            self._target = self._with_samples(self._samples)
             self._shown = None
+
+    def _with_samples(self, samples: int) -> FrameTarget:
+        """The picture with so many samples a pixel, or as many as there can be."""
+        samples = min(samples, self.context.max_samples)
+        if samples not in self._targets:
+            self._targets[samples] = FrameTarget(self.context, self._size, samples)
+        return self._targets[samples]
 
     def draw(
         self,
@@ -87,8 +100,10 @@ class Renderer:
         if self._unchanged(scene, camera, technique, state):
             stats = FrameStats(0, 0, 0, 0)
         else:
-            # Where pixels are antialiased, only the depth buffer's picture is.
-            without = self.without | {"held"} if self._samples else self.without
+            samples = scene.look.samples(self._samples)
+            self._target = self._with_samples(samples)
+            # Where pixels have several samples, only the depth buffer's picture has.
+            without = self.without | {"held"} if samples else self.without
             scale = self.size[1] / self.window if self.window else 1.0
             shown = _shown(scene, camera, technique, state, self.size)
             drawn = technique.technique.drawn(technique, state)
@@ -96,6 +111,9 @@ class Renderer:
             args = (self._table(shown), self.plan, camera, drawn, self._target)
             stats = self._layer(False, shown).draw(*args, scale, state=state)
             self._target.resolve()
+            smooth, width = scene.look.smooths(self._samples), scene.look.outlines * scale
+            if smooth or width > 0:
+                self._edges.draw(args[0], self.plan, camera, self._target, smooth, width)
             self._shown = (scene, camera, technique, state)
         if target_framebuffer is not None:
             self._show(target_framebuffer)
@@ -129,6 +147,7 @@ class Renderer:
         n = len(scene.objects)
         scene = _shown(scene, camera, technique, state, size)
         technique = technique.technique.drawn(technique, state)
+        technique = technique.technique.looked_at(technique)
         frame = self._looked(scene, camera, technique, size, state)
         if len(frame.exact):
             # What a frame sorts by pixel is in none of its layers.

@@ -1,4 +1,4 @@
-"""What is drawn on a floor, on the CPU as on the GPU: lines of a grid.
+"""What is drawn on a floor, on the CPU as on the GPU: lines of a grid, and shadows.
 
 A floor is what is of kind "floor", seen from above. Lines are averaged over the ellipse that a
 pixel covers on the floor, taken as a box along each axis: what is far away turns into an even tone
@@ -23,8 +23,13 @@ def painted(
 ) -> Floats:
     """(k, 3) lit colours of floors with what is drawn on them: `offset` (k, 3) from the eye to the
     surface, `normal` (k, 3), both in the world; `pixel` is the slope that a pixel spans."""
-    steep = normal[:, 1] > STEEP * np.linalg.norm(normal, axis=1)
-    return np.where(steep[:, None], color * (1 - DARK * _lines(offset, eye, pixel, look)), color)
+    up = facing_up(normal)
+    return np.where(up[:, None], color * (1 - DARK * _lines(offset, eye, pixel, look)), color)
+
+
+def facing_up(normal: Floats) -> Bools:
+    """(k,) which of a floor's surfaces are drawn on."""
+    return np.asarray(normal[:, 1] > STEEP * np.linalg.norm(normal, axis=1))
 
 
 def _lines(offset: Floats, eye: Floats, pixel: float, look: Look) -> Floats:
@@ -67,6 +72,8 @@ GLSL = f"""
 uniform vec3 eye;
 uniform float pixel;  // the slope that a pixel spans
 flat in float on_floor;
+uniform sampler2D shadows;   // what is left of the floor's colour, over the floor
+uniform vec4 shadows_place;  // its corner (x, z), and 1 / its sides
 
 float within(float x, float period, float width) {{
     float turns = floor(x / period);
@@ -90,6 +97,9 @@ vec3 painted(vec3 color, vec3 normal, vec3 offset) {{
     left *= 1.0 - line(place.x, wide.x, FLOOR_GRID);
     left *= 1.0 - line(place.y, wide.y, FLOOR_GRID);
     left = 1.0 - {DARK} * (1.0 - left);
+#endif
+#ifdef FLOOR_SHADOWS
+    left *= texture(shadows, (offset.xz + eye.xz - shadows_place.xy) * shadows_place.zw).r;
 #endif
     return color * mix(1.0, left, shown);
 }}

@@ -16,6 +16,8 @@ def defines(look: Look, background: Color) -> tuple[str, ...]:
         found.append("FLOOR")
     if look.floor_grid > 0:
         found.append(f"FLOOR_GRID {_number(look.floor_grid)}")
+    if look.ground_shadows > 0:
+        found.append("FLOOR_SHADOWS")
     if look.fog > 0:
         rgb = ", ".join(_number(c) for c in background)
         found += [

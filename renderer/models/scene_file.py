@@ -20,7 +20,7 @@ from seethrough.renderer.models.files.gltf_json import CAMERAS, MESHES, NODES
 from seethrough.renderer.models.files.gltf_material import Materials
 from seethrough.renderer.models.files.gltf_nodes import Node, Nodes
 from seethrough.renderer.models.files.part import Found, too_many
-from seethrough.renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.source import Nothing, Refused, Source
 from seethrough.renderer.models.user import KINDS, check_parts, found_in, meshed, told
 from seethrough.renderer.scene.geometry import Mesh
 
@@ -147,6 +147,9 @@ class _Reader:
         try:
             check_parts(parts)
             mesh = meshed(parts, self._found, self._detail).mesh
+        except Nothing:
+            self._found.note(f"nothing is to be seen of meshes[{number}], which is left out")
+            return None
         except Refused as error:
             raise Refused(f"meshes[{number}]: {error}") from None
         arrays = (mesh.vertices, mesh.normals, mesh.colors, mesh.triangles)

@@ -23,7 +23,7 @@ from seethrough.renderer.models.files.part import (
     to_shown,
 )
 from seethrough.renderer.models.files.refine import Carried, refined
-from seethrough.renderer.models.files.source import Refused, Source
+from seethrough.renderer.models.files.source import Nothing, Refused, Source
 from seethrough.renderer.models.files.surface import (
     Sides,
     Surface,
@@ -182,7 +182,7 @@ def meshed(
     """Parts as one mesh that shows from every side, where `stand` puts it. Raises Refused."""
     surface = _without_hidden(joined(parts), found)
     if not len(surface.triangles):
-        raise Refused("0 triangles with an area: expected a mesh")
+        raise Nothing("0 triangles with an area: expected a mesh")
     surface, is_open, turned = shown_from_outside(surface)
     is_open |= _with_holes(surface)
     solid = shape(surface.vertices, surface.triangles, (1.0, 1.0, 1.0))
@@ -198,7 +198,7 @@ def meshed(
     else:
         surface, carried = replace(surface, colors=to_shown(surface.colors), textures=()), None
     if not len(surface.triangles):
-        raise Refused("0 triangles that can be seen, all are transparent: expected a mesh")
+        raise Nothing("0 triangles that can be seen, all are transparent: expected a mesh")
     return Made(_mesh(surface, normals), sides, carried, solid)
 
 
@@ -209,7 +209,7 @@ def _without_hidden(surface: Surface, found: Found) -> Surface:
     hidden |= (alpha.mean(axis=1) < surface.cutoff) & (surface.texture < 0)
     if hidden.any() and len(surface.triangles):
         if hidden.all():
-            raise Refused("0 triangles that can be seen, all are transparent: expected a mesh")
+            raise Nothing("0 triangles that can be seen, all are transparent: expected a mesh")
         found.note(f"{int(hidden.sum())} triangles of alpha 0 are not shown")
     return surface.take(~hidden)
 

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.look import floor, fog
+from seethrough.renderer.look.shadows import shadowed
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene import lighting
 from seethrough.renderer.scene.camera import Camera
@@ -136,6 +137,8 @@ def _lit(seen: Surfaces, look: Look, rows: NDArray[np.int64]) -> Floats:
             lit[own], seen.offset[rows][own], normal[own], camera.eye,
             camera.pixel(seen.shot.size[1]), scene.look,
         )  # fmt: skip
+        if scene.look.ground_shadows > 0:
+            lit[own] = shadowed(lit[own], seen.offset[rows][own] + camera.eye, normal[own], scene)
     if look.tint is not None:
         tint = look.tint[rows]
         lit = lit + tint[:, 3:] * (tint[:, :3] - lit)

@@ -1,7 +1,8 @@
 // Provides what a technique's rule says of a surface: its lit colour where it is kept, nothing where
 // it is removed. A template: `rule` is the technique's own GLSL. With PEELED, only the nearest
 // surface behind the layer before, and the colour comes times its opacity, which is the alpha. With
-// GHOSTS, what is removed instead, without any colour: lines go along its edges.
+// GHOSTS, what is removed instead, without any colour: lines go along its edges. With BLENDED, the
+// colour comes times its opacity as well, to go over what is there already.
 in vec3 offset;
 in vec3 normal;
 in vec3 color;
@@ -70,7 +71,9 @@ void main() {
 #endif
     vec3 shown_color = lit(color, s.front ? normal : -normal, offset);
     shown_color = hazed(mix(shown_color, tinted.rgb, tinted.a), offset);
-#ifdef PEELED
+#ifdef BLENDED
+    picture = vec4(shown_color * shown, shown);
+#elif defined(PEELED)
     picture = vec4(shown_color * shown, shown);
     vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
     vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);

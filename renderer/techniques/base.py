@@ -241,6 +241,10 @@ class Technique(Protocol):
     def layers(self, p: Own) -> int | None:
         """How many layers are peeled at most; None: all."""
 
+    def order(self, p: Own) -> str | None:
+        """The method (renderer/polygons) in whose order polygons are drawn, right or wrong; None:
+        pixel by pixel."""
+
     def edges(self, p: Own) -> Mapping[str, object]:
         """What shaders/edges.frag draws lines with along the edges of each layer; empty: none."""
 
@@ -333,6 +337,10 @@ class Plain:
 
     def layers(self, p: Own) -> int | None:
         """All."""
+        return None
+
+    def order(self, p: Own) -> str | None:
+        """Pixel by pixel."""
         return None
 
     def edges(self, p: Own) -> Mapping[str, object]:

@@ -19,20 +19,46 @@ def least_of_greatest(
     out first."""
     width, height = size
     corners = np.array([[0, 0, 1], [width, 0, 1], [0, height, 1], [width, height, 1.0]])
-    values = [corners @ f.T for f in functions]  # (4, k) each
-    chosen: list[int] = []
-    # A set is nowhere least if one of another's is at least each of its own at all corners.
-    for a in np.argsort([v.max() for v in values], kind="stable"):
-        if not any(_above(values[a], values[b]) for b in chosen):
-            chosen.append(int(a))
-    starts = np.cumsum([0, *(len(functions[a]) for a in chosen)])
-    rows = np.concatenate([functions[a] for a in chosen])
-    return _least_of_greatest(rows, starts, width, height)
+    starts = np.cumsum([0, *(len(f) for f in functions)])
+    values = np.concatenate(functions) @ corners.T  # (rows, 4)
+    greatest = np.maximum.reduceat(values.max(axis=1), starts[:-1])
+    chosen = _undominated(values, starts, np.argsort(greatest, kind="stable"))
+    kept = [functions[a] for a in chosen.tolist()]
+    return _least_of_greatest(
+        np.concatenate(kept), np.cumsum([0, *(len(f) for f in kept)]), width, height
+    )
 
 
-def _above(a: NDArray[np.float64], b: NDArray[np.float64]) -> bool:
-    """Whether for each of b's functions one of a's is at least as great at all corners."""
-    return bool((a[:, :, None] >= b[:, None, :]).all(axis=0).any(axis=0).all())
+@njit(cache=True)
+def _undominated(values: Floats, starts: Ints, order: Ints) -> Ints:
+    """The sets, in order, that some pixel may have as its least: one is nowhere least if for each
+    function of another, one of its own is at least as great at all corners of the picture."""
+    chosen = np.empty(len(order), np.int64)
+    count = 0
+    for a in order:
+        beaten = False
+        for k in range(count):
+            b = chosen[k]
+            every = True
+            for j in range(starts[b], starts[b + 1]):
+                found = False
+                for i in range(starts[a], starts[a + 1]):
+                    above = True
+                    for c in range(4):
+                        above &= values[i, c] >= values[j, c]
+                    if above:
+                        found = True
+                        break
+                if not found:
+                    every = False
+                    break
+            if every:
+                beaten = True
+                break
+        if not beaten:
+            chosen[count] = a
+            count += 1
+    return chosen[:count]
 
 
 TILE = 32

@@ -60,6 +60,10 @@ class DepthOrder(Basics[DepthOrderState, DepthOrderSetting]):
     texts: Texts = OwnTexts("seethrough.tasks.depth_order")
     simulate = STRATEGY
 
+    def controls(self, setting: DepthOrderSetting) -> str:
+        """Nothing moves."""
+        return "depth_order.still"
+
     def make_scene(self, rng: Generator, setting: DepthOrderSetting) -> Marked:
         """A place, a view and a pair."""
         return marked(rng, setting, setting.task.ratio)

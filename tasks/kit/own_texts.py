@@ -38,12 +38,22 @@ def _read(package: str, language: str) -> Mapping[str, str]:
     return flat(tomllib.loads(file.read_text(encoding="utf-8")))
 
 
-def flat(table: Mapping[str, object], prefix: str = "") -> dict[str, str]:
-    """Texts in tables as one table, by the names `table.key`."""
+def flat(table: Mapping[str, object]) -> dict[str, str]:
+    """Texts in tables as one table, by the names `table.key`. Raises TypeError for what is none."""
     found: dict[str, str] = {}
+    for key, value in flat_values(table).items():
+        if not isinstance(value, str):
+            raise TypeError(f"{key} = {value!r}: expected text")
+        found[key] = value
+    return found
+
+
+def flat_values(table: Mapping[str, object], prefix: str = "") -> dict[str, object]:
+    """What tables hold, texts or not, by the names `table.key`."""
+    found: dict[str, object] = {}
     for key, value in table.items():
         if isinstance(value, Mapping):
-            found |= flat(value, f"{prefix}{key}.")
+            found |= flat_values(value, f"{prefix}{key}.")
         else:
-            found[prefix + key] = str(value)
+            found[prefix + key] = value
     return found

@@ -11,6 +11,7 @@ import pytest
 from seethrough.experiment.suites import technique_scenes
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.look.dressed import dressed
+from seethrough.renderer.look.shadows import floor_map
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
@@ -23,7 +24,8 @@ CASES = {case.name: case for case in technique_scenes.cases()}
 LOOKS = {
     "fog": Look(fog=9.0, fog_start=3.0),
     "grid": Look(floor_grid=0.8),
-    "all": Look(fog=12.0, floor_grid=1.5),
+    "shadows": Look(ground_shadows=0.9, shadow_reach=4.0),
+    "all": Look(fog=12.0, floor_grid=1.5, ground_shadows=0.5, shadow_reach=6.0),
 }
 # One for each painter: depth buffer, levels and masks, pixels sorted, removal, peels.
 WAYS = ("standard", "dynamic", "cutaway", "view_dependent")
@@ -160,3 +162,82 @@ def test_a_floor_has_lines_on_top_alone():
         camera = look_at(np.array(eye), np.zeros(3), fov_y=0.8, near=1, far=60)
         pictures = [exact(s, camera, named("standard"), SIZE).picture for s in (scene, scene.bare)]
         assert np.array_equal(*pictures)
+
+
+def floating(height, plate=2.0, reach=8.0, strength=1.0):
+    """The shadow map of a thin square plate above a floor of 20 × 20."""
+    ground = Object(geometry.quad(20, 20), kind="floor", impenetrable=True)
+    thing = Object(geometry.box(plate, 1e-6, plate), transforms.translation(1.0, height, -3.0))
+    look = Look(ground_shadows=strength, shadow_reach=reach)
+    return floor_map(dressed(Scene((ground, thing)), look))
+
+
+def test_a_shadow_takes_what_its_layer_says_and_spreads_with_height():
+    """Blurring moves light about but takes none: the sum of a shadow is that of the plate."""
+    reach = 8.0
+    bounds = reach * (2.0 ** np.arange(7) - 1) / 63
+    darkest, widths = [], []
+    for height in (0.01, 0.6, 1.5, 3.0):
+        found = floating(height, reach=reach)
+        taken = 1 - found.light.astype(float)
+        texel = 20 / taken.shape[1]
+        layer = np.searchsorted(bounds, height) - 1
+        middle = bounds[layer : layer + 2].mean()
+        share = 0.75 * (1 - middle / reach) ** 2
+        # A plate of 51.2 texels a side covers 51 or 52 whole ones.
+        assert taken.sum() * texel**2 == pytest.approx(share * 2.0**2, rel=0.04)
+        darkest.append(taken.max())
+        x = (np.arange(taken.shape[1]) + 0.5) * texel - 10
+        across = taken.sum(axis=0) / taken.sum()
+        assert across @ x == pytest.approx(1.0, abs=texel)
+        widths.append(np.sqrt(across @ (x - across @ x) ** 2))
+    assert all(np.diff(darkest) < 0) and all(np.diff(widths) > 0)
+    assert widths[0] == pytest.approx(2 / np.sqrt(12), rel=0.03)  # all but sharp on the floor
+    assert floating(reach + 0.1).light.min() == 1.0
+    half = 1 - floating(0.6, strength=0.5).light
+    assert np.allclose(2 * half, 1 - floating(0.6).light, atol=1e-6)
+
+
+def test_a_shadow_has_the_shape_of_what_stands_there():
+    """A table's legs are dark, the floor between them is not; a doorway's lintel is high up."""
+    ground = Object(geometry.quad(10, 10), kind="floor")
+    legs = [
+        Object(geometry.box(0.2, 1.0, 0.2), transforms.translation(x, 0.5, z))
+        for x in (-1.0, 1.0) for z in (-1.0, 1.0)
+    ]  # fmt: skip
+    top = Object(geometry.box(2.4, 0.05, 2.4), transforms.translation(0, 1.0, 0))
+    look = Look(ground_shadows=1.0, shadow_reach=3.0)
+    found = floor_map(dressed(Scene((ground, *legs, top)), look))
+    points = np.array([[1.0, 1.0], [0.0, 0.0], [0.0, 1.0], [4.5, 4.5]])
+    leg, under, edge, far = found.at(points[:, 0], points[:, 1])
+    assert leg < under - 0.3 and leg < edge - 0.3 and under < 0.95 and far == 1.0
+
+
+@pytest.mark.parametrize("way", ["dynamic", "constant"])
+def test_what_turns_transparent_keeps_its_shadow(renderer, way):
+    """The floor behind a transparent thing is as dark as the floor before an opaque one."""
+    ground = Object(geometry.quad(30, 30), color=(0.8, 0.8, 0.8), kind="floor", impenetrable=True)
+    box = Object(geometry.box(2, 2, 2), transforms.translation(0, 1.0, 0), (0.2, 0.4, 0.9))
+    ball = Object(geometry.sphere(0.5, 2), transforms.translation(0, 0.6, -3), (1, 0, 0), True)
+    look = Look(ground_shadows=1.0, shadow_reach=4.0)
+    camera = look_at(np.array([0, 6.0, 9.0]), np.array([0, 0.5, -1]), fov_y=0.5, near=1, far=50)
+    p = named(way)
+    scene = dressed(Scene((ground, box, ball)), look)
+    both, bare = (exact(s, camera, p, SIZE) for s in (scene, scene.bare))
+    share = both.weights[0]
+    through = (both.weights[1] > 0.05) & (share > 0.05) & ~both.near_edge
+    assert through.sum() > 20
+    alone = exact(Scene((ground,)), camera, p, SIZE).picture.mean(axis=2)
+    # What the picture lost to the shadow, over what there is of the floor in it.
+    light = 1 - ((bare.picture - both.picture).mean(axis=2) / (share * alone + 1e-9))[through]
+    assert light.min() < 0.6
+    row, column = np.nonzero(through)
+    slope = camera.pixel(SIZE[1])
+    x, y = (column + 0.5 - SIZE[0] / 2) * slope, (SIZE[1] / 2 - row - 0.5) * slope
+    rays = np.stack([x, y, -np.ones_like(x)], axis=1) @ camera.rotation.T
+    on_floor = camera.eye + rays * (-camera.eye[1] / rays[:, 1])[:, None]
+    want = floor_map(scene).at(on_floor[:, 0], on_floor[:, 2])
+    assert np.allclose(light, want, atol=1e-6)
+    without = dressed(Scene((ground, ball)), look)  # and it is the box's own
+    clear = floor_map(without).at(on_floor[:, 0], on_floor[:, 2])
+    assert (want < clear - 0.04).any()

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,18 +14,22 @@ from recorded_session import STUDY, Simulated, play_recorded
 from seethrough import registry
 from seethrough.experiment import cli
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.runs.data_run import refuse_hands
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.session.levels import hands
 from seethrough.experiment.study.config import parse
 from seethrough.experiment.study.design import session_for
+from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
-from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.visibility import Visibility, better
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Shot
 from seethrough.renderer.techniques.pointing import place_of
+from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.gestures import after
+from seethrough.tasks.kit.skills.sweep import Sweep
 
 ACTIVE = ("balloon", "dig", "fade", "lens")
 IN_THE_CUBE = {
@@ -59,6 +64,12 @@ def of(folder, count):
     """Trials by technique."""
     found = (find_trial(folder, "P01", number) for number in range(1, count + 1))
     return {recorded.trial.levels["view"]: recorded for recorded in found}
+
+
+def sample_scene():
+    ball = geometry.sphere(1.0, 1)
+    places = np.random.default_rng(2).uniform(-10, 10, (10, 3))
+    return Scene(tuple(Object(ball, transforms.translation(*at)) for at in places))
 
 
 def events(recorded):
@@ -137,11 +148,38 @@ def test_what_both_looks_showed_is_known():
     assert both.position[:, 1].tolist() == [0.3, 0.5, 0.0]
 
 
+def test_a_search_knows_the_most_that_any_place_showed():
+    """Nine places, of which each shows something else: all of it is known afterwards."""
+    p = named("lens")
+    camera = look_at(np.array([0.0, 0.0, 40.0]), np.zeros(3), fov_y=0.8, near=1.0, far=90.0)
+    view = View(sample_scene(), camera, drawn=p.technique.begin(p))
+    looked = []
+
+    def look():
+        areas = np.zeros(10)
+        areas[len(looked) % 10] = 0.5
+        looked.append(1)
+        return Visibility(np.ones(10, int), areas, np.zeros((10, 2)), areas, areas)
+
+    mood = SimulatedParticipant(np.random.default_rng(1))
+    mood.begin_trial("count", 0.0)
+    sweep = Sweep(mood._mood, p, 4 / 3)
+    now = 0.0
+    while events_ := sweep.events(view, look, now):
+        assert all(e.time >= now for e in events_)
+        now = events_[-1].time
+    assert len(looked) == 10 and sweep.spent == pytest.approx(now)
+    assert sweep.seen(look)().area.tolist() == [0.5] * 10
+    assert sweep.events(view, look, now) == []  # the same view again: nothing to search
+
+
+@pytest.mark.parametrize("far", (12.0, 300.0))
 @pytest.mark.parametrize("name", ("lens", "balloon"))
-def test_reaching_brings_the_technique_to_the_point(name):
-    """Closed form: the pointer on the point's place, the depth its own or at most a step beyond."""
+def test_reaching_brings_the_technique_to_the_point(name, far):
+    """Closed form: the pointer on the point's place, the depth its own or at most a step beyond,
+    whether it was nearer or farther before."""
     camera = look_at(np.array([1.0, 2.0, 30.0]), np.zeros(3), fov_y=0.8, near=1.0, far=90.0)
-    shot, p = Shot(Scene(()), camera, (400, 300)), named(name)
+    shot, p = Shot(Scene(()), camera, (400, 300)), replace(named(name), depth=far)
     rng = np.random.default_rng(3)
     for point in rng.uniform(-5, 5, (20, 3)):
         state = after(p, p.technique.begin(p), shot,

@@ -15,6 +15,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import broken_scenes
 import numpy as np
 from broken_own import OWN
 
@@ -327,6 +328,14 @@ def _is_table(data: bytes) -> bool:
     return True
 
 
+def _scene(kind: str, rng: np.random.Generator) -> Case:
+    """A table of a scene, its tags or its items."""
+    what, scene = broken_scenes.broken(rng)
+    study = copy.deepcopy(BASE)
+    study["world"]["scene"] = scene
+    return _done(kind, what, study)
+
+
 def _own(kind: str, rng: np.random.Generator) -> Case:
     """Of what a study may bring along: broken_own.py."""
     what, study, beside = OWN[kind](BASE, rng)
@@ -349,6 +358,7 @@ KINDS: dict[str, Callable[[str, np.random.Generator], Case]] = {
     "factor": _factor,
     "as saved": _as_saved,
     "twice": _twice,
+    "scene": _scene,
     **dict.fromkeys(OWN, _own),
 }
 

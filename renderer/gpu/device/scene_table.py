@@ -12,12 +12,14 @@ from seethrough.renderer.gpu.device.meshes import GpuMesh, MeshStore
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.look import floor
+from seethrough.renderer.look.shadows import floor_map
 from seethrough.renderer.plan.coverage import Triangles, triangles
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 
 Run = tuple[GpuMesh, int, int]  # a mesh, its first row in the sequence, how many instances
 
+SHADOWS = 15  # the texture unit of the floor's shadows: the last that every driver has
 # Of one frame: the driver would have to wait for what is drawn from one before it is written again.
 _SEQUENCES = 4
 
@@ -58,6 +60,21 @@ class SceneTable:
         if "eye" in shader.members:
             x, y, z = camera.eye.tolist()
             shader.set(eye=(x, y, z), pixel=camera.pixel(height))
+        if "shadows" in shader.members:
+            picture, place = self._shadows
+            picture.use(SHADOWS)
+            shader.set(shadows=SHADOWS, shadows_place=place)
+
+    @cached_property
+    def _shadows(self) -> tuple[moderngl.Texture, tuple[float, ...]]:
+        """The map of the floor's shadows, and where it lies."""
+        found = floor_map(self.scene)
+        high, wide = found.light.shape
+        light = found.light.astype("f2").tobytes()
+        picture = self._context.texture((wide, high), 1, light, alignment=1, dtype="f2")
+        picture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        picture.repeat_x = picture.repeat_y = False
+        return picture, (*found.corner, 1 / found.size[0], 1 / found.size[1])
 
     @cached_property
     def triangles(self) -> Triangles:
@@ -139,6 +156,8 @@ class SceneTable:
     def release(self) -> None:
         """Give the GPU's memory back."""
         self.table.release()
+        if "_shadows" in self.__dict__:
+            self._shadows[0].release()
         for texture in self._sequences:
             texture.release()
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 import moderngl
@@ -21,13 +20,12 @@ from seethrough.renderer.gpu.levels.lens import clip_from_offset, tight
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
-from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
-from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
+from seethrough.renderer.gpu.rules import painters
 from seethrough.renderer.gpu.rules.rule_program import RulePrograms
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
-from seethrough.renderer.techniques.base import PEELS, REMOVAL, Parameters, Shot
+from seethrough.renderer.techniques.base import REMOVAL, Parameters, Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
     DynamicTransparency,
     by_masks,
@@ -40,12 +38,6 @@ OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
-GHOSTS = "ghosts"  # lines of what was removed, over what is left
-PAINTERS: Mapping[str, Callable[..., PeelPainter | RemovalPainter]] = {
-    PEELS: PeelPainter,
-    REMOVAL: RemovalPainter,
-    GHOSTS: partial(PeelPainter, ghosts=True),
-}
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
@@ -71,7 +63,7 @@ class Layer:
         self._context, self._store = context, store
         self._look = tuple(look)
         defines = [*(["WITH_IDS"] if ids else []), *look]
-        self._defines, self._ruled = defines, dict[str, PeelPainter | RemovalPainter]()
+        self._defines, self._ruled = defines, dict[str, painters.Painter]()
         self.peeled: list[Drawn] = []  # layers of the last frame with ids, from the back
         self._object = program(context, "object.vert", "object.frag", defines)
         bare = [d for d in defines if not d.startswith("FLOOR")]
@@ -134,12 +126,10 @@ class Layer:
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
         if len(frame.ruled):
             shot = Shot(table.scene, camera, size, scale)
-            rules = technique.technique
-            self._draw_ruled(rules.painter, table, frame, technique, state, shot, target)
-            if after_level is not None and rules.painter == REMOVAL:
-                after_level(frame.ruled)
-            if rules.painter == REMOVAL and rules.edges(technique):
-                self._draw_ruled(GHOSTS, table, frame, technique, state, shot, target)
+            for name in painters.of(technique):
+                self._draw_ruled(name, table, frame, technique, state, shot, target)
+                if after_level is not None and name == REMOVAL:
+                    after_level(frame.ruled)
         if exact is not None:
             passes, draws = self._painter().finish(exact, target.framebuffer)
             self._passes += passes
@@ -169,7 +159,7 @@ class Layer:
     ) -> None:
         """What the technique's rule is asked about, by a painter."""
         if name not in self._ruled:
-            self._ruled[name] = PAINTERS[name](self._context, self._defines)
+            self._ruled[name] = painters.PAINTERS[name](self._context, self._defines)
         painter = self._ruled[name]
         self._draws += painter.draw(table, frame, technique, state, shot, target, self._matrix)
         self._passes += 1

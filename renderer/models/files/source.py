@@ -12,6 +12,10 @@ class Refused(ValueError):
     """Why a model cannot be shown, in one line without the file's name."""
 
 
+class Nothing(Refused):
+    """There is nothing to be seen of a model."""
+
+
 class Source:
     """Reads a model's files, and remembers what was read: `hashes` of each by its name."""
 

@@ -6,7 +6,7 @@ is worth.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,15 +17,31 @@ from seethrough.renderer.techniques.base import Look, Own, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 THINGS = ("distractors", "everything")
+PIXEL = "pixel"
+# How surfaces are put in order: by pixel, which is right, or their polygons by a method of
+# renderer/polygons: cut where that is needed (bsp, feudal), or as they are.
+ORDERS = (PIXEL, "boxes", "bsp", "feudal", "distance", "axis_tree")
 
 
 @dataclass(frozen=True)
 class ConstantParameters(Layered):
-    """What is transparent, and how much."""
+    """What is transparent, how much, and by what its surfaces are put in order."""
 
     alpha: float = key(0.3, "opacity of each surface", low=0, high=1)
     things: str = key("distractors", "what is transparent: targets stay opaque, or not",
                       choices=THINGS)  # fmt: skip
+    order: str = key(
+        PIXEL, "by what surfaces are put in order: pixel by pixel, or polygon by polygon by a "
+        "method that may be wrong", choices=ORDERS,
+    )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.order != PIXEL and self.layers is not None:
+            raise ValueError(
+                f"constant transparency: layers = {self.layers}, expected none with "
+                f'order = "{self.order}", which peels nothing'
+            )
 
 
 class Constant(Layering):
@@ -46,6 +62,18 @@ class Constant(Layering):
     def rule(self, p: ConstantParameters, state: Own, seen: Surfaces, known: Own) -> Look:
         """The same for each surface."""
         return self.look(p, seen, np.full(len(seen.depth), p.alpha))
+
+    def order(self, p: ConstantParameters) -> str | None:
+        """As the study has it."""
+        return None if p.order == PIXEL else p.order
+
+    def looked_at(self, p: ConstantParameters) -> ConstantParameters:
+        """Polygons have no numbers of their objects: what they show is looked for by pixel."""
+        return self.exactly(p)
+
+    def exactly(self, p: ConstantParameters) -> ConstantParameters:
+        """Pixel by pixel."""
+        return replace(p, order=PIXEL)
 
     def uniforms(self, p: ConstantParameters, state: Own, shot: Shot) -> dict[str, object]:
         """The opacity."""

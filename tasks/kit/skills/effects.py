@@ -14,7 +14,7 @@ EFFECTS = {
     "slips": "things are lost or counted twice in passing",
     "view_changes": "what was counted is mixed up when the view turns",
     "motor_noise": "turns do not end exactly where they should",
-    "depth_noise": "distances are misjudged, more so through transparent things",
+    "depth_noise": "distances are misjudged, more so of what shows little of itself",
     "drift": "one's own place is misjudged after walking",
     "learning": "the first trials of a task take longer",
     "fatigue": "times vary more as the session goes on",

@@ -13,7 +13,10 @@ from seethrough.tasks.kit.events import KeyPress, KeyRelease, Tick
 @pytest.mark.parametrize(
     "words, message",
     [
-        ("bench simulate --only speed", "--only = speed: expected some of visual, data, many"),
+        (
+            "bench simulate --only speed",
+            "--only = speed: expected some of visual, memory, data, many",
+        ),
         (
             "bench statistics --only data",
             "--only = data: expected some of sizes, accuracy, reports",

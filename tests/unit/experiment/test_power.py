@@ -146,6 +146,18 @@ def test_the_interval_of_n_carries_the_pilots_doubt():
     assert abs(endless / 100 - missed) < 3 * sqrt(missed * (1 - missed) / 100)
 
 
+def test_what_the_page_says_of_few_people_and_skewed_scores():
+    """Lognormal values of equal means and s.d. of .8 and .3 of them, r = .6 of logarithms."""
+    rng = np.random.default_rng(1)
+    spread = [sqrt(log(1 + cv * cv)) for cv in (0.8, 0.3)]
+    for n, said in ((8, 0.11), (16, 0.10), (32, 0.08)):
+        z = rng.standard_normal((2, 8000, n))
+        z[1] = 0.6 * z[0] + 0.8 * z[1]
+        first, second = (np.exp(s * x - s * s / 2) for s, x in zip(spread, z, strict=True))
+        found = run(FASTER, [(first - second)[..., None]])
+        assert abs((found.p < 0.05).mean() - said) < 0.005 + 3 * sqrt(0.1 * 0.9 / 8000)
+
+
 def test_sizes_of_groups_add_up():
     assert sizes((1.0,), 7) == [7]
     assert sizes((10, 4), 14) == [10, 4] and sizes((10, 4), 7) == [5, 2]
@@ -181,6 +193,18 @@ def test_a_study_without_predictions_is_asked_its_contrasts():
         and plans.planned
         and all(t.sign == 0 for p in plans.planned for t in p.tests)
     )
+
+
+def test_groups_are_set_against_each_other():
+    """Two groups and d .5 take 64 each (every table of power); what is not played is said."""
+    effect = effects.effect_of(load("training"), "training=0.5 sd", None, None)
+    (time,) = (p for p in effect.put if p.test.name.startswith("completion time"))
+    assert sorted(time.test.weights) == [-1.0, 1.0]
+    points, tests = curve(effect.planned, effect.source, [128], 4000, 0.05, 1, effect.truth)
+    found = next(t for t in tests if t.name == time.test.name)
+    assert abs(found.power - 0.80) < 4 * sqrt(0.8 * 0.2 / 4000)
+    assert abs(found.exaggerated - 1.12) < 0.05  # M at a power of .8 (Gelman and Carlin 2014)
+    assert points and any("ranks between groups are not played" in line for line in effect.alone)
 
 
 def test_published_effects_are_the_papers():

@@ -1,0 +1,1 @@
+"""What is done to a frame along the edges of things."""

@@ -1,0 +1,33 @@
+"""Which painters draw what a technique's rule is asked about, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+
+from seethrough.renderer.gpu.rules.order_painter import OrderPainter
+from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
+from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
+from seethrough.renderer.techniques.base import PEELS, REMOVAL, Parameters
+
+GHOSTS = "ghosts"  # lines of what was removed, over what is left
+ORDERED = "ordered"  # polygon by polygon, in the order of a method
+
+Painter = PeelPainter | RemovalPainter | OrderPainter
+
+PAINTERS: Mapping[str, Callable[..., Painter]] = {
+    PEELS: PeelPainter,
+    REMOVAL: RemovalPainter,
+    GHOSTS: partial(PeelPainter, ghosts=True),
+    ORDERED: OrderPainter,
+}
+
+
+def of(technique: Parameters) -> tuple[str, ...]:
+    """The names of those that draw with these parameters."""
+    rules = technique.technique
+    if rules.order(technique) is not None:
+        return (ORDERED,)
+    if rules.painter == REMOVAL and rules.edges(technique):
+        return (REMOVAL, GHOSTS)
+    return (rules.painter,)
