@@ -137,6 +137,9 @@ class Parser:
             faults.append(Fault("study.participants", plan.people, expected))
         names = [f.name for f in factors]
         faults += unfit_questions(factors, found["questions"], parts)
+        for number, name in enumerate(found["analysis"].pairwise):
+            if name not in names:
+                faults.append(Fault(f"analysis.pairwise[{number}]", name, known=tuple(names)))
         for number, said in enumerate(found["analysis"].predictions):
             where = f"analysis.predictions[{number}]"
             if said.contrast and said.contrast not in names:

@@ -97,9 +97,14 @@ def _prediction(study: Study, said: Mapping[str, Any]) -> str:
 def _tests(study: Study) -> str:
     analysis = study.analysis
     tests = ", ".join(analysis.tests) or "all sections of the report"
-    return (f"{tests}, at a level of significance of {analysis.alpha:g}. Predictions are tested by "
+    said = (f"{tests}, at a level of significance of {analysis.alpha:g}. Predictions are tested by "
             "planned contrasts against the baseline, each with its own error term; omnibus tests "
             "are exploratory.")  # fmt: skip
+    if analysis.pairwise:
+        said += f" Every pair of levels is compared of {', '.join(analysis.pairwise)}, by Holm."
+    if analysis.aligned_ranks:
+        said += " Interactions of ordinal measures are tested by aligned ranks, too."
+    return said
 
 
 def _exclusions(study: Study) -> Iterator[str]:

@@ -118,6 +118,8 @@ WRONG = [
     ("analysis", "tests", ["time", "time"], r"analysis\.tests = .*: expected each name once"),
     ("analysis", "exclude", ["x"], r"analysis\.exclude\[0\] = \"x\": expected one of timed_out, "),
     ("analysis", "exclude", ["participant:.."], r"analysis\.exclude\[0\] = .* or participant:ID"),
+    ("analysis", "pairwise", ["view"], r"analysis\.pairwise\[0\] = \"view\": .*transparency"),
+    ("analysis", "aligned_ranks", 2, r"analysis\.aligned_ranks = 2: expected true or false$"),
     ("techniques", "x", 1, r"techniques = \{\"x\": 1\}: unknown key"),
     ("texts", "welcome.text", 3, r"texts\.welcome\.text = 3: expected text$"),
 ]

@@ -98,7 +98,13 @@ def test_a_preregistration_says_what_is_decided(tmp_path, capsys):
                  "- trials answered sooner than 0.2 s", "16 people"):  # fmt: skip
         assert said in text
     assert cli.main(["prereg", "published", "--out", str(out)]) == 2
-    capsys.readouterr()
+    asked = tmp_path / "asked.toml"
+    more = '\n[analysis]\npairwise = ["view"]\naligned_ranks = true\n'
+    asked.write_text(shipped()["opacity"].read_text("utf-8") + more, "utf-8")
+    assert cli.main(["prereg", str(asked)]) == 0
+    said = capsys.readouterr().out
+    assert "Every pair of levels is compared of view, by Holm." in said
+    assert "are tested by aligned ranks, too." in said
     assert cli.main(["prereg", "training"]) == 0
     assert "None is stated: every comparison is exploratory." in capsys.readouterr().out
 
