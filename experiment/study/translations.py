@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import re
+import unicodedata
 from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
@@ -190,9 +191,10 @@ def template(study: Study, given: Mapping[str, str]) -> str:
 
 def unshowable(text: str) -> str:
     """The characters of a text that the font has no picture of, each once."""
-    strange = {c for c in text if ord(c) > 126 or (ord(c) < 32 and c not in "\n\t\r")}
-    return " ".join(sorted(c if c.isprintable() else f"U+{ord(c):04X}"
-                           for c in strange if not _has(c)))  # fmt: skip
+    strange = {c for c in text if not ("\x20" <= c <= "~" or c in "\n\t\r")}
+    # Of what controls, fonts may have a picture: no text is meant to show it.
+    bad = [c for c in strange if unicodedata.category(c) == "Cc" or not _has(c)]
+    return " ".join(sorted(c if c.isprintable() else f"U+{ord(c):04X}" for c in bad))
 
 
 @cache
