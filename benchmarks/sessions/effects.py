@@ -171,10 +171,10 @@ Rows that are not met or contradict are findings, not tuned away:
 
 - T4 with dynamic transparency takes simulated people longer than the published ones, and they
   miss more: at the shipped α_T of .3 they can tell two thirds of what stands behind known walls.
-  The paper prints no α; a lower one shows more, and so do larger things.
+  The paper prints no α; what a lower one or larger things would give was not run.
 - T1 gains less than published. With radii of 2.5 to 5 a view shows nearly every red thing either
-  way (seen again in a next look: .90 without, .95 with); denser worlds, or radii of 5 to 10, hide
-  more.
+  way (seen again in a next look: .90 without, .95 with); what denser worlds or other radii would
+  give was not run.
 - T3's marks are nearer than people's and spread less, at both levels alike: what errs there is the
   reading of a plan and finding one's way, of which the model has one constant each.
 - Where s.d. of errors are far too small (T1, T4 without transparency), the published ones exceed
