@@ -116,7 +116,7 @@ def test_parts_are_cut_to_fit_into_a_texture(context, monkeypatch):
     technique = DynamicTransparency(exact=True)
     renderer.draw(scene, camera, technique)
     whole = renderer.read()
-    painter = renderer._layer._exact
+    painter = renderer._layer(False, scene)._exact
     heights = []
     arrange = Cells._arrange
     monkeypatch.setattr("seethrough.renderer.gpu.per_pixel.pixel_cells.WIDTH", 96)
