@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 
 from seethrough.renderer.gpu.device.context import standalone
@@ -10,3 +12,14 @@ from seethrough.renderer.gpu.device.context import standalone
 @pytest.fixture(scope="session")
 def context():
     return standalone()
+
+
+@pytest.fixture(autouse=True)
+def current(request: pytest.FixtureRequest) -> Iterator[None]:
+    """A test that draws does so in its own context: calls go to whichever was made last, and
+    another test may have made one since."""
+    if "context" not in request.fixturenames:
+        yield
+        return
+    with request.getfixturevalue("context"):
+        yield
