@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import platform
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -15,17 +15,30 @@ from seethrough.experiment.study.config import Study
 PACKAGES = ("seethrough", "moderngl", "pyglet", "numpy", "imgui-bundle", "pydantic")
 
 
-OURS = ("experiment", "tasks", "renderer")  # what a session runs
+OURS = ("experiment", "tasks", "renderer")  # what a session runs, beside the package's own modules
 ROOT = Path(__file__).parents[2]
+# Shaders, texts and models are part of the program; what an editor leaves behind is not.
+SUFFIXES = {".py", ".frag", ".vert", ".glsl", ".toml", ".txt", ".glb", ".npz"}
 
 
 @cache
 def program_sha256(root: Path = ROOT) -> str:
     """SHA-256 of the program's files and their names: a version number stays while code changes."""
     digest = hashlib.sha256()
-    for path in sorted(p for package in OURS for p in (root / package).rglob("*.py")):
-        digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes())
+    for name, path in sorted(_files(root)):
+        digest.update(name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
+
+
+def _files(root: Path) -> Iterator[tuple[str, Path]]:
+    """Names and places. In a wheel the rooms lie within the package, in a checkout beside it."""
+    package = root / "seethrough"
+    for path in (package if package.is_dir() else root).glob("*.py"):
+        yield f"seethrough/{path.name}", path
+    for room in OURS:
+        for path in (root / room).rglob("*"):
+            if path.suffix in SUFFIXES and "__pycache__" not in path.parts:
+                yield path.relative_to(root).as_posix(), path
 
 
 def provenance(study: Study, display: Mapping[str, str], **more: object) -> dict[str, object]:

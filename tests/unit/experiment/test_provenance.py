@@ -26,11 +26,31 @@ def test_the_sidecar_holds_the_whole_study_and_where_it_ran():
     assert told["program_sha256"] == program_sha256() and len(program_sha256()) == 64
 
 
+FILES = ("tasks/deep/a.py", "seethrough/registry.py", "renderer/shaders/a.frag",
+         "renderer/models/shipped/a.glb", "experiment/pages/languages/a.toml")  # fmt: skip
+
+
+def _program(root, changed=None, name=None):
+    """The hash of a program of FILES, one of them `changed` or called something else."""
+    for file in FILES:
+        path = root / (name if file == changed and name else file)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("2" if file == changed and not name else "1")
+    return program_sha256(root)
+
+
 def test_any_change_of_the_program_is_another_hash(tmp_path):
-    hashes = []
-    for number, (name, code) in enumerate((("a", "1"), ("a", "2"), ("b", "1"), ("a", "1"))):
-        root = tmp_path / str(number)
-        (root / "tasks" / "deep").mkdir(parents=True)
-        (root / "tasks" / "deep" / f"{name}.py").write_text(code)
-        hashes.append(program_sha256(root))
-    assert hashes[0] == hashes[3] and len({*hashes}) == 3
+    before = _program(tmp_path / "before")
+    assert _program(tmp_path / "again") == before
+    hashes = [_program(tmp_path / str(k), file) for k, file in enumerate(FILES)]
+    assert len({before, *hashes}) == 1 + len(FILES)
+    assert _program(tmp_path / "named", FILES[0], "tasks/deep/b.py") not in {before, *hashes}
+
+
+def test_what_lies_about_is_not_the_program(tmp_path):
+    before = _program(tmp_path / "before")
+    for name in ("tasks/deep/__pycache__/a.toml", "tasks/deep/a.py~"):
+        path = tmp_path / "about" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("x")
+    assert _program(tmp_path / "about") == before
