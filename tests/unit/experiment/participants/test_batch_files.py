@@ -151,12 +151,21 @@ def test_chunks_made_without_duckdb_get_their_parquet_files_later(tmp_path, monk
     assert not (tmp_path / "unfinished").exists()
 
 
-@pytest.mark.parametrize("text", ["[1]", "{}", '{"provenance": 3}', "{", ""])
+NO_SIDECAR = {
+    "[1]": "expected a JSON object",
+    "{}": "provenance: missing: expected a JSON object",
+    '{"provenance": 3}': "provenance = 3: expected a JSON object",
+    "{": "not JSON",
+    "": "not JSON",
+}
+
+
+@pytest.mark.parametrize("text", NO_SIDECAR)
 def test_a_sidecar_that_is_no_json_object_is_refused_in_a_line(tmp_path, text):
     fill(tmp_path, 1)
     (sidecar,) = tmp_path.glob("data/simulated/*/*_trials_data.json")
     sidecar.write_text(text)
-    with pytest.raises(InputError, match=r"trials_data.json: expected a JSON object with a prov"):
+    with pytest.raises(InputError, match=f"trials_data.json: {NO_SIDECAR[text]}"):
         fill(tmp_path, 2)
 
 
