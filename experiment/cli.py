@@ -135,6 +135,25 @@ def _run(words: Sequence[str]) -> int:
         if error.filename is None:
             raise
         return _failed([f"{error.filename}: {error.strerror}"], 2)
+    except Exception as error:
+        line = _of_a_plugin(error)
+        if line is None:
+            raise
+        return _failed([line], 2)
+
+
+def _of_a_plugin(error: Exception) -> str | None:
+    """What to say of an exception in a plug-in of others; None where it is ours."""
+    from seethrough import registry
+
+    if isinstance(error, registry.PluginError):
+        return str(error)
+    found = registry.at_fault(error)
+    if found is None:
+        return None
+    from seethrough.experiment.session.strangers import said
+
+    return f"{' '.join(found)}: {said(*found, error)}"
 
 
 def _let_go() -> None:

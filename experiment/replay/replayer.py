@@ -17,7 +17,7 @@ from seethrough.analysis.load.files import Source, table_in
 from seethrough.analysis.load.person import CHUNK, Session
 from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
-from seethrough.experiment.errors import InputError
+from seethrough.experiment.errors import InputError, one_line
 from seethrough.experiment.files.folders import check_participant, folder_of
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.hand import Hand
@@ -136,7 +136,11 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
         kept_plugins(table_in(provenance, "study"), data)
         study = parse(table_in(provenance, "study"), str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
+        said = f"{error}" if isinstance(error, ValueError) else f"{type(error).__name__} {error}"
+        raise InputError(
+            f"{sidecar}: expected what a session was shown with (provenance, its display and "
+            f"study): {one_line(said)}"
+        ) from None
     study = study.with_places(lambda place: kept(place, data))
     task_sets = session_for(int(row["slot"]), study.plan)
     number = int(row["trial"])

@@ -20,10 +20,13 @@ STEPS = 5  # of confidence, counted from 1
 
 
 def as_asked(task: Task, study: Study, trial: Trial) -> Task:
-    """The task as the study wants it in a trial; a stranger's is watched."""
-    plain = Watched(task) if is_stranger("task", trial.task) else task
+    """The task as the study wants it in a trial; watched if a stranger's code is in it."""
+    for kind, name in (("task", trial.task), ("world", trial.world)):
+        if is_stranger(kind, name):
+            task = Watched(task, kind, name)
+            break
     unsure = study.part(trial.levels).limits.options(trial.task).unsure
-    return opaque(Unsure(plain)) if unsure else plain
+    return opaque(Unsure(task)) if unsure else task
 
 
 def with_confidence(record: TrialRecord, study: Study, world: Surroundings) -> TrialRecord:

@@ -202,22 +202,29 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
     pairs = [*planned.about.items(), *((planned.factor, level) for level in planned.of)]
 
     language = study.session_part(slot).study.language
+    its = partial(called, "question", planned.use)  # the kind may be a stranger's
 
     def step(number: int) -> Step:
         def ask(person: Asks, given: Given) -> list[Row]:
             known = {item: said.value for (item, at), said in given.items() if at == cell}
             now = replace(asking, given=known)
-            pages = called("question", planned.use, "pages", partial(kind.pages, parameters, now))
-            page = words.named(study, pages[number], pairs, language)
-            page = replace(page, simulate=partial(kind.simulate, parameters, page))
-            answer = partial(kind.rows, parameters, now, number, person.ask(page))
-            rows = called("question", planned.use, "rows", answer)
-            return [{**row, **planned.about, **planned.mark} for row in rows]
+            page = its("pages", lambda: kind.pages(parameters, now)[number])
+            page = words.named(study, page, pairs, language)
+            simulate = partial(kind.simulate, parameters, page)
+            page = replace(
+                page, simulate=lambda someone: its("simulate", partial(simulate, someone))
+            )
+            answers = person.ask(page)
+            more = {**planned.about, **planned.mark}
+            return its(
+                "rows",
+                lambda: [{**row, **more} for row in kind.rows(parameters, now, number, answers)],
+            )
 
-        last = kind.last(parameters, asking, number)
-        return Step(tuple((item, cell) for item in last), ask, partial(holds, planned.given, at))
+        last = its("last", lambda: [(item, cell) for item in kind.last(parameters, asking, number)])
+        return Step(tuple(last), ask, partial(holds, planned.given, at))
 
-    for number in range(kind.count(parameters)):
+    for number in its("count", lambda: range(kind.count(parameters))):
         yield step(number)
 
 

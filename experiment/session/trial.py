@@ -254,8 +254,7 @@ class Running:
         if not isinstance(event, Tick):
             self._within = event.within
         event = self._hand.pointed(event, self.view)
-        told = partial(self._hand.on_event, event, self.view)
-        used = called("technique", self._technique_name, "on_event", told)
+        used = self._hand.on_event(event, self.view)
         state = self._state if used else self._task.on_event(self._state, event)
         if state is not self._state:
             self._state, self._outcome = state, self._task.outcome(state)

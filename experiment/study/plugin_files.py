@@ -118,6 +118,8 @@ def provide(own: PluginFile, path: Path, where: str) -> str:
     sys.modules[module.__name__] = module  # dataclasses look there
     try:
         exec(compile(own.content, str(path), "exec"), module.__dict__)
+        if not hasattr(module, constant):
+            raise InputError(f"{where}: expected a {constant} in it")
         plugin = getattr(module, constant)
         name = str(plugin.name)
         if own.name not in ("", name):
@@ -129,8 +131,6 @@ def provide(own: PluginFile, path: Path, where: str) -> str:
         raise
     except registry.PluginError as error:
         raise InputError(f"{where}: {error}") from None
-    except AttributeError as error:
-        raise InputError(f"{where}: expected a {constant} in it ({one_line(str(error))})") from None
     except Exception as error:  # its code may raise anything
         said = one_line(f"{type(error).__name__}: {error}")
         raise InputError(f"{where}: cannot be loaded ({said})") from None
