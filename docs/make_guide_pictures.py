@@ -24,10 +24,10 @@ from seethrough.experiment.session.trial import LEAVE, MENU, TrialRun
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import Trial, session_for
 from seethrough.experiment.study.ready import one_page
+from seethrough.renderer.events import KeyPress
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
-from seethrough.tasks.kit.events import KeyPress
 from seethrough.tasks.kit.hud import practice_mark
 
 SIZE = (800, 600)

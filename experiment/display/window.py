@@ -33,8 +33,7 @@ from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.key_names import KEY_NAMES
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.pages.texts import Texts
-from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     FocusChange,
     KeyPress,
@@ -47,6 +46,7 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
+from seethrough.tasks.kit.base import View
 
 if TYPE_CHECKING:
     from seethrough.experiment.study.study_tables import DisplayTable

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from seethrough.renderer.events import Event
 from seethrough.tasks.kit.base import Outcome, View
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import FloorPlan
 
 if TYPE_CHECKING:

@@ -28,10 +28,10 @@ from seethrough.experiment.study.own_model_files import kept
 from seethrough.experiment.study.plugin_files import kept as kept_plugins
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.experiment.study.translations import texts_of
+from seethrough.renderer import events as ev
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
 
 KINDS = {

@@ -10,10 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 from seethrough.experiment.session.strangers import Made, called
-from seethrough.renderer.scene.look import PLAIN, Look
-from seethrough.renderer.techniques.base import Parameters, Shot
-from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     KeyPress,
     KeyRelease,
@@ -21,6 +18,9 @@ from seethrough.tasks.kit.events import (
     PointerPress,
     Wheel,
 )
+from seethrough.renderer.scene.look import PLAIN, Look
+from seethrough.renderer.techniques.base import Parameters, Shot
+from seethrough.tasks.kit.base import View
 
 HEIGHT = 1000  # of the shot that events are told in: positions are in view units
 PICKED = 600  # of the picture in which is looked what a click hits,

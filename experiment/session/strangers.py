@@ -20,8 +20,8 @@ from numpy.random import Generator
 from seethrough import registry
 from seethrough.experiment.display.display import Leave
 from seethrough.experiment.errors import InputError, one_line
+from seethrough.renderer.events import Event
 from seethrough.tasks.kit.base import Example, Outcome, Setting, Task, View
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import FloorPlan
 from seethrough.tasks.kit.world import Place
 

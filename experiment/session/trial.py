@@ -18,12 +18,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.scene.look import Look
-from seethrough.renderer.techniques.base import Parameters
-from seethrough.tasks.explore import EXPLORE
-from seethrough.tasks.kit.base import Outcome, Task, View, opaque
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     FocusChange,
     KeyPress,
@@ -35,6 +30,11 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import Look
+from seethrough.renderer.techniques.base import Parameters
+from seethrough.tasks.explore import EXPLORE
+from seethrough.tasks.kit.base import Outcome, Task, View, opaque
 from seethrough.tasks.kit.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).

@@ -22,6 +22,7 @@ from seethrough.experiment.suites.finding import Finding
 from seethrough.experiment.suites.played import no_clock
 from seethrough.experiment.suites.technique_scenes import Case
 from seethrough.experiment.suites.variants import pairwise, refused
+from seethrough.renderer import events
 from seethrough.renderer.declared import declared
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.explain import explain
@@ -31,7 +32,6 @@ from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.standard.opaque import Standard
-from seethrough.tasks.kit import events
 from seethrough.tasks.kit.gestures import after as gestures_done
 
 if TYPE_CHECKING:

@@ -1,6 +1,6 @@
 """What the pointer does to techniques that follow it: its place, and a number that keys change.
 
-An event is told by its class's name, as tasks/kit/events.py has them: the renderer lies below it.
+An event is told by its class's name, as renderer/events.py has them: the renderer lies below it.
 Where the pointer has not moved, or is captured to walk, the place is the middle of the view.
 """
 

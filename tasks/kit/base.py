@@ -11,11 +11,11 @@ from numpy.random import Generator
 from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import Declares
+from seethrough.renderer.events import Event
 from seethrough.renderer.look.dressed import dressed
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan, Point
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Place, Texts, World, WorldParameters

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from seethrough.renderer.techniques.base import Gesture, Own, Shot
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     KeyPress,
     KeyRelease,
@@ -14,6 +13,7 @@ from seethrough.tasks.kit.events import (
     SecondRelease,
     Wheel,
 )
+from seethrough.renderer.techniques.base import Gesture, Own, Shot
 
 
 def events_of(gesture: Gesture, time: float, seconds: float) -> list[Event]:

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import Declares, key
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.events import Event
 
 OWN, SHARED, FILES = "own", "shared", "files"
 ANYWHERE: tuple[str, ...] = ("*",)  # the worlds of a task that takes any place with targets

@@ -41,7 +41,7 @@ from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
-from seethrough.tasks.kit.events import PointerMove
+from seethrough.renderer.events import PointerMove
 
 data, largest, user = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 if user:  # root, whom no permission stops, becomes somebody else

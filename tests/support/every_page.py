@@ -12,9 +12,9 @@ from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design import session_for
 from seethrough.experiment.study.ready import one_page
 from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.renderer.events import KeyPress, PointerPress
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
-from seethrough.tasks.kit.events import KeyPress, PointerPress
 from seethrough.tasks.kit.hud import FloorPlan, practice_mark
 
 

@@ -25,8 +25,8 @@ from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
 from seethrough.experiment.study.described import design_entry
+from seethrough.renderer.events import KeyPress, PointerMove, Tick
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
 VIEWS = {
     "standard": {"technique": {"use": "standard"}},

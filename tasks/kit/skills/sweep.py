@@ -12,12 +12,12 @@ from math import acos
 
 import numpy as np
 
+from seethrough.renderer.events import Event, KeyPress, KeyRelease
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import screen_boxes
 from seethrough.renderer.scene.visibility import Visibility, better
 from seethrough.renderer.techniques.base import Floats, Own, Shot
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease
 from seethrough.tasks.kit.skills.hands import Hands
 from seethrough.tasks.kit.skills.mood import Mood
 

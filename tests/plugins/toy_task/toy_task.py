@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, replace
 
+from seethrough.renderer.events import KeyPress
 from seethrough.tasks.kit.base import Basics, Outcome, View
 from seethrough.tasks.kit.controls import Orbit
-from seethrough.tasks.kit.events import KeyPress
 from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import CORRECT
 from seethrough.tasks.kit.skills.hands import Hands

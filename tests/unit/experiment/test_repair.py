@@ -16,8 +16,8 @@ from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.described import design_entry
 from seethrough.experiment.study.design import session_for
+from seethrough.renderer.events import Tick
 from seethrough.tasks.kit.base import Outcome
-from seethrough.tasks.kit.events import Tick
 
 STUDY = load("demo")
 TRIALS = [t for s in session_for(1, STUDY.plan) for t in s.trials]

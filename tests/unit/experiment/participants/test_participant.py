@@ -10,10 +10,10 @@ from plain_trials import QUIET, begun, play, sight
 from played_tasks import PUBLISHED, begin
 
 from seethrough.experiment.people.participant import SimulatedParticipant
+from seethrough.renderer.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, PointerPress, Tick
 from seethrough.tasks.kit.skills.effects import EFFECTS, plan_effects
 from seethrough.tasks.kit.skills.hands import Hands
 from seethrough.tasks.kit.skills.profile import PROFILES, Profile, profile

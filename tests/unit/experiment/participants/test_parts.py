@@ -13,11 +13,11 @@ from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, Te
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons import person
 from seethrough.experiment.people.persons.person import Person
+from seethrough.renderer.events import PointerMove
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.count_in_building.simulate import Tally
-from seethrough.tasks.kit.events import PointerMove
 from seethrough.tasks.kit.letters import LETTERS, letter_points
 from seethrough.tasks.kit.skills.counting import seconds_to_count, slips
 from seethrough.tasks.kit.skills.effects import plan_effects

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from seethrough.experiment.people.runs.looks import KeptLooks
+from seethrough.renderer.events import KeyPress, KeyRelease, PointerMove, Tick
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.controls import changed, walk
-from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, Tick
 from seethrough.tasks.kit.skills.glance import CLEAR, WINDOW_PIXELS, likely
 from seethrough.tasks.kit.skills.profile import AVERAGE
 from seethrough.tasks.kit.skills.sight import sight
