@@ -117,3 +117,19 @@ Event = (
     | FocusChange
     | Tick
 )
+
+
+def taken_as(event: Event) -> str:
+    """An event as techniques and tasks name what they take: "pointer", "wheel", "second button" or
+    "key:q"; "" for what nobody can take."""
+    match event:
+        case KeyPress() | KeyRelease():
+            return f"key:{event.key}"
+        case Wheel():
+            return "wheel"
+        case SecondPress() | SecondRelease():
+            return "second button"
+        case PointerMove() | PointerPress() | PointerRelease():
+            return "pointer"
+        case FocusChange() | Tick():
+            return ""

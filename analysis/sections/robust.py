@@ -78,14 +78,14 @@ def _name(context: Context, pair: Pair) -> str:
 
 def _sentence(rows: tuple[Mapping[str, object], ...], alpha: float) -> Prose:
     """Which contrasts fall on another side of α."""
-    other = [
-        str(r["label"])
-        for r in rows
-        if is_defined(r["p"])
-        and any(is_defined(r[c]) and (r[c] < alpha) != (r["p"] < alpha)  # type: ignore[operator]
-                for c in ("p_flip", "p_without"))
-    ]  # fmt: skip
+    other = [str(r["label"]) for r in rows if _differs(r, alpha)]
     if not other:
         return say("No contrast falls on another side of α without normality or without outliers.")
     return say(f"On another side of α without normality or without outliers: {'; '.join(other)}.",
                kind="warning")  # fmt: skip
+
+
+def _differs(row: Mapping[str, object], alpha: float) -> bool:
+    """Whether a contrast falls on another side of α in one of the other ways."""
+    p, others = row["p"], (row["p_flip"], row["p_without"])
+    return is_defined(p) and any(is_defined(o) and (o < alpha) != (p < alpha) for o in others)

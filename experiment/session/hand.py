@@ -13,10 +13,9 @@ from seethrough.experiment.session.strangers import Made, called
 from seethrough.renderer.events import (
     Event,
     KeyPress,
-    KeyRelease,
     PointerMove,
     PointerPress,
-    Wheel,
+    taken_as,
 )
 from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Parameters, Shot
@@ -47,7 +46,7 @@ class Hand:
 
     def takes(self, event: Event) -> bool:
         """Whether the technique may use up such an event."""
-        return kind_of(event) in self._rules.takes
+        return taken_as(event) in self._rules.takes
 
     def shown(self, view: View) -> View:
         """A task's view as it looks, with the technique's state."""
@@ -91,15 +90,3 @@ def _pair(found: tuple[Made, object]) -> tuple[Made, bool]:
     """The next state, and whether the event was used up."""
     state, used = found
     return state, bool(used)
-
-
-def kind_of(event: Event) -> str:
-    """An event as techniques name what they take: "pointer", "wheel", "second button", "key:q"."""
-    if isinstance(event, KeyPress | KeyRelease):
-        return f"key:{event.key}"
-    if isinstance(event, Wheel):
-        return "wheel"
-    name = type(event).__name__
-    if name.startswith("Second"):
-        return "second button"
-    return "pointer" if name.startswith("Pointer") else name.lower()

@@ -1,6 +1,5 @@
 """What the pointer does to techniques that follow it: its place, and a number that keys change.
 
-An event is told by its class's name, as renderer/events.py has them: the renderer lies below it.
 Where the pointer has not moved, or is captured to walk, the place is the middle of the view.
 """
 
@@ -11,7 +10,8 @@ from math import ceil, log
 
 import numpy as np
 
-from seethrough.renderer.techniques.base import Floats, Gesture, Own, Shot
+from seethrough.renderer.events import Event, KeyPress, PointerMove, Wheel
+from seethrough.renderer.techniques.base import Floats, Gesture, Shot
 
 MOST_STEPS = 60  # of the wheel at once: 1.1 to that power is 300
 
@@ -67,15 +67,14 @@ def reaching(state: Pointing, shot: Shot, point: Floats, step: float) -> tuple[G
     return (Gesture("pointer", place), *turn)
 
 
-def followed(state: Pointing, event: Own, step: float) -> tuple[Pointing, bool]:
+def followed(state: Pointing, event: Event, step: float) -> tuple[Pointing, bool]:
     """The state after an event: the pointer moves it, q and e bring it nearer and farther by a
     `step` (a share), and so does the wheel. A move of the pointer is left to others as well."""
-    kind = type(event).__name__
-    if kind == "PointerMove":
+    if isinstance(event, PointerMove):
         return replace(state, pointer=(event.x, event.y)), False
-    if kind == "KeyPress" and event.key in ("q", "e"):
+    if isinstance(event, KeyPress) and event.key in ("q", "e"):
         factor = 1 + step if event.key == "e" else 1 / (1 + step)
         return replace(state, depth=state.depth * factor), True
-    if kind == "Wheel":
+    if isinstance(event, Wheel):
         return replace(state, depth=state.depth * (1 + step) ** event.dy), True
     return state, False

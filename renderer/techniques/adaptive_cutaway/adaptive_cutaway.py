@@ -47,7 +47,7 @@ class Cones:
     most: Floats
 
 
-class AdaptiveCutaway(removal.Removal):
+class AdaptiveCutaway(removal.Removal[AdaptiveParameters, None, Cones]):
     """Cones before the points of targets."""
 
     name = "adaptive_cutaway"

@@ -44,7 +44,7 @@ class Wedge:
     depth: float
 
 
-class Cutaway(removal.Removal):
+class Cutaway(removal.Removal[CutawayParameters, None, list[Wedge]]):
     """Few planes cut off what stands before a target."""
 
     name = "cutaway"

@@ -16,7 +16,7 @@ from seethrough.renderer.events import Event, KeyPress, KeyRelease
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import screen_boxes
 from seethrough.renderer.scene.visibility import Visibility, better
-from seethrough.renderer.techniques.base import Floats, Own, Shot
+from seethrough.renderer.techniques.base import Floats, Parameters, Shot
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.skills.hands import Hands
 from seethrough.tasks.kit.skills.mood import Mood
@@ -31,7 +31,7 @@ class Sweep:
     """What a person's hands do with a technique (its parameters) in a trial, in a view so wide for
     its height. `spent` is how many seconds that took by now."""
 
-    def __init__(self, mood: Mood, technique: Own, aspect: float) -> None:
+    def __init__(self, mood: Mood, technique: Parameters, aspect: float) -> None:
         self.spent = 0.0
         self._mood, self._technique = mood, technique
         self._size = (round(aspect * HEIGHT), HEIGHT)
@@ -116,7 +116,7 @@ class Sweep:
         ]  # fmt: skip
 
 
-def sweep_of(mood: Mood, technique: Own | None, aspect: float) -> Sweep | None:
+def sweep_of(mood: Mood, technique: Parameters | None, aspect: float) -> Sweep | None:
     """For a technique that hands work; None for all others."""
     if technique is None or not technique.technique.active(technique):
         return None
