@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from seethrough.analysis.comparison import decisive
 from seethrough.analysis.design import Contrast, Prediction
 from seethrough.analysis.measures import TASK
 from seethrough.analysis.page.blocks import Cited, Prose, Table
@@ -68,9 +67,3 @@ def rows_of(
     if table is None:
         return []
     return [(table, r) for r in table.rows if str(r["contrast"]).partition("/")[2] == contrast.key]
-
-
-def is_shown(row: Mapping[str, object], alpha: float) -> bool:
-    """Whether a row's deciding p shows a difference."""
-    p = decisive(row)[1]
-    return is_defined(p) and p < alpha

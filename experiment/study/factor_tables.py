@@ -50,7 +50,6 @@ NAMED = "a name of 1 to 32 lower-case letters, digits and _, a letter first"
 LEVEL = re.compile(r"-?[A-Za-z0-9][A-Za-z0-9_.-]{0,30}")
 LEVELLED = "a level's name of 1 to 32 letters, digits, _, . and -"
 ORDERS = (*SQUARES, MIXED)
-MOST_LEVELS = 100
 BARE = "a bare dotted key, as in technique.use = …: in quotes it is one name with dots"
 
 

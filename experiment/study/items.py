@@ -29,8 +29,3 @@ def letters(number: int) -> str:
         number, rest = divmod(number - 1, len(LETTERS))
         name = LETTERS[rest] + name
     return name
-
-
-def items_needed(cells: int, trials: int, practice: int) -> int:
-    """Items of a task that a study needs where `cells` cells of a person share it."""
-    return cells * (trials + practice)

@@ -137,7 +137,7 @@ def clean_rows(
     for r in members:
         if witness[r] >= 0 and alive[witness[r]]:
             continue
-        witness[r] = -1
+        witness[r] = CLEAN
         for f in by_size:
             code = look(codes, r, f, geometry)
             if code == OPEN:

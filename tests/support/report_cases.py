@@ -20,7 +20,6 @@ SECONDS = {"count": 50.0, "pattern": 20.0, "unique": 55.0, "count_in_building": 
 ITEMS = ("efficiency", "ease", "enjoy")
 LETTERS = "CKRXY"
 LIMIT = 90.0  # seconds, of the folder with timed-out trials
-RUSHED = 0.05  # share of a trial's frames above which it is missed frames that exclude it
 
 VIEW = "transparency"
 
