@@ -64,7 +64,7 @@ def is_local(technique: Parameters) -> bool:
 
 def _direction(shot: Shot, column: float, row: float) -> Floats:
     """(3,) from the eye through a place in pixels, in the world, of length 1."""
-    slope = 2 * np.tan(shot.camera.fov_y / 2) / shot.size[1]
+    slope = shot.camera.pixel(shot.size[1])
     across, up = column - shot.size[0] / 2, shot.size[1] / 2 - row
     way: Floats = shot.camera.rotation @ np.array([across * slope, up * slope, -1.0])
     return way / float(np.linalg.norm(way))

@@ -8,8 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import ceil, log
 
-import numpy as np
-
 from seethrough.renderer.events import Event, KeyPress, PointerMove, Wheel
 from seethrough.renderer.techniques.base import Floats, Gesture, Shot
 
@@ -33,13 +31,8 @@ class Pointing:
         column, row = self.pixel(shot)
         right, up, back = shot.camera.rotation.T
         x, y = column - shot.size[0] / 2, shot.size[1] / 2 - row
-        found: Floats = (x * right + y * up) / lens(shot) - back
+        found: Floats = (x * right + y * up) / shot.camera.lens(shot.size[1]) - back
         return found
-
-
-def lens(shot: Shot) -> float:
-    """Pixels for a slope of 1."""
-    return float(0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
 
 
 def place_of(shot: Shot, point: Floats) -> tuple[float, float] | None:
@@ -49,7 +42,7 @@ def place_of(shot: Shot, point: Floats) -> tuple[float, float] | None:
     if depth <= shot.camera.near:
         return None
     right, up, _ = shot.camera.rotation.T
-    scale = lens(shot) / depth / shot.size[1]
+    scale = shot.camera.lens(shot.size[1]) / depth / shot.size[1]
     x, y = shot.aspect / 2 + float(away @ right) * scale, 0.5 - float(away @ up) * scale
     return (x, y) if 0 <= x <= shot.aspect and 0 <= y <= 1 else None
 

@@ -124,7 +124,7 @@ def _lined(seen: Surfaces, removed: Bools, kept: Bools, doubt: Bools) -> tuple[B
 def uncertain(seen: Surfaces) -> Floats:
     """(m,) by how far a surface's place may differ in float32, in world units: 1/256 pixel along
     the surface, and rounding of numbers as large as its distance."""
-    lens = 0.5 * seen.shot.size[1] / np.tan(seen.shot.camera.fov_y / 2)
+    lens = seen.shot.camera.lens(seen.shot.size[1])
     along = np.linalg.norm(seen.offset, axis=1) / np.maximum(seen.depth, 1e-300)
     return seen.slack * along + seen.depth * along * (1 / (256 * lens) + 1e-5)
 

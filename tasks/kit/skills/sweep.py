@@ -104,7 +104,7 @@ class Sweep:
         high = np.minimum(boxes.extents[inside, 2:].max(axis=0), self._size)
         share = (np.arange(PLACES) + 0.5) / PLACES
         right, up, _ = camera.rotation.T
-        lens = HEIGHT / 2 / np.tan(camera.fov_y / 2)
+        lens = camera.lens(HEIGHT)
         return [
             camera.eye + depth * (
                 camera.forward
