@@ -359,7 +359,7 @@ def test_a_stranger_of_any_kind_may_only_end_the_session(own, kind, what, head, 
     path = own / f"toy_{kind}.py"
     code = path.read_text("utf-8")
     if "camera" in head:
-        code = code.replace("return orbit(p, aspect)", "return Lost()")
+        code = code.replace("return controls.orbit(p, aspect)", "return Lost()")
         code += f"\n\nclass Lost:\n    {head}\n        {act}\n"
     else:
         code = code.replace(f"    {head}", f"    def unused_{head[4:]}")
