@@ -26,7 +26,7 @@ FOLDER = "models"
 
 def own_models(place: WorldParameters) -> tuple[OwnModel, ...]:
     """The models that a world's parameters bring along."""
-    return tuple(getattr(place, "models", ()))
+    return place.models if isinstance(place, BuildingParameters) else ()
 
 
 def models_of(study: Study) -> tuple[OwnModel, ...]:
