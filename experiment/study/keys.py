@@ -17,6 +17,7 @@ from pydantic.fields import FieldInfo
 
 from seethrough import registry
 from seethrough.experiment.errors import shown
+from seethrough.experiment.generated import write_anew
 from seethrough.experiment.study import plugins
 from seethrough.experiment.study.factor_tables import FACTOR_KEYS
 from seethrough.experiment.study.question_table import QuestionTable
@@ -226,11 +227,5 @@ The column `correct` of a trial says it (data/README.md):
 """
 
 
-def main() -> int:
-    """Write the reference anew."""
-    REFERENCE.write_text(reference(), "utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_anew(REFERENCE, reference, "It lists what a study file may say."))

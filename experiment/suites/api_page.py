@@ -10,6 +10,7 @@ from pathlib import Path
 from types import ModuleType
 
 from seethrough import api
+from seethrough.experiment.generated import write_anew
 
 SENTENCE = re.compile(r"(?<=[^.])\.\s+(?=[A-Z`])")
 PAGE = Path(__file__).parents[2] / "docs" / "api.md"
@@ -85,11 +86,5 @@ goes or changes its meaning. What stands nowhere here may move at any time. The 
 `seethrough new KIND` writes a package with one to begin with."""
 
 
-def main() -> int:
-    """Write the page anew."""
-    PAGE.write_text(page(), "utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_anew(PAGE, page, "It lists what seethrough.api has."))
