@@ -8,7 +8,8 @@ stranger's package names its object in the entry points of a group, as in its py
     my_lens = "my_package:TECHNIQUE"
 
 Names are found without importing anything; an object is imported when it is asked for. A study may
-bring one along in a file (experiment/study/plugin_files.py): it is `provided` to this process.
+bring one along in a file (experiment/study/beside/plugin_files.py): it is `provided` to this
+process.
 """
 
 from __future__ import annotations

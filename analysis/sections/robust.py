@@ -10,8 +10,8 @@ from seethrough.analysis.cells import Cells
 from seethrough.analysis.comparison import Pair
 from seethrough.analysis.measures import cells_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
-from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.measured import pairs_of
+from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.tests.measured import pairs_of
 from seethrough.analysis.stats.flips import FAR, outliers, sign_flip
 from seethrough.analysis.stats.paired import one_sample
 from seethrough.analysis.stats.undefined import Number, Undefined, is_defined

@@ -49,7 +49,7 @@ from seethrough.renderer.events import (
 from seethrough.tasks.kit.base import View
 
 if TYPE_CHECKING:
-    from seethrough.experiment.study.study_tables import DisplayTable
+    from seethrough.experiment.study.tables.study_tables import DisplayTable
     from seethrough.renderer.techniques.base import Parameters
 
 FLIPS = 30  # that measure the refresh rate: half a second at 60 Hz

@@ -37,7 +37,7 @@ from seethrough.renderer.events import Event
 from seethrough.tasks.kit.base import View
 
 if TYPE_CHECKING:
-    from seethrough.experiment.study.design import Trial
+    from seethrough.experiment.study.design.design import Trial
 
 
 @dataclass(frozen=True)

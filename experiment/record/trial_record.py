@@ -11,7 +11,7 @@ from seethrough.tasks.kit.base import Outcome, View
 from seethrough.tasks.kit.hud import FloorPlan
 
 if TYPE_CHECKING:
-    from seethrough.experiment.study.design import Trial
+    from seethrough.experiment.study.design.design import Trial
 
 
 @dataclass(frozen=True)

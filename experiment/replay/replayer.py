@@ -22,10 +22,10 @@ from seethrough.experiment.files.folders import check_participant, folder_of
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.hand import Hand
 from seethrough.experiment.session.options import as_asked
+from seethrough.experiment.study.beside.own_model_files import kept
+from seethrough.experiment.study.beside.plugin_files import kept as kept_plugins
 from seethrough.experiment.study.config import Study, parse
-from seethrough.experiment.study.design import Trial, session_for
-from seethrough.experiment.study.own_model_files import kept
-from seethrough.experiment.study.plugin_files import kept as kept_plugins
+from seethrough.experiment.study.design.design import Trial, session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.experiment.study.translations import texts_of
 from seethrough.renderer import events as ev

@@ -9,8 +9,8 @@ from seethrough.experiment.pages.pages import Page, Scale
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.strangers import Watched, is_stranger
 from seethrough.experiment.session.surroundings import Surroundings
-from seethrough.experiment.study.design import Trial
-from seethrough.experiment.study.factors import Levels
+from seethrough.experiment.study.design.design import Trial
+from seethrough.experiment.study.design.factors import Levels
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.kit.base import Task, opaque
 from seethrough.tasks.kit.measure import CONFIDENCE

@@ -22,13 +22,13 @@ from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
 from seethrough.experiment.session.moments import QUESTION_STREAM, Asked, Moment, asked_at, in_order
 from seethrough.experiment.session.strangers import called
-from seethrough.experiment.study.described import each_of
-from seethrough.experiment.study.design import PARTICIPANT, generator
-from seethrough.experiment.study.factors import Levels
-from seethrough.experiment.study.question_table import Wanted
-from seethrough.experiment.study.reading import Question
-from seethrough.experiment.study.ready import question
+from seethrough.experiment.study.design.design import PARTICIPANT, generator
+from seethrough.experiment.study.design.factors import Levels
+from seethrough.experiment.study.shown.described import each_of
 from seethrough.experiment.study.study import Study
+from seethrough.experiment.study.tables.question_table import Wanted
+from seethrough.experiment.study.tables.reading import Question
+from seethrough.experiment.study.tables.ready import question
 from seethrough.renderer.declared import Declares
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters

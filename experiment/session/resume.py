@@ -17,7 +17,7 @@ from seethrough.experiment.record.chain import ANSWERS_TABLE
 from seethrough.experiment.record.record_files import whole_rows
 from seethrough.experiment.session.questionnaire import Given, Item, Said, item_of, said_in
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import TaskSet, session_for
+from seethrough.experiment.study.design.design import TaskSet, session_for
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import TaskSet, Trial, session_for
+from seethrough.experiment.study.design.design import TaskSet, Trial, session_for
 from seethrough.tasks.kit.base import OwnControls, Task
 from seethrough.tasks.kit.unsure import UNKNOWN
 from seethrough.tasks.worlds.building.building_parameters import METRES

@@ -16,7 +16,7 @@ from seethrough.experiment.session.options import as_asked, with_confidence
 from seethrough.experiment.session.strangers import called
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.events import (
     Event,

@@ -1,8 +1,8 @@
 """Which item of a task each trial asks for, where a world's items are counted: those of files.
 
-Sets of items rotate over a person's cells as sets of scenes do (experiment/study/items.py): a set
-is a run of items, as long as a cell's trials and practice, in the study's order or one drawn from
-its seed.
+Sets of items rotate over a person's cells as sets of scenes do (experiment/study/design/items.py):
+a set is a run of items, as long as a cell's trials and practice, in the study's order or one drawn
+from its seed.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from seethrough.experiment.study.design import (
+from seethrough.experiment.study.design.design import (
     STUDY_SCENES,
     TRAINING_TRIAL,
     Trial,
     generator,
 )
-from seethrough.experiment.study.factors import CHANGED, Cell
+from seethrough.experiment.study.design.factors import CHANGED, Cell
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import TASKS, WORLDS
 from seethrough.tasks.kit.base import Counts, Needs, Setting

@@ -9,7 +9,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from seethrough.experiment.study.design import generator
+from seethrough.experiment.study.design.design import generator
 from seethrough.renderer.events import KeyPress, PointerMove, Tick
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer

@@ -24,7 +24,7 @@ from seethrough.experiment.session import strangers
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
-from seethrough.experiment.study import plugin_files
+from seethrough.experiment.study.beside import plugin_files
 from seethrough.experiment.study.config import load, parse
 from seethrough.experiment.suites.suite import findings
 from seethrough.tasks.catalog import TASKS

@@ -8,7 +8,7 @@ import pytest
 from recorded_session import FACTORS, STUDY, Handling, play_recorded
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands.replay import _verify as verify
+from seethrough.experiment.commands.sessions.replay import _verify as verify
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.session.hand import Hand
 from seethrough.renderer.events import KeyPress, PointerMove, Tick, Wheel

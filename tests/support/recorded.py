@@ -10,8 +10,8 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.software import provenance
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.renderer.events import KeyPress, PointerMove, Tick
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene

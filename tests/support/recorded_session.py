@@ -14,7 +14,7 @@ from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import provenance
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.renderer.events import (
     KeyPress,
     KeyRelease,

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.tasks.kit.base import Outcome
 
 SECONDS = {"count": 50.0, "pattern": 20.0, "unique": 55.0, "count_in_building": 120.0}

@@ -28,7 +28,7 @@ from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import cell, csv_line, header_of
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 
 CHUNK = 16  # participants a folder: the published study's number
 NAME = re.compile(r"S(\d{5,})-S(\d{5,})")

@@ -15,7 +15,7 @@ import numpy as np
 from seethrough.experiment.people.runs.look_tables import Draw, TableEyes
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import STUDY_SCENES, Trial, generator
+from seethrough.experiment.study.design.design import STUDY_SCENES, Trial, generator
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.look import PLAIN

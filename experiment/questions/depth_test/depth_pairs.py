@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture
-from seethrough.experiment.study.design import STUDY_SCENES, generator
+from seethrough.experiment.study.design.design import STUDY_SCENES, generator
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Object

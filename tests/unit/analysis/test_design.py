@@ -14,7 +14,7 @@ from seethrough.analysis.load.study import load_study
 from seethrough.analysis.page.blocks import Table, walk
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.report import Options, make_report
-from seethrough.analysis.sections.omnibus import complete
+from seethrough.analysis.sections.tests.omnibus import complete
 
 
 def read(**entry):

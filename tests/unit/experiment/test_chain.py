@@ -13,7 +13,7 @@ from published_design import published
 from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.renderer.events import KeyPress, Tick
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene

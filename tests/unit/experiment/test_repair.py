@@ -14,8 +14,8 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.renderer.events import Tick
 from seethrough.tasks.kit.base import Outcome
 

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands import calibrate as command
+from seethrough.experiment.commands.data import calibrate as command
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.fitted.calibration import (
@@ -35,7 +35,7 @@ from seethrough.experiment.people.persons.person import TRAITS, Person, mood_for
 from seethrough.experiment.people.persons.profile_file import SHIPPED, find, read, write
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import generator
+from seethrough.experiment.study.design.design import generator
 from seethrough.tasks.kit.skills.profile import AVERAGE
 
 

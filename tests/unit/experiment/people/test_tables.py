@@ -21,7 +21,7 @@ from seethrough.experiment.people.runs.look_tables import (
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, fingerprint
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import generator
+from seethrough.experiment.study.design.design import generator
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.controls import orbit, walk
@@ -122,7 +122,7 @@ def shown(level):
 
 
 def trial_of(study, task, level):
-    from seethrough.experiment.study.design import session_for
+    from seethrough.experiment.study.design.design import session_for
 
     sets = session_for(1, study.plan)
     return next(
