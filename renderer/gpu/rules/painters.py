@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+import moderngl
+
+from seethrough.renderer.gpu.rules.list_painter import NEEDED, ListPainter
 from seethrough.renderer.gpu.rules.order_painter import OrderPainter
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
@@ -13,13 +16,23 @@ from seethrough.renderer.techniques.base import PEELS, REMOVAL, Parameters
 GHOSTS = "ghosts"  # lines of what was removed, over what is left
 ORDERED = "ordered"  # polygon by polygon, in the order of a method
 
-Painter = PeelPainter | RemovalPainter | OrderPainter
+LISTS = "lists"  # surfaces that show through one another, without lines along their edges
+
+Painter = PeelPainter | RemovalPainter | OrderPainter | ListPainter
+
+
+def _listed(context: moderngl.Context, defines: Sequence[str]) -> Painter:
+    """In one pass, where the context can."""
+    able = context.version_code >= NEEDED
+    return ListPainter(context, defines) if able else PeelPainter(context, defines)
+
 
 PAINTERS: Mapping[str, Callable[..., Painter]] = {
     PEELS: PeelPainter,
     REMOVAL: RemovalPainter,
     GHOSTS: partial(PeelPainter, ghosts=True),
     ORDERED: OrderPainter,
+    LISTS: _listed,
 }
 
 
@@ -30,4 +43,6 @@ def of(technique: Parameters) -> tuple[str, ...]:
         return (ORDERED,)
     if rules.painter == REMOVAL and rules.edges(technique):
         return (REMOVAL, GHOSTS)
+    if rules.painter == PEELS and not rules.edges(technique):
+        return (LISTS,)
     return (rules.painter,)
