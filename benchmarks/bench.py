@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("bench", choices=BENCHES, help="what to measure")
     parser.add_argument(
-        "--only", metavar="PART,…", help="some parts of the table (simulate, statistics, studies)"
+        "--only", metavar="PART,…", help="some parts of its table alone, where it has parts"
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table to a file")
     parser.add_argument(
@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--figure",
         type=Path,
         metavar="FILE",
-        help="draw it, as .svg or .png (accuracy, ordering_accuracy, simulate)",
+        help="draw it, as .svg or .png, where it has a figure",
     )
 
 

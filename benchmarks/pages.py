@@ -18,7 +18,7 @@ from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.session import questionnaire
 from seethrough.experiment.study.config import parse
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.translations import texts_of
 from seethrough.renderer.gpu.device.context import standalone

@@ -22,12 +22,12 @@ from seethrough.experiment.session.questionnaire import after, asked, before
 from seethrough.experiment.session.session import _feedback, _instruction, _page
 from seethrough.experiment.session.trial import LEAVE, MENU, TrialRun
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import Trial, session_for
-from seethrough.experiment.study.ready import one_page
+from seethrough.experiment.study.design.design import Trial, session_for
+from seethrough.experiment.study.tables.ready import one_page
+from seethrough.renderer.events import KeyPress
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
-from seethrough.tasks.kit.events import KeyPress
 from seethrough.tasks.kit.hud import practice_mark
 
 SIZE = (800, 600)

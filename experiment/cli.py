@@ -18,43 +18,53 @@ from seethrough.tasks.kit.errors import NoScene
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
 
-COMMANDS = {
-    "run": "run a participant's session in a window",
-    "simulate": "play a study with simulated participants",
-    "calibrate": "fit simulated participants to the published times",
-    "power": "how many participants does a study need",
-    "replay": "show a trial again from its log",
-    "status": "slots of a study, its balance, and what to run next",
-    "repair": "make one of a participant's folder that was played twice at once",
-    "withdraw": "remove a participant's data, leaving a dated mark",
-    "export": "give the data another form: wide, parquet, bids, psychds",
-    "report": "make the statistics report from a data folder",
-    "seal": "print one hash over everything that was recorded",
-    "keys": "list what a study file may say: keys, types, defaults, limits, meaning",
-    "texts": "write what is to be translated for a study in a language of its own",
-    "check": "check a study before anybody is invited",
-    "design": "print, write or draw what a study's factors make",
-    "migrate": "rewrite a study file of an earlier version",
-    "prereg": "write a study's preregistration",
-    "task": "list the tasks there are, or check one",
-    "world": "list the worlds there are, or check one",
-    "question": "list the kinds of questions there are, or check one",
-    "render": "draw a scene into a picture",
-    "view": "look at a scene of translucent polygons, ordered by a method",
-    "bench": "measure accuracy against time",
-    "technique": "list techniques, or try one on all that it must keep to",
-    "new": "write a package with a plug-in of your own, to begin with",
-    "gallery": "draw every mode, mask, granularity and hard case into a page",
-    "demo": "play the short study and make its report",
+ROOMS = {  # where a command is, below commands/
+    "studies": {
+        "new": "write a package with a plug-in of your own, to begin with",
+        "check": "check a study before anybody is invited",
+        "design": "print, write or draw what a study's factors make",
+        "prereg": "write a study's preregistration",
+        "migrate": "rewrite a study file of an earlier version",
+        "texts": "write what is to be translated for a study in a language of its own",
+        "keys": "list what a study file may say: keys, types, defaults, limits, meaning",
+    },
+    "sessions": {
+        "run": "run a participant's session in a window",
+        "simulate": "play a study with simulated participants",
+        "demo": "play the short study and make its report",
+        "status": "slots of a study, its balance, and what to run next",
+        "repair": "make one of a participant's folder that was played twice at once",
+        "withdraw": "remove a participant's data, leaving a dated mark",
+        "replay": "show a trial again from its log",
+    },
+    "data": {
+        "report": "make the statistics report from a data folder",
+        "export": "give the data another form: wide, parquet, bids, psychds",
+        "seal": "print one hash over everything that was recorded",
+        "power": "how many participants does a study need",
+        "calibrate": "fit simulated participants to the published times",
+    },
+    "pictures": {
+        "render": "draw a scene into a picture",
+        "view": "look at a scene of translucent polygons, ordered by a method",
+        "gallery": "draw every mode, mask, granularity and hard case into a page",
+    },
+    "kinds": {
+        "technique": "list techniques, or try one on all that it must keep to",
+        "task": "list the tasks there are, or check one",
+        "world": "list the worlds there are, or check one",
+        "question": "list the kinds of questions there are, or check one",
+    },
 }
+ELSEWHERE = {"bench": "seethrough.benchmarks.bench"}  # not the experiment's
+COMMANDS = {name: said for room in ROOMS.values() for name, said in room.items()}
+COMMANDS["bench"] = "measure accuracy against time"
 
 # Commands that read a study, which may bring code along.
 TRUSTING = {
     "run", "simulate", "calibrate", "power", "replay", "status", "check", "design", "prereg",
     "render", "texts",
 }  # fmt: skip
-
-ELSEWHERE = {"bench": "seethrough.benchmarks.bench"}  # commands that are not the experiment's
 
 
 class _Parser(argparse.ArgumentParser):
@@ -63,6 +73,12 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         print(f"{self.prog}: {one_line(message)} (see {self.prog} --help)", file=sys.stderr)
         raise SystemExit(2)
+
+
+def _place(name: str) -> str:
+    """The module of a command."""
+    room = next((room for room, names in ROOMS.items() if name in names), None)
+    return ELSEWHERE[name] if room is None else f"{__package__}.commands.{room}.{name}"
 
 
 def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
@@ -77,7 +93,7 @@ def _parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     for name, summary in COMMANDS.items():
         sub = commands.add_parser(name, help=summary, description=summary)
         if name == chosen:
-            module = importlib.import_module(ELSEWHERE.get(name, f"{__package__}.commands.{name}"))
+            module = importlib.import_module(_place(name))
             module.add_arguments(sub)
             if name in TRUSTING:
                 sub.add_argument("--trust", action="store_true", help=trust.TRUST)
@@ -140,6 +156,25 @@ def _run(words: Sequence[str]) -> int:
         if error.filename is None:
             raise
         return _failed([f"{error.filename}: {error.strerror}"], 2)
+    except Exception as error:
+        line = _of_a_plugin(error)
+        if line is None:
+            raise
+        return _failed([line], 2)
+
+
+def _of_a_plugin(error: Exception) -> str | None:
+    """What to say of an exception in a plug-in of others; None where it is ours."""
+    from seethrough import registry
+
+    if isinstance(error, registry.PluginError):
+        return str(error)
+    found = registry.at_fault(error)
+    if found is None:
+        return None
+    from seethrough.experiment.session.strangers import said
+
+    return f"{' '.join(found)}: {said(*found, error)}"
 
 
 def _let_go() -> None:

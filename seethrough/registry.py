@@ -8,7 +8,8 @@ stranger's package names its object in the entry points of a group, as in its py
     my_lens = "my_package:TECHNIQUE"
 
 Names are found without importing anything; an object is imported when it is asked for. A study may
-bring one along in a file (experiment/study/plugin_files.py): it is `provided` to this process.
+bring one along in a file (experiment/study/beside/plugin_files.py): it is `provided` to this
+process.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from __future__ import annotations
 import hashlib
 import pkgutil
 import sys
+import traceback
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -78,6 +80,23 @@ def origin(kind: str, name: str) -> Origin | None:
         return _provided[kind, name][1]
     place = _places(kind)[name]
     return None if isinstance(place, str) else _installed(place.module)
+
+
+def at_fault(error: BaseException) -> tuple[str, str] | None:
+    """(kind, name) of the plug-in of others whose code ran when an exception was raised; None
+    where only ours did."""
+    ran = {frame.f_code.co_filename for frame, _ in traceback.walk_tb(error.__traceback__)}
+    places = {
+        (kind, name): place
+        for kind in KINDS
+        for name, place in _places(kind).items()
+        if not isinstance(place, str) and place.module in sys.modules
+    }
+    for kind, name in (*_provided, *places):
+        found = origin(kind, name)
+        if found is not None and ran & {str(path) for path in found.files}:
+            return kind, name
+    return None
 
 
 @cache

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from seethrough.renderer.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.base import Basics, Outcome, Setting, Task, View
-from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import MARGIN, Button, Label, Rect
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.skills.glance import Glance

@@ -24,7 +24,7 @@ from seethrough.analysis.stats.paired import mean_interval, within_halfwidths
 from seethrough.analysis.stats.undefined import is_defined
 
 if TYPE_CHECKING:
-    from seethrough.analysis.sections.context import Context
+    from seethrough.analysis.sections.base.context import Context
 
 HEIGHT = 190
 WIDE = 3
@@ -33,7 +33,7 @@ WIDE = 3
 def level_means(key: str, title: str, axis: str, cells: Cells, context: Context) -> Figure:
     """Means of every cell, with 95 % intervals: within participants where levels are (Cousineau and
     Morey's), of the mean between groups. A panel for each task and group."""
-    from seethrough.analysis.sections.tables import groups_in
+    from seethrough.analysis.sections.base.tables import groups_in
 
     design = context.design
     groups = groups_in(context, cells.participants)

@@ -113,18 +113,22 @@ class _Reader:
         margins = {
             name: (value, p.ratio) for p in stated for name, value in (p.margin or {}).items()
         }
-        known = {m.name: m for t in tasks for m in t.measures}
+        measures = [m for t in tasks for m in t.measures]
+        known = {m.column: m for m in measures} | {m.name: m for m in measures}
         for name, (value, ratio) in margins.items():
             above = 1 if ratio or (name in known and known[name].log) else 0
-            if name in known and not above < value < 1e300:
+            if name not in known:
+                self.wrong(f"{ENTRY}.predictions.margin", name, f"a measure: {', '.join(known)}")
+            elif not above < value < 1e300:
                 self.wrong(f"{ENTRY}.predictions.margin.{name}", value,
                            f"a number above {above}")  # fmt: skip
                 return tasks
 
         def own(m: d.Measured) -> d.Measured:
-            if m.name not in margins:
+            name = m.name if m.name in margins else m.column
+            if name not in margins:
                 return m
-            value, ratio = margins[m.name]
+            value, ratio = margins[name]
             return replace(m, margin=value, ratio=ratio)
 
         return tuple(replace(t, measures=tuple(map(own, t.measures))) for t in tasks)
@@ -144,25 +148,29 @@ class _Reader:
             return all(_is_number(x) and not _is_bool(x) for x in value)
 
         numbers = self.value(table, path, "numbers", None, fits, "a number for each level")
-        labels = table.get("labels") or {}
-        if not isinstance(labels, Mapping):
-            self.wrong(f"{path}.labels", labels, "a table")
-            labels = {}
-        tasks = table.get("tasks")
-        if tasks is not None and not isinstance(tasks, Mapping):
-            self.wrong(f"{path}.tasks", tasks, "a table of level and tasks")
-            tasks = None
+        labels = self.by_level(table, path, "labels")
+        tasks = self.by_level(table, path, "tasks")
         return d.Factor(
             name,
             self.choice(table, path, "kind", d.KINDS, d.WITHIN),
             levels,
             self.choice(table, path, "baseline", levels, levels[0]),
             tuple(map(float, numbers)) if numbers is not None else None,
-            {str(k): str(v) for k, v in labels.items()},
+            {level: self.text(labels, f"{path}.labels", level) for level in labels},
             self.choice(table, path, "scenes", ("alone", "changed"), "alone"),
             self.text(table, path, "order"),
-            {k: tuple(v) for k, v in tasks.items()} if tasks else None,
+            {level: self.texts(tasks, f"{path}.tasks", level) for level in tasks} or None,
         )
+
+    def by_level(self, table: Mapping[str, object], path: str, key: str) -> Mapping[str, object]:
+        """A table whose keys are levels; empty where it is not there."""
+        found = table.get(key)
+        if found is None:
+            return {}
+        if not isinstance(found, Mapping) or not all(isinstance(level, str) for level in found):
+            self.wrong(f"{path}.{key}", found, "a table, by level")
+            return {}
+        return found
 
     def task(self, table: Mapping[str, object], path: str) -> d.Task:
         return d.Task(

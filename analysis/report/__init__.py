@@ -30,15 +30,15 @@ from seethrough.analysis.page.tables_csv import as_csv
 from seethrough.analysis.report import folder
 from seethrough.analysis.report.pdf import find_browser, print_pdf
 from seethrough.analysis.report.r_script import Facts, as_r
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.methods import methods_section
-from seethrough.analysis.sections.omnibus import complete
 from seethrough.analysis.sections.participants import participants_section
 from seethrough.analysis.sections.provenance import provenance_section
 from seethrough.analysis.sections.ratings import ratings_section
 from seethrough.analysis.sections.scales import plain_section, speed_section
 from seethrough.analysis.sections.sensitivity import sensitivity_section
 from seethrough.analysis.sections.summary import Found, summary_section
+from seethrough.analysis.sections.tests.omnibus import complete
 from seethrough.analysis.sections.tradeoff import tradeoff_section
 from seethrough.analysis.sections.validity import validity_section
 

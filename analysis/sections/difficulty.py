@@ -14,7 +14,7 @@ from seethrough.analysis.load.matching import (
     with_certificate,
 )
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Table, say
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.stats.undefined import Undefined, is_defined
 
 LARGE = 0.25

@@ -12,7 +12,7 @@ from seethrough.analysis.load.study import config_of
 from seethrough.analysis.measures import answers, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Section, Table, say
 from seethrough.analysis.page.numbers import fixed
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 
 AGE, GENDER = "age", "gender"
 """Items of the session's own page of demographics."""

@@ -9,7 +9,7 @@ from seethrough.analysis.exclude import why
 from seethrough.analysis.load.study import config_of
 from seethrough.analysis.measures import TASK, groups_of, levels_of
 from seethrough.analysis.page.blocks import Block, Column, Fold, Prose, Section, Table, say
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.stats.distributions import detectable, detectable_between
 from seethrough.analysis.stats.ranks import sign_test
 from seethrough.analysis.stats.undefined import number_in

@@ -11,7 +11,7 @@ from seethrough.analysis.load.plan import Plan, digest
 from seethrough.analysis.load.seal import seal
 from seethrough.analysis.load.study import Study, config_of
 from seethrough.analysis.page.blocks import Block, Column, Fold, Section, Table, say
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 
 PACKAGES = ("seethrough", "numpy", "pandas", "scipy", "statsmodels", "vl-convert-python", "Jinja2")
 PAIRS = (Column("what", "what"), Column("value", "value"))

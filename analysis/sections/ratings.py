@@ -14,16 +14,16 @@ from seethrough.analysis.design import Factor, Item
 from seethrough.analysis.figures.comparison import ratings_figure
 from seethrough.analysis.measures import answers, ratings
 from seethrough.analysis.page.blocks import Block, Cited, Column, Section, Table, say
-from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.measured import in_short
-from seethrough.analysis.sections.ordinal import (
+from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.base.tables import keep, missing_note
+from seethrough.analysis.sections.reliability import reliability_blocks
+from seethrough.analysis.sections.tests.measured import in_short
+from seethrough.analysis.sections.tests.ordinal import (
     conditions,
     friedman_row,
     friedman_sentence,
     friedman_table,
 )
-from seethrough.analysis.sections.reliability import reliability_blocks
-from seethrough.analysis.sections.tables import keep, missing_note
 from seethrough.analysis.stats.ranks import share_interval, sign_test
 from seethrough.analysis.stats.undefined import Undefined, is_defined
 

@@ -10,7 +10,7 @@ import numpy as np
 from seethrough.analysis.design import Item
 from seethrough.analysis.measures import ratings
 from seethrough.analysis.page.blocks import Block, Cited, Column, Table, say
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.stats.reliability import LEAST_ITEMS, reliability
 from seethrough.analysis.stats.undefined import is_defined, number_in
 

@@ -10,8 +10,8 @@ from seethrough.analysis.cells import Cells
 from seethrough.analysis.comparison import Pair
 from seethrough.analysis.measures import cells_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
-from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.measured import pairs_of
+from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.tests.measured import pairs_of
 from seethrough.analysis.stats.flips import FAR, outliers, sign_flip
 from seethrough.analysis.stats.paired import one_sample
 from seethrough.analysis.stats.undefined import Number, Undefined, is_defined
@@ -78,14 +78,14 @@ def _name(context: Context, pair: Pair) -> str:
 
 def _sentence(rows: tuple[Mapping[str, object], ...], alpha: float) -> Prose:
     """Which contrasts fall on another side of α."""
-    other = [
-        str(r["label"])
-        for r in rows
-        if is_defined(r["p"])
-        and any(is_defined(r[c]) and (r[c] < alpha) != (r["p"] < alpha)  # type: ignore[operator]
-                for c in ("p_flip", "p_without"))
-    ]  # fmt: skip
+    other = [str(r["label"]) for r in rows if _differs(r, alpha)]
     if not other:
         return say("No contrast falls on another side of α without normality or without outliers.")
     return say(f"On another side of α without normality or without outliers: {'; '.join(other)}.",
                kind="warning")  # fmt: skip
+
+
+def _differs(row: Mapping[str, object], alpha: float) -> bool:
+    """Whether a contrast falls on another side of α in one of the other ways."""
+    p, others = row["p"], (row["p_flip"], row["p_without"])
+    return is_defined(p) and any(is_defined(o) and (o < alpha) != (p < alpha) for o in others)

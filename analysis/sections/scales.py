@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from seethrough.analysis.page.blocks import Block, Section, Table, say
-from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.measured import measured_blocks
-from seethrough.analysis.sections.ranked import ranked_blocks
+from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.tests.measured import measured_blocks
+from seethrough.analysis.sections.tests.ranked import ranked_blocks
 
 Tables = dict[str, dict[str, Table]]
 """measure → its tables by what they hold: `logs`, `tests`, `ranks`, `contrasts`, `anova…`."""

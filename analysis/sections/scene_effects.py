@@ -6,7 +6,7 @@ from seethrough.analysis.design import Factor
 from seethrough.analysis.mixed import MixedEffect
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
 from seethrough.analysis.scenes import FEWEST, SCENE_SLOPES, SceneEffect, Scenes, scene_model
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.stats.undefined import is_defined
 
 COLUMNS = (

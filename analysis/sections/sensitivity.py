@@ -5,7 +5,7 @@ from __future__ import annotations
 from seethrough.analysis.design import Factor
 from seethrough.analysis.mixed import MODELS, MixedEffect, mixed_model
 from seethrough.analysis.page.blocks import Block, Column, Section, Table, say
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.robust import robust_blocks
 from seethrough.analysis.sections.scene_effects import scene_blocks
 from seethrough.analysis.stats.undefined import is_defined, number_in

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from seethrough.analysis.design import Contrast, Design, Prediction
 from seethrough.analysis.page.blocks import Cited, Column, Prose, Section, Table, say
-from seethrough.analysis.sections.answers import Answer
-from seethrough.analysis.sections.answers_directed import faster
-from seethrough.analysis.sections.answers_margin import accurate
-from seethrough.analysis.sections.answers_other import at_least, compared
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.answers.answers import Answer
+from seethrough.analysis.sections.answers.answers_directed import faster
+from seethrough.analysis.sections.answers.answers_margin import accurate
+from seethrough.analysis.sections.answers.answers_other import at_least, compared
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.participants import reach, reach_sentence
 from seethrough.analysis.sections.scales import Tables
 

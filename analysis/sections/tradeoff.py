@@ -13,7 +13,7 @@ from seethrough.analysis.design import Factor
 from seethrough.analysis.figures.tradeoff import arrows
 from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.ranks import sign_test
 from seethrough.analysis.stats.ties import difference_signs

@@ -13,9 +13,9 @@ from seethrough.analysis.equivalence import no_difference
 from seethrough.analysis.figures.validity import learning_figure
 from seethrough.analysis.load.plan import Plan
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
-from seethrough.analysis.sections.context import Context
+from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.base.tables import negligible, not_found
 from seethrough.analysis.sections.difficulty import difficulty_blocks
-from seethrough.analysis.sections.tables import negligible, not_found
 from seethrough.analysis.stats.paired import one_sample
 from seethrough.analysis.stats.ties import difference_signs
 from seethrough.analysis.stats.undefined import is_defined

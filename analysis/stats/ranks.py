@@ -49,7 +49,6 @@ class Friedman:
 
     n: int
     k: int
-    rank_means: tuple[float, ...]
     chi2: Number
     df: int
     p: Number
@@ -75,17 +74,16 @@ def friedman(y: Array, rng: Generator) -> Friedman:
     """
     n, k = y.shape
     r = ranks(y)
-    means = tuple(float(m) for m in r.mean(axis=0))
     reason = ONE_PARTICIPANT if n < 2 else ALL_TIED if np.all(r == r[:, :1]) else ""
     if reason:
         gone = Undefined(reason)
-        return Friedman(n, k, means, gone, k - 1, gone, gone, "", gone)
+        return Friedman(n, k, gone, k - 1, gone, gone, "", gone)
     spread = float(np.sum(r**2) - n * k * (k + 1) ** 2 / 4)
     statistic = float(np.sum((r.sum(axis=0) - n * (k + 1) / 2) ** 2))
     chi2 = (k - 1) * statistic / spread
     exact, method = _permutation_p(r, statistic, rng)
     w = chi2 / (n * (k - 1))
-    return Friedman(n, k, means, chi2, k - 1, chi2_tail(chi2, k - 1), exact, method, w)
+    return Friedman(n, k, chi2, k - 1, chi2_tail(chi2, k - 1), exact, method, w)
 
 
 def _permutation_p(r: Array, statistic: float, rng: Generator) -> tuple[float, str]:

@@ -23,7 +23,7 @@ from seethrough.benchmarks.pages import page_figures
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.session.hand import COARSE, PICKED
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.models.forms.surfaces import ball
 from seethrough.renderer.models.scene_file import read_scene

@@ -26,7 +26,9 @@ from seethrough.benchmarks.memory import used_by
 from seethrough.benchmarks.orderings.postprocessing import VIEWS, microseconds
 from seethrough.benchmarks.rows import Row, row
 from seethrough.renderer.models.translucent.scenes import TranslucentScene, scene
-from seethrough.renderer.polygons import boxes, bsp, feudal
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.polygons.boxes import boxes
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.polygons import Polygons, polygons_from
 from seethrough.renderer.polygons.prepared import Prepared
 
@@ -56,7 +58,9 @@ COLD = """
 import time
 import numpy as np
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.polygons import boxes, bsp, feudal
+from seethrough.renderer.polygons.boxes import boxes
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.polygons.feudal import feudal
 polygons = scene("fence").polygons
 start = time.process_time()
 for method in (bsp, feudal, boxes):

@@ -29,7 +29,9 @@ from seethrough.renderer.gpu.levels.approximations import (
 )
 from seethrough.renderer.gpu.levels.polygon_painter import Corners
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.polygons import axis_tree, boxes, bsp, distance, feudal
+from seethrough.renderer.polygons import axis_tree, bsp, distance
+from seethrough.renderer.polygons.boxes import boxes
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.prepared import Prepared
 from seethrough.renderer.scene.camera import Camera
 

@@ -16,7 +16,7 @@ import numpy as np
 from seethrough.benchmarks.orderings.painted_scene import PaintedScene, Picture
 from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.translucent.scenes import TranslucentScene, panels, scene
-from seethrough.renderer.polygons import boxes
+from seethrough.renderer.polygons.boxes import boxes
 
 SIZE = (480, 360)
 # Where the scenes are seen from: a direction, and a distance in radii.

@@ -28,9 +28,9 @@ import numpy as np
 
 from seethrough.renderer.arrays import Bytes, Floats, Whole
 from seethrough.renderer.polygons.bsp import PreparedBsp
-from seethrough.renderer.polygons.feudal import PreparedFeudal
-from seethrough.renderer.polygons.feudal_stretches import BLOCK, Stretches
-from seethrough.renderer.polygons.feudal_stretches import emit as emit_stretches
+from seethrough.renderer.polygons.feudal.feudal import PreparedFeudal
+from seethrough.renderer.polygons.feudal.feudal_stretches import BLOCK, Stretches
+from seethrough.renderer.polygons.feudal.feudal_stretches import emit as emit_stretches
 from seethrough.renderer.polygons.tree import EITHER, Indices, Tree
 from seethrough.renderer.polygons.tree import emit as emit_tree
 

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from seethrough.benchmarks.memory import used_by
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.study.config import load, parse
-from seethrough.experiment.study.design import Design, session_for
-from seethrough.experiment.study.design_table import rows_of
+from seethrough.experiment.study.design.design import Design, session_for
+from seethrough.experiment.study.shown.design_table import rows_of
 
 # The 512 lines of the published study's trials and practice as a fixed 2 × 2 design had them.
 BEFORE = "7bff85ab6bbae8c07520eb60501753e1a68649f0351a8d05459d9d66455dffca"
@@ -84,7 +84,7 @@ trials = 2
 START = """
 import sys, tomllib
 from seethrough.experiment.study.config import find, parse
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.tasks.catalog import TASKS

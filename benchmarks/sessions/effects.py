@@ -22,7 +22,7 @@ from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import SIMULATED, generator, session_for
+from seethrough.experiment.study.design.design import SIMULATED, generator, session_for
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
 from seethrough.tasks.kit.skills.effects import EFFECTS, plan_effects

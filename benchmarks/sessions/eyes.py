@@ -27,13 +27,13 @@ from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.config import Study, load
-from seethrough.experiment.study.design import SIMULATED, Trial, generator, session_for
+from seethrough.experiment.study.design.design import SIMULATED, Trial, generator, session_for
+from seethrough.renderer.events import Event, KeyPress, KeyRelease, Tick
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.simple import simplified
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, Tick
 from seethrough.tasks.kit.skills.profile import AVERAGE
 
 ASPECT = 4 / 3

@@ -22,11 +22,11 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.study.config import Study, load
-from seethrough.experiment.study.design import SIMULATED, Trial, generator, session_for
+from seethrough.experiment.study.design.design import SIMULATED, Trial, generator, session_for
+from seethrough.renderer.events import PointerMove, Tick
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome, View
-from seethrough.tasks.kit.events import PointerMove, Tick
 
 FRAMES = 3600  # a minute at 60 Hz
 DRAGGED = 10.0  # s

@@ -68,7 +68,7 @@ def timed(work: Callable[[], Made]) -> tuple[float, Made]:
 
 def visual() -> Iterator[Row]:
     """The published study through the real session, on this machine."""
-    from seethrough.experiment.commands.simulate import simulate
+    from seethrough.experiment.commands.sessions.simulate import simulate
 
     study = load(STUDY)
     with tempfile.TemporaryDirectory() as folder:

@@ -22,7 +22,7 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View

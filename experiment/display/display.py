@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.pages.pages import Answers, Page, Paragraph
+from seethrough.renderer.events import Event
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event
 
 if TYPE_CHECKING:
     from seethrough.renderer.techniques.base import Parameters

@@ -24,7 +24,7 @@ from seethrough.experiment.display.driver import no_window
 from seethrough.experiment.display.event_time import EventTime, x11_stamp
 
 if TYPE_CHECKING:
-    from seethrough.experiment.study.study_tables import DisplayTable
+    from seethrough.experiment.study.tables.study_tables import DisplayTable
 
 
 ON_X11 = hasattr(pyglet.window.Window, "dispatch_platform_event")

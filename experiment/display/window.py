@@ -33,8 +33,7 @@ from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.key_names import KEY_NAMES
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.pages.texts import Texts
-from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     FocusChange,
     KeyPress,
@@ -47,9 +46,10 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
+from seethrough.tasks.kit.base import View
 
 if TYPE_CHECKING:
-    from seethrough.experiment.study.study_tables import DisplayTable
+    from seethrough.experiment.study.tables.study_tables import DisplayTable
     from seethrough.renderer.techniques.base import Parameters
 
 FLIPS = 30  # that measure the refresh rate: half a second at 60 Hz

@@ -238,6 +238,6 @@ def moved(picture: ExactPicture, alone: ExactPicture, plain: ExactPicture) -> fl
     """How far the second object's centre has moved on the screen, in heights of the view, from
     where it stands in the row."""
     rows, columns = np.nonzero(picture.weights[1] > 0.5)
-    scale = 0.5 * SIZE[1] / np.tan(CAMERA.fov_y / 2) / 9.0
+    scale = CAMERA.lens(SIZE[1]) / 9.0
     stood = SIZE[0] / 2 - 0.9 * scale
     return float(abs(columns.mean() + 0.5 - stood) / SIZE[1]) if len(rows) else 1.0

@@ -11,11 +11,11 @@ import numpy as np
 from seethrough import registry
 from seethrough.experiment.gallery.gallery_failures import failures
 from seethrough.experiment.gallery.gallery_plates import Plate, Section
+from seethrough.renderer import events
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Parameters, Shot
-from seethrough.tasks.kit import events
 from seethrough.tasks.kit.controls import orbit
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene

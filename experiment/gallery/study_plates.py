@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image
 
-from seethrough.experiment.study.design import Trial, session_for
+from seethrough.experiment.study.design.design import Trial, session_for
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.tasks.catalog import TASKS

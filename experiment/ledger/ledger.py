@@ -20,8 +20,10 @@ import sqlalchemy as sql
 from sqlalchemy import Row
 from sqlalchemy.engine import Connection, Engine
 
-from seethrough.experiment.errors import InputError
+from seethrough.analysis.load.files import is_there
+from seethrough.experiment.errors import InputError, shown
 from seethrough.experiment.files.folders import check_participant
+from seethrough.experiment.files.json_files import read_object
 from seethrough.experiment.files.private import make_folder
 from seethrough.experiment.ledger import ledger_place as place
 from seethrough.experiment.ledger import ledger_store as store
@@ -343,12 +345,15 @@ class Ledger:
 
 
 def study_in(data: Path) -> str:
-    """The name of the study whose data the folder holds, "" if it does not say."""
-    try:
-        about = json.loads((data / "dataset_description.json").read_text(encoding="utf-8"))
-        return str(about["name"])
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+    """The name of the study whose data the folder holds, "" where none does yet. Raises
+    InputError for a description that cannot be read, or does not say it."""
+    path = data / "dataset_description.json"
+    if not is_there(path):
         return ""
+    name = read_object(path).get("name")
+    if not isinstance(name, str):
+        raise InputError(f"{path}: name = {shown(name)}: expected a text")
+    return name
 
 
 def _where(engine: Engine) -> str:

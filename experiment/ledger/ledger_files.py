@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import os
 from contextlib import suppress
 from datetime import datetime
@@ -11,6 +10,7 @@ from pathlib import Path
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, check_participant, folder_of, taken
+from seethrough.experiment.files.json_files import number_in, read_object
 from seethrough.experiment.files.private import write, write_new
 from seethrough.experiment.ledger.ledger import Ledger
 from seethrough.experiment.ledger.ledger_slots import (
@@ -104,24 +104,17 @@ def _found(data: Path, name: str, now: datetime) -> Entry | None:
     sidecars = sorted(folder.glob("*_trials_data.json"))
     if not PARTICIPANT.fullmatch(name) or not sidecars:
         return None
-    first = _read(sidecars[0])
+    first = read_object(sidecars[0])
     complete = any(ends_complete(folder))
     try:
-        slot, began = int(str(first["slot"])), stamp(min(now, moment(str(first["started"]))))
+        began = stamp(min(now, moment(str(first["started"]))))
     except (KeyError, TypeError, ValueError):
-        raise InputError(f"{sidecars[0]}: expected a slot and when it started") from None
+        raise InputError(f"{sidecars[0]}: started: expected when it started") from None
+    slot = number_in(first, "slot", sidecars[0])
     return Entry(slot, name, COMPLETE if complete else LIVE, began, began)
 
 
 def ends_complete(folder: Path) -> list[bool]:
     """Of each session in a participant's folder that ended: whether it was complete."""
-    ends = [_read(path) for path in sorted(folder.glob("*_end.json"))]
+    ends = [read_object(path) for path in sorted(folder.glob("*_end.json"))]
     return [end.get("status") == "complete" for end in ends]
-
-
-def _read(path: Path) -> dict[str, object]:
-    try:
-        value = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
-        raise InputError(f"{path}: not readable as JSON: {error}") from None
-    return value if isinstance(value, dict) else {}

@@ -17,7 +17,6 @@ from datetime import UTC, datetime, timedelta
 
 LIVE, COMPLETE, VOID, SURPLUS = "live", "complete", "void", "surplus"
 STALE = "stale"  # how the reason begins that an entry is void for its slot was given away
-STATUSES = (LIVE, COMPLETE, VOID, SURPLUS)
 
 
 @dataclass(frozen=True, slots=True)

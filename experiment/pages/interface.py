@@ -117,7 +117,7 @@ class Interface:
             texture.set_status(want.destroyed)
 
     def key(self, name: str, down: bool) -> None:
-        """A key of tasks/kit/events.py; those that forms do not use are ignored."""
+        """A key of renderer/events.py; those that forms do not use are ignored."""
         scroll = {**SCREENS, **LINES} if self.reading else SCREENS
         if name in scroll:
             self.scroll += scroll[name] if down else 0.0

@@ -1,4 +1,4 @@
-"""The keys of tasks/kit/events.py, by pyglet's names of them; what is not listed is not heard."""
+"""The keys of renderer/events.py, by pyglet's names of them; what is not listed is not heard."""
 
 from __future__ import annotations
 

@@ -10,11 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-import numpy as np
-from numpy.typing import NDArray
-
 from seethrough.experiment.pages.color_plates import Plate
-from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.base import View
@@ -223,11 +219,3 @@ class Page:
                 _ = block.view
             elif isinstance(block, PlatePicture):
                 _ = block.plate.places
-
-
-def on_picture(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 2) places in half-heights of the picture from its middle."""
-    seen = (points - camera.eye) @ camera.rotation
-    with np.errstate(divide="ignore", invalid="ignore"):
-        places: NDArray[np.float64] = seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
-    return places

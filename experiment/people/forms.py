@@ -20,7 +20,6 @@ from seethrough.experiment.pages.pages import (
     Scale,
     Several,
     TextField,
-    on_picture,
 )
 from seethrough.experiment.people.persons.person import Person
 
@@ -130,7 +129,7 @@ class Opinions:
         kinds = [o.removeprefix("kind.") for o in options]
         camera, scene = picture.view.camera, picture.view.scene
         depth = camera.depth(scene.centers)
-        place = np.abs(on_picture(camera, scene.centers))
+        place = np.abs(camera.places(scene.centers))
         shown = (depth > 0) & (place < [PICTURE_ASPECT, 1.0]).all(axis=1)
         looks = []
         for kind in kinds:

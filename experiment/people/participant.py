@@ -17,11 +17,11 @@ from seethrough.experiment.pages.pages import Page
 from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons.person import Person, mood_for
+from seethrough.renderer.events import Event, KeyPress, KeyRelease
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease
 from seethrough.tasks.kit.skills.effects import EffectUse, checked
 from seethrough.tasks.kit.skills.glance import Glance
 from seethrough.tasks.kit.skills.mood import Mood

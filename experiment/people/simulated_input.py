@@ -9,10 +9,10 @@ from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.session.strangers import called
+from seethrough.renderer.events import Event, Tick
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, Tick
 
 
 class Looks(Protocol):

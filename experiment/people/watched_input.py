@@ -9,8 +9,7 @@ from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.display.window import Window
 from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     KeyPress,
     PointerMove,
@@ -18,6 +17,7 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
     Tick,
 )
+from seethrough.tasks.kit.base import View
 
 
 class WatchedInput:

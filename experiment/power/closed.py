@@ -27,12 +27,6 @@ def signed_power(
     return float(1 - special.nctdtr(df, far, critical))
 
 
-def wrong_sign(delta: float, n: int, alpha: float) -> float:
-    """Type S: P(wrong sign | p < α), two-sided."""
-    right, wrong = (signed_power(d, n, alpha) for d in (delta, -delta))
-    return wrong / (right + wrong)
-
-
 def needed(delta: float, alpha: float, sides: int = 2, least: int = 3) -> float:
     """The smallest n with a signed power of 80 %; ∞ for what would take more than `MOST`."""
     if not delta > 0 or signed_power(delta, MOST, alpha, None, sides) < ENOUGH:

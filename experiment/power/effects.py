@@ -14,7 +14,7 @@ import numpy as np
 from seethrough.analysis.design import Design
 from seethrough.analysis.load.sidecar_design import read_design
 from seethrough.analysis.published.numbers import PublishedMeasure, load_published
-from seethrough.analysis.sections.measured import OVERALL
+from seethrough.analysis.sections.tests.measured import OVERALL
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.power.closed import interval_of, needed
 from seethrough.experiment.power.decisions import Planned, Test, run
@@ -22,7 +22,7 @@ from seethrough.experiment.power.planned import Plans, Score, groups_of, plans_o
 from seethrough.experiment.power.power import implied_r
 from seethrough.experiment.power.sources import Normal, Sampled, Source
 from seethrough.experiment.study.config import Study, load
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 
 GIVEN = re.compile(r"\s*([^=]+?)\s*=\s*([-+]?\d*\.?\d+)\s*(\S.*?)\s*")
 

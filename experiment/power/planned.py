@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from math import log
 
 from seethrough.analysis.design import Contrast, Design, Measured, Prediction
-from seethrough.analysis.sections.measured import OVERALL
 from seethrough.analysis.sections.summary import asked
+from seethrough.analysis.sections.tests.measured import OVERALL
 from seethrough.analysis.tradeoff import price_of
 from seethrough.experiment.power.decisions import Part, Planned, Test
 

@@ -15,8 +15,8 @@ from seethrough.analysis.errors import DataError
 from seethrough.analysis.exclude import apply_rules
 from seethrough.analysis.load.plan import make_plan
 from seethrough.analysis.load.study import load_study
-from seethrough.analysis.sections.context import Context
-from seethrough.analysis.sections.measured import OVERALL, pair_key, pairs_of
+from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.tests.measured import OVERALL, pair_key, pairs_of
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.power.planned import Plans, Score, groups_of
 from seethrough.experiment.power.sources import Sampled

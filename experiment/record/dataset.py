@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.json_files import read_object
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.record.columns import Column
 
@@ -51,9 +52,6 @@ def description(study: str, text: str, columns: Mapping[str, Column]) -> dict[st
 
 
 def _check_name(path: Path, study: str) -> None:
-    try:
-        name = json.loads(path.read_text(encoding="utf-8"))["name"]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        raise InputError(f"{path}: expected a JSON object with the study's name") from None
+    name = read_object(path).get("name")
     if name != study:
         raise InputError(f"{path}: name = {name!r}: expected {study!r}; choose another folder")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from seethrough.experiment.generated import write_anew
 from seethrough.experiment.record.columns import FACTORS_AFTER, TABLES, Column
 
 README = Path(__file__).resolve().parents[2] / "data" / "README.md"
@@ -47,15 +48,10 @@ def with_dictionary(text: str) -> str:
     return f"{before}{BEGIN}\n\n{dictionary()}\n\n{END}{after}"
 
 
-def main() -> int:
-    """Write data/README.md anew; exit status 2 where it has no marks."""
-    try:
-        README.write_text(with_dictionary(README.read_text("utf-8")), "utf-8")
-    except ValueError as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+def page() -> str:
+    """data/README.md as it has to be. Raises ValueError where it has no marks."""
+    return with_dictionary(README.read_text("utf-8"))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_anew(README, page, "It lists the columns of all tables."))

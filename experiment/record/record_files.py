@@ -21,8 +21,8 @@ from seethrough.analysis.files.written import FILE
 from seethrough.experiment.files.private import refused, sync_folder, write, write_new
 from seethrough.experiment.record.chain import link
 from seethrough.experiment.record.columns import Column
+from seethrough.renderer.events import Event, Tick
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, Tick
 
 EVENTS = "time,event,x,y,dx,dy,dragging,key,within"
 CHUNK = 1 << 16  # bytes of traces that are kept before they are written

@@ -33,11 +33,11 @@ from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import Table, Traces, ask_again, header_of, mend
 from seethrough.experiment.record.trial_record import TrialRecord
+from seethrough.renderer.events import Event
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event
 
 if TYPE_CHECKING:
-    from seethrough.experiment.study.design import Trial
+    from seethrough.experiment.study.design.design import Trial
 
 
 @dataclass(frozen=True)

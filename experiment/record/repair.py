@@ -18,9 +18,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from seethrough.analysis.load.files import table_in
+from seethrough.analysis.load.files import is_there, table_in
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import folder_of
+from seethrough.experiment.files.json_files import number_in, read_object
 from seethrough.experiment.files.private import make_folder, sync_folder, write_new
 from seethrough.experiment.record.chain import END, SIDECAR, TRIALS_TABLE
 
@@ -54,15 +55,15 @@ def sessions_of(folder: Path) -> tuple[Session, ...]:
 
 def _session(folder: Path, sidecar: Path) -> Session:
     stem = sidecar.name.removesuffix(SIDECAR)
-    about, end = _json(sidecar), folder / f"{stem}{END}"
+    about, end = read_object(sidecar), folder / f"{stem}{END}"
     try:
-        chain, number = table_in(about, "chain"), int(str(about["session"]))
+        chain, number = table_in(about, "chain"), number_in(about, "session", sidecar)
         text = (folder / f"{stem}{TRIALS_TABLE}").read_text("utf-8")
         values = (
             str(chain["start"]),
             *(line.rpartition(",")[2] for line in text.split("\n")[1:-1]),
         )
-        ended = str(_json(end).get("status", "")) if end.is_file() else "broken off"
+        ended = str(read_object(end).get("status", "")) if is_there(end) else "broken off"
         follows = str(chain.get("follows", ""))
         holds = {k: str(v) for k, v in table_in({"holds": {}, **chain}, "holds").items()}
     except (OSError, KeyError, TypeError, ValueError) as error:
@@ -179,10 +180,3 @@ def _as_it_was(path: Path, digest: str) -> bytes:
         if hashed.hexdigest() == digest:
             return data[:size]
     raise InputError(f"{path}: was changed since the session that follows began: cannot be cut")
-
-
-def _json(path: Path) -> dict[str, object]:
-    try:
-        return dict(json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError, RecursionError) as error:
-        raise InputError(f"{path}: not readable as JSON: {error}") from None

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from seethrough.renderer.events import Event
 from seethrough.tasks.kit.base import Outcome, View
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import FloorPlan
 
 if TYPE_CHECKING:
-    from seethrough.experiment.study.design import Trial
+    from seethrough.experiment.study.design.design import Trial
 
 
 @dataclass(frozen=True)

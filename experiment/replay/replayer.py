@@ -17,21 +17,21 @@ from seethrough.analysis.load.files import Source, table_in
 from seethrough.analysis.load.person import CHUNK, Session
 from seethrough.analysis.load.schema import SOURCES
 from seethrough.analysis.load.whole import verified_person
-from seethrough.experiment.errors import InputError
+from seethrough.experiment.errors import InputError, one_line
 from seethrough.experiment.files.folders import check_participant, folder_of
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.hand import Hand
 from seethrough.experiment.session.options import as_asked
+from seethrough.experiment.study.beside.own_model_files import kept
+from seethrough.experiment.study.beside.plugin_files import kept as kept_plugins
 from seethrough.experiment.study.config import Study, parse
-from seethrough.experiment.study.design import Trial, session_for
-from seethrough.experiment.study.own_model_files import kept
-from seethrough.experiment.study.plugin_files import kept as kept_plugins
+from seethrough.experiment.study.design.design import Trial, session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.experiment.study.translations import texts_of
+from seethrough.renderer import events as ev
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit import events as ev
 from seethrough.tasks.kit.base import Outcome, View
 
 KINDS = {
@@ -136,7 +136,11 @@ def _recorded(data: Path, session: Session, row: dict[str, str]) -> Recorded:
         kept_plugins(table_in(provenance, "study"), data)
         study = parse(table_in(provenance, "study"), str(sidecar), before=True)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"{sidecar}: not a session that was shown: {error!r}") from None
+        said = f"{error}" if isinstance(error, ValueError) else f"{type(error).__name__} {error}"
+        raise InputError(
+            f"{sidecar}: expected what a session was shown with (provenance, its display and "
+            f"study): {one_line(said)}"
+        ) from None
     study = study.with_places(lambda place: kept(place, data))
     task_sets = session_for(int(row["slot"]), study.plan)
     number = int(row["trial"])

@@ -13,10 +13,10 @@ from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.study import Study
+from seethrough.renderer.events import Event, Tick
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import NoParameters, Outcome, Task, View
-from seethrough.tasks.kit.events import Event, Tick
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from seethrough.experiment.ledger.ledger_slots import Places, next_slot
 from seethrough.experiment.record.recorder import trial_row
-from seethrough.experiment.study.balance import Met, counted, cycle, repeated
-from seethrough.experiment.study.design import ORDERS, Design, generator
+from seethrough.experiment.study.design.balance import Met, counted, cycle, repeated
+from seethrough.experiment.study.design.design import ORDERS, Design, generator
 from seethrough.experiment.study.study import Study
 
 DROPPED = 0.2  # share of people who leave and are replaced

@@ -5,19 +5,21 @@ The same in a session and in its replay, so that a frame follows from the log al
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
+from seethrough.experiment.session.strangers import Made, called
+from seethrough.renderer.events import (
+    Event,
+    KeyPress,
+    PointerMove,
+    PointerPress,
+    taken_as,
+)
 from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Parameters, Shot
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import (
-    Event,
-    KeyPress,
-    KeyRelease,
-    PointerMove,
-    PointerPress,
-    Wheel,
-)
 
 HEIGHT = 1000  # of the shot that events are told in: positions are in view units
 PICKED = 600  # of the picture in which is looked what a click hits,
@@ -36,11 +38,15 @@ class Hand:
         self._technique, self._rules, self._look = technique, technique.technique, look
         self._window = window
         self._size = (round(aspect * HEIGHT), HEIGHT)
-        self.state = self._rules.begin(technique)
+        self.state = self._its("begin", partial(self._rules.begin, technique))
+
+    def _its(self, what: str, call: Callable[[], Made]) -> Made:
+        """What a call of the technique's gives. Raises PluginFailed where it is a stranger's."""
+        return called("technique", self._rules.name, what, call)
 
     def takes(self, event: Event) -> bool:
         """Whether the technique may use up such an event."""
-        return kind_of(event) in self._rules.takes
+        return taken_as(event) in self._rules.takes
 
     def shown(self, view: View) -> View:
         """A task's view as it looks, with the technique's state."""
@@ -64,7 +70,8 @@ class Hand:
         (width, height), high = self._size, PICKED if is_local(self._technique) else COARSE
         size = (round(width * high / height), high)
         shot = Shot(view.scene, view.camera, size, high / self._window)
-        return pointed(shot, self._technique, self.state, place)
+        seen = partial(pointed, shot, self._technique, self.state, place)
+        return self._its("rule", seen)
 
     def on_event(self, event: Event, view: View) -> bool:
         """Let the technique see an event, with what the frame shows. Whether it used it up."""
@@ -74,17 +81,12 @@ class Hand:
             # The pointer turns the viewer: what follows it sits in the middle of the view.
             event = replace(event, x=self._size[0] / HEIGHT / 2, y=0.5)
         shot = Shot(view.scene, view.camera, self._size)
-        self.state, used = self._rules.on_event(self._technique, self.state, event, shot)
-        return bool(used)
+        told = partial(self._rules.on_event, self._technique, self.state, event, shot)
+        self.state, used = self._its("on_event", lambda: _pair(told()))
+        return used
 
 
-def kind_of(event: Event) -> str:
-    """An event as techniques name what they take: "pointer", "wheel", "second button", "key:q"."""
-    if isinstance(event, KeyPress | KeyRelease):
-        return f"key:{event.key}"
-    if isinstance(event, Wheel):
-        return "wheel"
-    name = type(event).__name__
-    if name.startswith("Second"):
-        return "second button"
-    return "pointer" if name.startswith("Pointer") else name.lower()
+def _pair(found: tuple[Made, object]) -> tuple[Made, bool]:
+    """The next state, and whether the event was used up."""
+    state, used = found
+    return state, bool(used)

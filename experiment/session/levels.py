@@ -8,8 +8,8 @@ from functools import cache
 
 from seethrough.experiment.pages.pages import Block, Choice, Page, Paragraph, Ranking
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.study.design import Trial
-from seethrough.experiment.study.factors import ALONE, Levels
+from seethrough.experiment.study.design.design import Trial
+from seethrough.experiment.study.design.factors import ALONE, Levels
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.translations import own_words
 

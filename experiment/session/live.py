@@ -18,9 +18,9 @@ from seethrough.experiment.session.resume import going_on, starting_point
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import changed_since, provenance
 from seethrough.experiment.session.surroundings import Surroundings
+from seethrough.experiment.study.beside.own_model_files import keep
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.own_model_files import keep
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.experiment.study.translations import texts_of
 from seethrough.tasks.catalog import TASKS
 

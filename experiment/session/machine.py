@@ -13,7 +13,7 @@ import numpy as np
 from seethrough.experiment.display.driver import samples_for
 from seethrough.experiment.session.trial import MISSED
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.explain import of_cluster

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import groupby
 from zlib import crc32
 
-from seethrough.experiment.study.design import PARTICIPANT, TaskSet, Trial, generator
-from seethrough.experiment.study.factors import Factor, Levels
-from seethrough.experiment.study.reading import Question
+from seethrough.experiment.study.design.design import PARTICIPANT, TaskSet, Trial, generator
+from seethrough.experiment.study.design.factors import Factor, Levels
 from seethrough.experiment.study.study import Study
+from seethrough.experiment.study.tables.reading import Question
 
 QUESTION_STREAM = 999_999  # in the names of questions' streams: no trial has it
 SHUFFLED = "shuffled"

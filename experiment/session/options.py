@@ -9,8 +9,8 @@ from seethrough.experiment.pages.pages import Page, Scale
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.strangers import Watched, is_stranger
 from seethrough.experiment.session.surroundings import Surroundings
-from seethrough.experiment.study.design import Trial
-from seethrough.experiment.study.factors import Levels
+from seethrough.experiment.study.design.design import Trial
+from seethrough.experiment.study.design.factors import Levels
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.kit.base import Task, opaque
 from seethrough.tasks.kit.measure import CONFIDENCE
@@ -20,10 +20,13 @@ STEPS = 5  # of confidence, counted from 1
 
 
 def as_asked(task: Task, study: Study, trial: Trial) -> Task:
-    """The task as the study wants it in a trial; a stranger's is watched."""
-    plain = Watched(task) if is_stranger("task", trial.task) else task
+    """The task as the study wants it in a trial; watched if a stranger's code is in it."""
+    for kind, name in (("task", trial.task), ("world", trial.world)):
+        if is_stranger(kind, name):
+            task = Watched(task, kind, name)
+            break
     unsure = study.part(trial.levels).limits.options(trial.task).unsure
-    return opaque(Unsure(plain)) if unsure else plain
+    return opaque(Unsure(task)) if unsure else task
 
 
 def with_confidence(record: TrialRecord, study: Study, world: Surroundings) -> TrialRecord:

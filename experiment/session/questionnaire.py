@@ -22,13 +22,13 @@ from seethrough.experiment.session import levels as words
 from seethrough.experiment.session.levels import Pairs
 from seethrough.experiment.session.moments import QUESTION_STREAM, Asked, Moment, asked_at, in_order
 from seethrough.experiment.session.strangers import called
-from seethrough.experiment.study.described import each_of
-from seethrough.experiment.study.design import PARTICIPANT, generator
-from seethrough.experiment.study.factors import Levels
-from seethrough.experiment.study.question_table import Wanted
-from seethrough.experiment.study.reading import Question
-from seethrough.experiment.study.ready import question
+from seethrough.experiment.study.design.design import PARTICIPANT, generator
+from seethrough.experiment.study.design.factors import Levels
+from seethrough.experiment.study.shown.described import each_of
 from seethrough.experiment.study.study import Study
+from seethrough.experiment.study.tables.question_table import Wanted
+from seethrough.experiment.study.tables.reading import Question
+from seethrough.experiment.study.tables.ready import question
 from seethrough.renderer.declared import Declares
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.techniques.base import Parameters
@@ -202,22 +202,29 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
     pairs = [*planned.about.items(), *((planned.factor, level) for level in planned.of)]
 
     language = study.session_part(slot).study.language
+    its = partial(called, "question", planned.use)  # the kind may be a stranger's
 
     def step(number: int) -> Step:
         def ask(person: Asks, given: Given) -> list[Row]:
             known = {item: said.value for (item, at), said in given.items() if at == cell}
             now = replace(asking, given=known)
-            pages = called("question", planned.use, "pages", partial(kind.pages, parameters, now))
-            page = words.named(study, pages[number], pairs, language)
-            page = replace(page, simulate=partial(kind.simulate, parameters, page))
-            answer = partial(kind.rows, parameters, now, number, person.ask(page))
-            rows = called("question", planned.use, "rows", answer)
-            return [{**row, **planned.about, **planned.mark} for row in rows]
+            page = its("pages", lambda: kind.pages(parameters, now)[number])
+            page = words.named(study, page, pairs, language)
+            simulate = partial(kind.simulate, parameters, page)
+            page = replace(
+                page, simulate=lambda someone: its("simulate", partial(simulate, someone))
+            )
+            answers = person.ask(page)
+            more = {**planned.about, **planned.mark}
+            return its(
+                "rows",
+                lambda: [{**row, **more} for row in kind.rows(parameters, now, number, answers)],
+            )
 
-        last = kind.last(parameters, asking, number)
-        return Step(tuple((item, cell) for item in last), ask, partial(holds, planned.given, at))
+        last = its("last", lambda: [(item, cell) for item in kind.last(parameters, asking, number)])
+        return Step(tuple(last), ask, partial(holds, planned.given, at))
 
-    for number in range(kind.count(parameters)):
+    for number in its("count", lambda: range(kind.count(parameters))):
         yield step(number)
 
 

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from seethrough.analysis.load.chain import LONGEST_CELL
-from seethrough.analysis.load.files import table_in
-from seethrough.experiment.errors import InputError
+from seethrough.experiment.errors import InputError, shown
 from seethrough.experiment.files.folders import folder_of, next_free
+from seethrough.experiment.files.json_files import number_in, part_of, read_object
 from seethrough.experiment.record.chain import ANSWERS_TABLE
 from seethrough.experiment.record.record_files import whole_rows
 from seethrough.experiment.session.questionnaire import Given, Item, Said, item_of, said_in
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import TaskSet, session_for
+from seethrough.experiment.study.design.design import TaskSet, session_for
 
 
 @dataclass(frozen=True)
@@ -45,24 +44,22 @@ def past(data: Path, source: str, participant: str) -> Past | None:
         return None  # killed before anything was recorded: as if it had not begun
     if not sidecars:
         raise InputError(f"{folder}: expected a file …_trials_data.json, found none")
-    said = [_json(path) for path in sidecars]
-    ends = [_json(path) for path in folder.glob("*_end.json")]
+    said = [read_object(path) for path in sidecars]
+    numbers = [number_in(s, "session", path) for s, path in zip(said, sidecars, strict=True)]
+    last = numbers.index(max(numbers))
+    ends = [read_object(path) for path in folder.glob("*_end.json")]
     attempts: Counter[int] = Counter()
     for table in sorted(folder.glob("*_trials_data.csv")):
         attempts.update(_completed(table))
     return Past(
-        sessions=max(map(_session, said)),
+        sessions=max(numbers),
         complete=any(e.get("status") == "complete" for e in ends),
         attempts=dict(attempts),
         given=_given(folder),
-        slot=int(str(said[0]["slot"])),
-        digest=str(table_in(said[0], "provenance").get("study_sha256", "")),
-        made=table_in(max(said, key=_session), "provenance"),
+        slot=number_in(said[0], "slot", sidecars[0]),
+        digest=str(part_of(said[0], "provenance", sidecars[0]).get("study_sha256", "")),
+        made=part_of(said[last], "provenance", sidecars[last]),
     )
-
-
-def _session(sidecar: Mapping[str, object]) -> int:
-    return int(str(sidecar.get("session", 1)))
 
 
 @dataclass(frozen=True)
@@ -131,7 +128,13 @@ def already_done(task_sets: tuple[TaskSet, ...], past_: Past, policy: str) -> fr
 
 def _completed(table: Path) -> list[int]:
     """Trial numbers of a table's whole rows."""
-    return [int(row["trial"]) for row in _rows(table, ("trial",))]
+    return [_number(row["trial"], table) for row in _rows(table, ("trial",))]
+
+
+def _number(cell: str, table: Path) -> int:
+    if not (cell.isascii() and cell.isdecimal()):
+        raise InputError(f"{table}: trial = {shown(cell)}: expected a whole number")
+    return int(cell)
 
 
 def _given(folder: Path) -> Given:
@@ -156,11 +159,3 @@ def _rows(table: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
             found = ", ".join(header) or "none"
             raise InputError(f"{table}: expected a column {name}, found {found}")
     return [dict(zip(header, row, strict=True)) for row in rows if len(row) == len(header)]
-
-
-def _json(path: Path) -> dict[str, object]:
-    try:
-        found: dict[str, object] = json.loads(path.read_text(encoding="utf-8"))
-        return found
-    except (OSError, ValueError, RecursionError) as error:
-        raise InputError(f"{path}: not readable as JSON: {error}") from None

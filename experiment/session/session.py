@@ -21,8 +21,8 @@ from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import TaskSet, Trial, session_for
-from seethrough.tasks.kit.base import Basics, Task
+from seethrough.experiment.study.design.design import TaskSet, Trial, session_for
+from seethrough.tasks.kit.base import OwnControls, Task
 from seethrough.tasks.kit.unsure import UNKNOWN
 from seethrough.tasks.worlds.building.building_parameters import METRES
 
@@ -179,7 +179,7 @@ def _instruction(study: Study, trial: Trial, total: int, run: TrialRun) -> Page:
 def _controls(study: Study, trial: Trial, task: Task) -> str:
     """How one moves, as the task says it, or as its world does."""
     setting = study.setting(trial)
-    return task.controls(setting) if isinstance(task, Basics) else setting.controls
+    return task.controls(setting) if isinstance(task, OwnControls) else setting.controls
 
 
 def _feedback(record: TrialRecord) -> Page:

@@ -20,13 +20,13 @@ from numpy.random import Generator
 from seethrough import registry
 from seethrough.experiment.display.display import Leave
 from seethrough.experiment.errors import InputError, one_line
+from seethrough.renderer.events import Event
 from seethrough.tasks.kit.base import Example, Outcome, Setting, Task, View
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import FloorPlan
 from seethrough.tasks.kit.world import Place
 
 Made = TypeVar("Made")
-PATIENCE = 20.0  # s for one call: a hundred times what a participant would wait for
+PATIENCE = 60.0  # s for one call: a busy machine that compiles our kernels in it took 20
 
 
 class PluginFailed(InputError):
@@ -91,21 +91,24 @@ def said(kind: str, name: str, error: Exception) -> str:
 
 
 class Watched:
-    """A stranger's task: each call is limited, and what it gives is looked at."""
+    """A task that runs a stranger's code, its own or its world's (`kind`, `name`): each call
+    is limited, and what it gives is looked at."""
 
-    def __init__(self, task: Task) -> None:
-        self._task = task
+    def __init__(self, task: Task, kind: str = "task", name: str = "") -> None:
+        self._task, self._kind, self._blamed = task, kind, name or task.name
         self.name, self.code, self.version = task.name, task.code, task.version
         self.source, self.texts, self.simulate = task.source, task.texts, task.simulate
         self.worlds, self.Parameters, self.measures = task.worlds, task.Parameters, task.measures
         self.title, self.instruction, self.takes = task.title, task.instruction, task.takes
 
     def _call(self, what: str, call: Callable[[], Made], kinds: type | UnionType = object) -> Made:
-        found = called("task", self.name, what, call)
+        found = called(self._kind, self._blamed, what, call)
         if not isinstance(found, kinds):
             wanted = getattr(kinds, "__name__", None) or "an Outcome or None"
             shown = one_line(repr(found))[:80]
-            raise PluginFailed(f"task {self.name}: {what}: gave {shown}, expected {wanted}")
+            raise PluginFailed(
+                f"{self._kind} {self._blamed}: {what}: gave {shown}, expected {wanted}"
+            )
         return found
 
     def make_scene(self, rng: Generator, setting: Setting) -> Place:

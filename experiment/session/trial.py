@@ -16,14 +16,9 @@ from seethrough.experiment.session.options import as_asked, with_confidence
 from seethrough.experiment.session.strangers import called
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes
-from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.scene.look import Look
-from seethrough.renderer.techniques.base import Parameters
-from seethrough.tasks.explore import EXPLORE
-from seethrough.tasks.kit.base import Outcome, Task, View, opaque
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     FocusChange,
     KeyPress,
@@ -35,6 +30,11 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.look import Look
+from seethrough.renderer.techniques.base import Parameters
+from seethrough.tasks.explore import EXPLORE
+from seethrough.tasks.kit.base import Outcome, Task, View, opaque
 from seethrough.tasks.kit.hud import Inset, practice_mark
 
 # A frame that took this many display periods was missed (issue: over 1.5 periods).
@@ -254,8 +254,7 @@ class Running:
         if not isinstance(event, Tick):
             self._within = event.within
         event = self._hand.pointed(event, self.view)
-        told = partial(self._hand.on_event, event, self.view)
-        used = called("technique", self._technique_name, "on_event", told)
+        used = self._hand.on_event(event, self.view)
         state = self._state if used else self._task.on_event(self._state, event)
         if state is not self._state:
             self._state, self._outcome = state, self._task.outcome(state)

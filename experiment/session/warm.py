@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.per_pixel.few_sorter import MASKS, SLICES

@@ -10,16 +10,16 @@ from pathlib import Path
 
 from seethrough.experiment.errors import MOST, InputError, gathered, short, shown
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.study.design import number_of, scene_names
+from seethrough.experiment.study.beside.own_model_files import beside
+from seethrough.experiment.study.beside.plugin_files import taken
+from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_beside
+from seethrough.experiment.study.beside.toml_file import read_toml
+from seethrough.experiment.study.design.design import number_of, scene_names
 from seethrough.experiment.study.migrate import is_old, migrated
-from seethrough.experiment.study.own_model_files import beside
 from seethrough.experiment.study.parser import Parser
-from seethrough.experiment.study.plugin_files import taken
 from seethrough.experiment.study.study import Study
-from seethrough.experiment.study.study_errors import study_error
-from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
 from seethrough.experiment.study.study_items import lacking_items
-from seethrough.experiment.study.toml_file import read_toml
+from seethrough.experiment.study.tables.study_errors import study_error
 from seethrough.experiment.study.translations import (
     unshowable_names,
     unshowable_texts,

@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from typing import Any, TypeGuard
 
 from seethrough.experiment.record.columns import RESERVED
-from seethrough.experiment.study.cells import Part, every_combination, parts_of
-from seethrough.experiment.study.design import Design
-from seethrough.experiment.study.factor_tables import level_name, read_factors
-from seethrough.experiment.study.factors import (
+from seethrough.experiment.study.design.design import Design
+from seethrough.experiment.study.design.factors import (
     MEASURED,
     Cell,
     Factor,
@@ -17,12 +15,14 @@ from seethrough.experiment.study.factors import (
     Levels,
     every_cell,
 )
-from seethrough.experiment.study.parameter_tables import MISSING, Fault
-from seethrough.experiment.study.question_checks import unfit_questions
-from seethrough.experiment.study.reading import read
-from seethrough.experiment.study.scopes import sections
 from seethrough.experiment.study.study import Study
-from seethrough.experiment.study.study_tables import DesignTable
+from seethrough.experiment.study.tables.cells import Part, every_combination, parts_of
+from seethrough.experiment.study.tables.factor_tables import level_name, read_factors
+from seethrough.experiment.study.tables.parameter_tables import MISSING, Fault
+from seethrough.experiment.study.tables.question_checks import unfit_questions
+from seethrough.experiment.study.tables.reading import read
+from seethrough.experiment.study.tables.scopes import sections
+from seethrough.experiment.study.tables.study_tables import DesignTable
 
 MOST_CELLS = 10_000
 DESCRIBED = ("plugins", "translations")  # what a sidecar says besides

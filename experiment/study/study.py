@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from seethrough import registry
-from seethrough.experiment.study import plugin_files
-from seethrough.experiment.study.cells import Part
-from seethrough.experiment.study.design import Design, Trial
-from seethrough.experiment.study.factors import Cell, Factor, Levels
-from seethrough.experiment.study.reading import Chosen, Limits, Question
-from seethrough.experiment.study.study_tables import (
+from seethrough.experiment.study.beside import plugin_files
+from seethrough.experiment.study.design.design import Design, Trial
+from seethrough.experiment.study.design.factors import Cell, Factor, Levels
+from seethrough.experiment.study.tables.cells import Part
+from seethrough.experiment.study.tables.reading import Chosen, Limits, Question
+from seethrough.experiment.study.tables.study_tables import (
     AnalysisTable,
     DesignTable,
     DisplayTable,

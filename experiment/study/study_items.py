@@ -1,8 +1,8 @@
 """Which item of a task each trial asks for, where a world's items are counted: those of files.
 
-Sets of items rotate over a person's cells as sets of scenes do (experiment/study/items.py): a set
-is a run of items, as long as a cell's trials and practice, in the study's order or one drawn from
-its seed.
+Sets of items rotate over a person's cells as sets of scenes do (experiment/study/design/items.py):
+a set is a run of items, as long as a cell's trials and practice, in the study's order or one drawn
+from its seed.
 """
 
 from __future__ import annotations
@@ -10,17 +10,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from seethrough.experiment.study.design import (
+from seethrough.experiment.study.design.design import (
     STUDY_SCENES,
     TRAINING_TRIAL,
     Trial,
     generator,
 )
-from seethrough.experiment.study.factors import CHANGED, Cell
+from seethrough.experiment.study.design.factors import CHANGED, Cell
 from seethrough.experiment.study.study import Study
 from seethrough.tasks.catalog import TASKS, WORLDS
-from seethrough.tasks.kit.base import Setting
-from seethrough.tasks.kit.world import FILES, FileWorld
+from seethrough.tasks.kit.base import Counts, Needs, Setting
+from seethrough.tasks.kit.world import FILES, FileWorld, Lists
 
 ORDER = 200  # second word of the stream that orders items: no scene set has such a number
 
@@ -114,7 +114,7 @@ class StudyItems:
         if key not in self._orders:
             count = _count(trial.task, setting)
             order = tuple(range(count)) if count is not None else None
-            if order is not None and not getattr(setting.place, "items", ()):
+            if order is not None and not (isinstance(setting.place, Lists) and setting.place.items):
                 which = sorted(self.study.tasks()).index(trial.task)
                 rng = generator(self.study.study.seed, (STUDY_SCENES, ORDER, which))
                 order = tuple(rng.permutation(len(order)).tolist())
@@ -131,7 +131,8 @@ def lacking_items(study: Study) -> list[str]:
         world = WORLDS[part.world]
         there = world.targets(part.place) if isinstance(world, FileWorld) else {}
         for task in part.design.tasks:
-            least = getattr(TASKS[task], "least", 1)
+            asked = TASKS[task]
+            least = asked.least if isinstance(asked, Needs) else 1
             lines += [
                 f"world.{part.world}.{key}: expected {least} or more targets for {task}, there are "
                 f"{count}: tag things with target = true"
@@ -150,5 +151,5 @@ def lacking_items(study: Study) -> list[str]:
 
 def _count(task: str, setting: Setting) -> int | None:
     """How many items a task can ask for there, None where scenes are drawn."""
-    counted = getattr(TASKS[task], "items", None)
-    return None if counted is None else counted(setting)
+    asked = TASKS[task]
+    return asked.items(setting) if isinstance(asked, Counts) else None

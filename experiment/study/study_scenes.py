@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import TRAINING_TRIAL, Trial, generator
+from seethrough.experiment.study.design.design import TRAINING_TRIAL, Trial, generator
 from seethrough.experiment.study.study_items import StudyItems
 from seethrough.tasks.explore import EXPLORE
 from seethrough.tasks.kit.base import Setting, Task

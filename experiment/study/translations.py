@@ -17,9 +17,9 @@ from pathlib import Path
 
 from seethrough.experiment.errors import InputError, gathered, short, shown, unknown
 from seethrough.experiment.pages.texts import Texts
+from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_beside
+from seethrough.experiment.study.beside.toml_file import parse_toml
 from seethrough.experiment.study.study import Study
-from seethrough.experiment.study.study_files import LARGEST_TEXT, read_beside
-from seethrough.experiment.study.toml_file import parse_toml
 from seethrough.renderer.declared import declared
 from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.own_texts import flat_values

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from seethrough.experiment.errors import InputError, short, unknown
 from seethrough.experiment.files.trust import TRUST
-from seethrough.experiment.study.plugin_files import from_path
+from seethrough.experiment.study.beside.plugin_files import from_path
 
 
 def add_arguments(kind: str, parser: argparse.ArgumentParser) -> None:

@@ -15,8 +15,7 @@ from numpy.random import Generator
 
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.suites.plain_looks import plain_look
-from seethrough.tasks.kit.base import Outcome, Setting, Task, View
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     FocusChange,
     KeyPress,
@@ -26,6 +25,7 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
     Tick,
 )
+from seethrough.tasks.kit.base import Outcome, Setting, Task, View
 
 ASPECT = 4 / 3
 MOST_EVENTS = 20_000

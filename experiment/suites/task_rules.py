@@ -16,9 +16,9 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
+from seethrough.renderer.events import KeyPress, Tick
 from seethrough.tasks.catalog import WORLDS, setting, taken, worlds_of
 from seethrough.tasks.kit.base import Outcome, Setting, Task, View
-from seethrough.tasks.kit.events import KeyPress, Tick
 from seethrough.tasks.kit.hud import Button, Entry, FloorPlan, Inset, Label
 from seethrough.tasks.kit.measure import Measure
 from seethrough.tasks.kit.skills.strategy import Strategy

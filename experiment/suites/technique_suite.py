@@ -22,6 +22,7 @@ from seethrough.experiment.suites.finding import Finding
 from seethrough.experiment.suites.played import no_clock
 from seethrough.experiment.suites.technique_scenes import Case
 from seethrough.experiment.suites.variants import pairwise, refused
+from seethrough.renderer import events
 from seethrough.renderer.declared import declared
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.explain import explain
@@ -31,7 +32,6 @@ from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.standard.opaque import Standard
-from seethrough.tasks.kit import events
 from seethrough.tasks.kit.gestures import after as gestures_done
 
 if TYPE_CHECKING:
@@ -294,8 +294,10 @@ class _Tried:
         """The same events lead to the same state; only what it takes is used up."""
         case = self.cases[0]
         (state, used), (again, _) = self.played(case, self.p), self.played(case, self.p)
-        takes = [_kind(e) in self.technique.takes for e in some_events()]
-        stolen = [_kind(e) for e, u, t in zip(some_events(), used, takes, strict=True) if u > t]
+        takes = [events.taken_as(e) in self.technique.takes for e in some_events()]
+        stolen = [
+            events.taken_as(e) for e, u, t in zip(some_events(), used, takes, strict=True) if u > t
+        ]
         tried = pairwise(self.p, np.random.default_rng(12))
         changes = any(self.played(case, p)[0] != self.technique.begin(p) for p in tried)
         holds = state == again and not stolen and (changes or not self.technique.takes)
@@ -361,15 +363,6 @@ def some_events() -> list[events.Event]:
         *(events.KeyRelease(0.9, k) for k in ("q", "e", "up")),
         events.Tick(1.0),
     ]
-
-
-def _kind(event: events.Event) -> str:
-    name = type(event).__name__
-    if isinstance(event, events.KeyPress | events.KeyRelease):
-        return f"key:{event.key}"
-    if name.startswith("Second"):
-        return "second button"
-    return "pointer" if name.startswith("Pointer") else name.lower()
 
 
 def _apart(picture: NDArray[np.uint8], truth: ExactPicture) -> float:

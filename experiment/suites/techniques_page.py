@@ -11,6 +11,7 @@ from pathlib import Path
 
 from seethrough import registry
 from seethrough.experiment.gallery.gallery_failures import failures
+from seethrough.experiment.generated import write_anew
 from seethrough.experiment.suites.requirements import SHOWS, VIEWS, measure
 from seethrough.renderer.techniques.base import Technique
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
@@ -87,5 +88,4 @@ def _each() -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    REFERENCE.write_text(page(), "utf-8")
-    sys.stdout.write(f"{REFERENCE}\n")
+    sys.exit(write_anew(REFERENCE, page, "It measures every technique: minutes."))

@@ -15,9 +15,9 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
+from seethrough.renderer.events import KeyPress, Tick
 from seethrough.renderer.scene.camera import Camera
 from seethrough.tasks.catalog import taken
-from seethrough.tasks.kit.events import KeyPress, Tick
 from seethrough.tasks.kit.world import FILES, OWN, SHARED, World
 
 MOVING = ("orbit", "walk", "fixed")

@@ -54,8 +54,7 @@ def _joined(meshes: tuple[Mesh, ...]) -> tuple[Floats, Ints, Ints]:
 
 def lens(camera: Camera, size: tuple[int, int]) -> NDArray[np.float64]:
     """(4,) pixels for a slope of 1, the middle of the picture, and where the near plane is."""
-    scale = 0.5 * size[1] / np.tan(camera.fov_y / 2)
-    return np.array([scale, size[0] / 2, size[1] / 2, camera.near])
+    return np.array([camera.lens(size[1]), size[0] / 2, size[1] / 2, camera.near])
 
 
 @njit(cache=True, nogil=True)

@@ -12,17 +12,17 @@ METHODS: dict[str, tuple[str, dict[str, str]]] = {
     "distance": ("distance", {}),
     "depth": ("distance", {"metric": "depth"}),
     "axis_tree": ("axis_tree", {}),
-    "boxes": ("boxes", {}),
-    "boxes_paper": ("boxes", {"rule": "paper"}),
+    "boxes": ("boxes.boxes", {}),
+    "boxes_paper": ("boxes.boxes", {"rule": "paper"}),
     "bsp": ("bsp", {}),
     "bsp_first": ("bsp", {"splitter": "first"}),
     "bsp_fewest": ("bsp", {"splitter": "fewest"}),
-    "feudal": ("feudal", {}),
-    "feudal_dynamic": ("feudal", {"version": "dynamic"}),
+    "feudal": ("feudal.feudal", {}),
+    "feudal_dynamic": ("feudal.feudal", {"version": "dynamic"}),
 }
 
 
-CUTTING = ("bsp", "feudal")
+CUTTING = ("bsp", "feudal.feudal")
 
 
 def prepare(name: str, polygons: Polygons, most: int | None = None) -> Prepared:

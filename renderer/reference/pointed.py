@@ -13,13 +13,13 @@ from seethrough.renderer.reference.reference import exact_shares
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Own, Plain, Shot
+from seethrough.renderer.techniques.base import Parameters, Plain, Shot
 
 NOTHING = -1
 ROUND = 3  # pixels about the place that are looked at: a line is as wide
 
 
-def pointed(shot: Shot, technique: Own, state: Own, place: tuple[float, float]) -> int:
+def pointed(shot: Shot, technique: Parameters, state: object, place: tuple[float, float]) -> int:
     """The index of the object that shows most at a place (x, y in view units), the nearest of
     equal ones; −1 where that is the background, or nothing of the scene.
 
@@ -56,15 +56,15 @@ def pointed(shot: Shot, technique: Own, state: Own, place: tuple[float, float]) 
     return NOTHING if hidden or found >= len(shot.scene.objects) else found
 
 
-def is_local(technique: Own) -> bool:
+def is_local(technique: Parameters) -> bool:
     """Whether all that a technique's rule knows of a surface lies at its pixel: then a click costs
     little at any size."""
-    return type(technique.technique).known is Plain.known
+    return getattr(type(technique.technique), "known", None) is Plain.known
 
 
 def _direction(shot: Shot, column: float, row: float) -> Floats:
     """(3,) from the eye through a place in pixels, in the world, of length 1."""
-    slope = 2 * np.tan(shot.camera.fov_y / 2) / shot.size[1]
+    slope = shot.camera.pixel(shot.size[1])
     across, up = column - shot.size[0] / 2, shot.size[1] / 2 - row
     way: Floats = shot.camera.rotation @ np.array([across * slope, up * slope, -1.0])
     return way / float(np.linalg.norm(way))

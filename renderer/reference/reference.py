@@ -29,14 +29,12 @@ from seethrough.renderer.techniques.base import Bools, Floats, Look, Parameters,
 @dataclass(frozen=True, eq=False)
 class ExactPicture:
     """picture (h, w, 3) in [0, 1]; weights (n, h, w): each object's share of the pixel;
-    transmittance (n, h, w): what stands in front of each object's first kept surface leaves, 1
-    where there is none; depth (n, h, w) of that surface, inf where there is none; near_edge (h, w):
+    depth (n, h, w) of each object's first kept surface, inf where there is none; near_edge (h, w):
     pixels not to be compared, within 1/256 pixel of a projected edge (surfaces.py) or of a line
     where surfaces cross, or in doubt by the technique's rule."""
 
     picture: NDArray[np.float64]
     weights: NDArray[np.float64]
-    transmittance: NDArray[np.float64]
     depth: NDArray[np.float64]
     near_edge: NDArray[np.bool_]
 
@@ -69,9 +67,8 @@ def _composed(seen: Surfaces, look: Look, edges: Bools) -> ExactPicture:
     np.add.at(picture, pixel, share[:, None] * _lit(seen, look, rows))
     weights = np.zeros((n, pixels))
     np.add.at(weights, (owner, pixel), share)
-    left, depth = np.ones((n, pixels)), np.full((n, pixels), np.inf)
+    depth = np.full((n, pixels), np.inf)
     first = seen.first(look.kept & (look.opacity > 0))[rows]
-    left[owner[first], pixel[first]] = before[first]
     depth[owner[first], pixel[first]] = seen.depth[rows[first]]
     near = edges[0].ravel() | _crossing(seen, look, rows, before)
     near |= (edges[1] & (look.kept & ~seen.front).any()).ravel()
@@ -81,7 +78,6 @@ def _composed(seen: Surfaces, look: Look, edges: Bools) -> ExactPicture:
     return ExactPicture(
         picture.reshape(height, width, 3),
         weights.reshape(shape),
-        left.reshape(shape),
         depth.reshape(shape),
         near.reshape(height, width),
     )

@@ -62,6 +62,17 @@ class Camera:
         """The slope that one pixel of a picture so high spans in its middle."""
         return float(2 * np.tan(self.fov_y / 2) / height)
 
+    def lens(self, height: float) -> float:
+        """Pixels for a slope of 1, in a picture so many pixels high."""
+        return float(0.5 * height / np.tan(self.fov_y / 2))
+
+    def places(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 2) where points (n, 3) show, in half-heights of the picture from its middle, y up;
+        of what is not before the eye it says nothing."""
+        seen = (points - self.eye) @ self.rotation
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return seen[:, :2] / -seen[:, 2:] / np.tan(self.fov_y / 2)
+
     def depth(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n,) signed distance of (n, 3) points from the eye along the view vector (Elmqvist2009
         §V-B)."""

@@ -47,7 +47,7 @@ def to_pixels(
 ) -> NDArray[np.float64]:
     """(..., 2) pixels of (..., 3) camera coordinates, which must lie in front of the eye."""
     width, height = size
-    scale = 0.5 * height / np.tan(camera.fov_y / 2)
+    scale = camera.lens(height)
     depth = -points[..., 2]
     x = 0.5 * width + scale * points[..., 0] / depth
     y = 0.5 * height - scale * points[..., 1] / depth
@@ -87,7 +87,7 @@ def screen_boxes(corners: NDArray[np.float64], camera: Camera, size: tuple[int, 
 
     The corners of a box come in the order of their bits: corner k is high in x if k & 4.
     """
-    scale = 0.5 * size[1] / np.tan(camera.fov_y / 2)
+    scale = camera.lens(size[1])
     lens = np.array([scale, size[0] / 2, size[1] / 2, camera.near])
     extents, depths, crosses = _boxes(corners, camera.eye, camera.rotation, lens)
     near, far = depths[:, 0], depths[:, 1]

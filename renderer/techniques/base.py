@@ -11,12 +11,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Protocol, TypeAlias
+from typing import ClassVar, Generic, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import check
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 
@@ -29,10 +31,6 @@ Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the t
 MASKS = "masks"  # by levels and pixels, with a mask about each target
 REMOVAL = "removal"  # in one pass that leaves out what the rule takes away
 PEELS = "peels"  # layer by layer from the front, each as strongly as the rule says
-
-# What only a technique itself knows the type of: its parameters, its state, the events that it is
-# told of, and what it finds out for its rule.
-Own: TypeAlias = Any
 
 
 @dataclass(frozen=True)
@@ -168,7 +166,15 @@ class Gesture:
     times: int = 1
 
 
-class Technique(Protocol):
+# A technique's parameters, its state, and what it finds out for its rule: who only hands them on
+# need not know what they are.
+P = TypeVar("P", bound=Parameters, default=Parameters)
+State = TypeVar("State", default=object)
+Known = TypeVar("Known", default=object)
+KnownTo = TypeVar("KnownTo", default=object)
+
+
+class Technique(Protocol[P, State, Known]):
     """How a frame shows a scene. `Plain` has what most of them have in common.
 
     `source` is a paper's key in REFERENCES.md; `instruction` says in a sentence what it does.
@@ -195,70 +201,73 @@ class Technique(Protocol):
     painter: str
     glsl: str
     needs: frozenset[str]
-    Parameters: Own
 
-    def begin(self, p: Own) -> Own:
+    @property
+    def Parameters(self) -> type[P]:
+        """The class of its parameters."""
+
+    def begin(self, p: P) -> State:
         """The state before the first event."""
 
-    def on_event(self, p: Own, state: Own, event: Own, shot: Shot) -> tuple[Own, bool]:
+    def on_event(self, p: P, state: State, event: Event, shot: Shot) -> tuple[State, bool]:
         """The state after an event, and whether the event is used up."""
 
-    def active(self, p: Own) -> bool:
+    def active(self, p: P) -> bool:
         """Whether what it shows depends on what hands do."""
 
-    def reach(self, p: Own, state: Own, shot: Shot, point: Floats) -> tuple[Gesture, ...]:
+    def reach(self, p: P, state: State, shot: Shot, point: Floats) -> tuple[Gesture, ...]:
         """What hands do so that it works at a point (3,) of the world; none where they cannot."""
 
-    def shown(self, p: Own, state: Own, shot: Shot) -> Shown:
+    def shown(self, p: P, state: State, shot: Shot) -> Shown:
         """What stands there in this frame."""
 
-    def touches(self, p: Own, state: Own, shot: Shot) -> Bools:
+    def touches(self, p: P, state: State, shot: Shot) -> Bools:
         """(n,) the objects whose surfaces the rule may change: more may be named, none left out."""
 
-    def known(self, p: Own, state: Own, seen: Surfaces) -> Own:
+    def known(self, p: P, state: State, seen: Surfaces) -> Known:
         """What is not local to a pixel: all that `rule` may know beside its own pixel's rows."""
 
-    def rule(self, p: Own, state: Own, seen: Surfaces, known: Own) -> Look:
+    def rule(self, p: P, state: State, seen: Surfaces, known: Known) -> Look:
         """How each surface shows."""
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, object]:
+    def uniforms(self, p: P, state: State, shot: Shot) -> Mapping[str, object]:
         """Values of the uniforms that `glsl` declares."""
 
     def pictures(
-        self, p: Own, state: Own, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
+        self, p: P, state: State, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
     ) -> Mapping[str, NDArray[np.float32]]:
         """Name → (h, w) of the pictures that `glsl` looks up, made from those that it `needs`."""
 
-    def objects(self, p: Own, scene: Scene) -> NDArray[np.int64]:
+    def objects(self, p: P, scene: Scene) -> NDArray[np.int64]:
         """(n,) a number of each object's, the Surface's `number` in `glsl`."""
 
-    def drawn(self, p: Own, state: Own) -> Own:
+    def drawn(self, p: P, state: State) -> P:
         """The parameters as the state has them, for a painter that knows parameters alone."""
 
-    def sides(self, p: Own) -> bool:
+    def sides(self, p: P) -> bool:
         """Whether back faces can show."""
 
-    def layers(self, p: Own) -> int | None:
+    def layers(self, p: P) -> int | None:
         """How many layers are peeled at most; None: all."""
 
-    def order(self, p: Own) -> str | None:
+    def order(self, p: P) -> str | None:
         """The method (renderer/polygons) in whose order polygons are drawn, right or wrong; None:
         pixel by pixel."""
 
-    def edges(self, p: Own) -> Mapping[str, object]:
+    def edges(self, p: P) -> Mapping[str, object]:
         """What shaders/edges.frag draws lines with along the edges of each layer; empty: none."""
 
-    def looked_at(self, p: Own) -> Own:
+    def looked_at(self, p: P) -> P:
         """The parameters with which `look` finds what is seen."""
 
     def __hash__(self) -> int: ...
 
-    def exactly(self, p: Own) -> Own:
+    def exactly(self, p: P) -> P:
         """The parameters with which what is drawn is the rule at every pixel, however long it
         takes."""
 
 
-class Plain:
+class Plain(Generic[P, State, Known]):
     """What most techniques are like: no events, no state, nothing moves, nothing is touched."""
 
     version = "1"
@@ -267,90 +276,91 @@ class Plain:
     painter = REMOVAL
     needs: frozenset[str] = frozenset()
     glsl = "float opacity(Surface s) { return 1.0; }\nbool opened(Surface s) { return false; }\n"
-    Parameters: Own
+    Parameters: type[P]
     name: str
 
     def __init__(self) -> None:
-        self.Parameters.technique = self
+        # Its own parameters alone come back to it, which no type can say.
+        self.Parameters.technique = cast(Technique, self)
 
     @property
     def controls(self) -> str:
         """By the technique's name."""
         return f"{self.name}.controls"
 
-    def begin(self, p: Own) -> Own:
+    def begin(self, p: P) -> State | None:
         """No state."""
         return None
 
-    def on_event(self, p: Own, state: Own, event: Own, shot: Shot) -> tuple[Own, bool]:
+    def on_event(self, p: P, state: State, event: Event, shot: Shot) -> tuple[State, bool]:
         """Nothing is used up."""
         return state, False
 
-    def active(self, p: Own) -> bool:
+    def active(self, p: P) -> bool:
         """Where events change a state that there is."""
         return bool(self.takes) and self.begin(p) is not None
 
-    def reach(self, p: Own, state: Own, shot: Shot, point: Floats) -> tuple[Gesture, ...]:
+    def reach(self, p: P, state: State, shot: Shot, point: Floats) -> tuple[Gesture, ...]:
         """The pointer goes there, where it is taken."""
         from seethrough.renderer.techniques.pointing import place_of
 
         place = place_of(shot, point)
         return (Gesture("pointer", place),) if place and "pointer" in self.takes else ()
 
-    def shown(self, p: Own, state: Own, shot: Shot) -> Shown:
+    def shown(self, p: P, state: State, shot: Shot) -> Shown:
         """The scene as it is."""
         return Shown(shot.scene)
 
-    def touches(self, p: Own, state: Own, shot: Shot) -> Bools:
+    def touches(self, p: P, state: State, shot: Shot) -> Bools:
         """Nothing."""
         return np.zeros(len(shot.scene.objects), dtype=bool)
 
-    def known(self, p: Own, state: Own, seen: Surfaces) -> Own:
+    def known(self, p: P, state: State, seen: Surfaces) -> Known | None:
         """Nothing but what stands at a pixel."""
         return None
 
-    def rule(self, p: Own, state: Own, seen: Surfaces, known: Own) -> Look:
+    def rule(self, p: P, state: State, seen: Surfaces, known: Known) -> Look:
         """Opaque front faces."""
         return Look(seen.front, np.ones(len(seen.depth)))
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> Mapping[str, object]:
+    def uniforms(self, p: P, state: State, shot: Shot) -> Mapping[str, object]:
         """None."""
         return {}
 
     def pictures(
-        self, p: Own, state: Own, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
+        self, p: P, state: State, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
     ) -> Mapping[str, NDArray[np.float32]]:
         """Those that it needs, as they are."""
         return needed
 
-    def objects(self, p: Own, scene: Scene) -> NDArray[np.int64]:
+    def objects(self, p: P, scene: Scene) -> NDArray[np.int64]:
         """1 what may be penetrated, 0 targets and what may not."""
         return (~(scene.targets | scene.impenetrable)).astype(np.int64)
 
-    def drawn(self, p: Own, state: Own) -> Own:
+    def drawn(self, p: P, state: State) -> P:
         """As they are."""
         return p
 
-    def sides(self, p: Own) -> bool:
+    def sides(self, p: P) -> bool:
         """They can."""
         return True
 
-    def layers(self, p: Own) -> int | None:
+    def layers(self, p: P) -> int | None:
         """All."""
         return None
 
-    def order(self, p: Own) -> str | None:
+    def order(self, p: P) -> str | None:
         """Pixel by pixel."""
         return None
 
-    def edges(self, p: Own) -> Mapping[str, object]:
+    def edges(self, p: P) -> Mapping[str, object]:
         """No lines."""
         return {}
 
-    def looked_at(self, p: Own) -> Own:
+    def looked_at(self, p: P) -> P:
         """As it is drawn."""
         return p
 
-    def exactly(self, p: Own) -> Own:
+    def exactly(self, p: P) -> P:
         """As it is drawn."""
         return p

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import base
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
 
 SURFACES = ("front", "all")
 
@@ -33,7 +34,10 @@ class Layered(base.Parameters):
     )  # fmt: skip
 
 
-class Layering(base.Plain):
+P = TypeVar("P", bound=Layered, default=Layered)
+
+
+class Layering(base.Plain[P, base.State, base.Known]):
     """A technique of opacities. `strength` is its GLSL: `float opacity_of(Surface s)` for what is
     penetrable."""
 
@@ -44,24 +48,24 @@ class Layering(base.Plain):
         super().__init__()
         self.glsl = self.strength + _GLSL
 
-    def touches(self, p: Own, state: Own, shot: Shot) -> Bools:
+    def touches(self, p: P, state: base.State, shot: Shot) -> Bools:
         """Whatever may be penetrated."""
         return self.objects(p, shot.scene) != 0
 
-    def uniforms(self, p: Own, state: Own, shot: Shot) -> dict[str, object]:
+    def uniforms(self, p: P, state: base.State, shot: Shot) -> dict[str, object]:
         """Whether far sides show."""
         return {"inside": p.surfaces == "all"}
 
-    def sides(self, p: Own) -> bool:
+    def sides(self, p: P) -> bool:
         """Where far sides show."""
         return bool(p.surfaces == "all")
 
-    def layers(self, p: Own) -> int | None:
+    def layers(self, p: P) -> int | None:
         """As the study has it."""
         found: int | None = p.layers
         return found
 
-    def look(self, p: Own, seen: Surfaces, opacity: Floats, doubt: Bools | None = None) -> Look:
+    def look(self, p: P, seen: Surfaces, opacity: Floats, doubt: Bools | None = None) -> Look:
         """How surfaces show with these opacities (m,), where they may be penetrated."""
         ruled = self.objects(p, seen.shot.scene)[seen.object] != 0
         kept = seen.front | (ruled & (p.surfaces == "all"))

@@ -1,6 +1,5 @@
 """What the pointer does to techniques that follow it: its place, and a number that keys change.
 
-An event is told by its class's name, as tasks/kit/events.py has them: the renderer lies below it.
 Where the pointer has not moved, or is captured to walk, the place is the middle of the view.
 """
 
@@ -9,9 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import ceil, log
 
-import numpy as np
-
-from seethrough.renderer.techniques.base import Floats, Gesture, Own, Shot
+from seethrough.renderer.events import Event, KeyPress, PointerMove, Wheel
+from seethrough.renderer.techniques.base import Floats, Gesture, Shot
 
 MOST_STEPS = 60  # of the wheel at once: 1.1 to that power is 300
 
@@ -33,13 +31,8 @@ class Pointing:
         column, row = self.pixel(shot)
         right, up, back = shot.camera.rotation.T
         x, y = column - shot.size[0] / 2, shot.size[1] / 2 - row
-        found: Floats = (x * right + y * up) / lens(shot) - back
+        found: Floats = (x * right + y * up) / shot.camera.lens(shot.size[1]) - back
         return found
-
-
-def lens(shot: Shot) -> float:
-    """Pixels for a slope of 1."""
-    return float(0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
 
 
 def place_of(shot: Shot, point: Floats) -> tuple[float, float] | None:
@@ -49,7 +42,7 @@ def place_of(shot: Shot, point: Floats) -> tuple[float, float] | None:
     if depth <= shot.camera.near:
         return None
     right, up, _ = shot.camera.rotation.T
-    scale = lens(shot) / depth / shot.size[1]
+    scale = shot.camera.lens(shot.size[1]) / depth / shot.size[1]
     x, y = shot.aspect / 2 + float(away @ right) * scale, 0.5 - float(away @ up) * scale
     return (x, y) if 0 <= x <= shot.aspect and 0 <= y <= 1 else None
 
@@ -67,15 +60,14 @@ def reaching(state: Pointing, shot: Shot, point: Floats, step: float) -> tuple[G
     return (Gesture("pointer", place), *turn)
 
 
-def followed(state: Pointing, event: Own, step: float) -> tuple[Pointing, bool]:
+def followed(state: Pointing, event: Event, step: float) -> tuple[Pointing, bool]:
     """The state after an event: the pointer moves it, q and e bring it nearer and farther by a
     `step` (a share), and so does the wheel. A move of the pointer is left to others as well."""
-    kind = type(event).__name__
-    if kind == "PointerMove":
+    if isinstance(event, PointerMove):
         return replace(state, pointer=(event.x, event.y)), False
-    if kind == "KeyPress" and event.key in ("q", "e"):
+    if isinstance(event, KeyPress) and event.key in ("q", "e"):
         factor = 1 + step if event.key == "e" else 1 / (1 + step)
         return replace(state, depth=state.depth * factor), True
-    if kind == "Wheel":
+    if isinstance(event, Wheel):
         return replace(state, depth=state.depth * (1 + step) ** event.dy), True
     return state, False

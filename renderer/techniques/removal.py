@@ -12,10 +12,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import base
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Surfaces
 from seethrough.renderer.techniques.lines import LINE, on_edges, unsure
 
 CAPS = ("none", "inside", "flat")
@@ -55,7 +56,10 @@ class Removing(base.Parameters):
     )  # fmt: skip
 
 
-class Removal(base.Plain):
+P = TypeVar("P", bound=Removing, default=Removing)
+
+
+class Removal(base.Plain[P, base.State, base.Known]):
     """A technique that removes. `removes` is its GLSL: `bool removed(Surface s)` for what is
     penetrable, and `bool pierced(Surface s)`, whether the pixel's ray meets the hole at all."""
 
@@ -66,15 +70,15 @@ class Removal(base.Plain):
         super().__init__()
         self.glsl = self.removes + _GLSL
 
-    def uniforms(self, p: Own, state: Own, shot: base.Shot) -> Mapping[str, object]:
+    def uniforms(self, p: P, state: base.State, shot: base.Shot) -> Mapping[str, object]:
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
 
-    def sides(self, p: Own) -> bool:
+    def sides(self, p: P) -> bool:
         """Where cuts show a wall."""
         return bool(p.cap != "none")
 
-    def edges(self, p: Own) -> Mapping[str, object]:
+    def edges(self, p: P) -> Mapping[str, object]:
         """The lines of what is removed, as shaders/edges.frag draws them."""
         return {"line": (*LINE, p.edges), "crease": float(np.cos(CREASE))} if p.edges > 0 else {}
 
@@ -120,7 +124,7 @@ def _lined(seen: Surfaces, removed: Bools, kept: Bools, doubt: Bools) -> tuple[B
 def uncertain(seen: Surfaces) -> Floats:
     """(m,) by how far a surface's place may differ in float32, in world units: 1/256 pixel along
     the surface, and rounding of numbers as large as its distance."""
-    lens = 0.5 * seen.shot.size[1] / np.tan(seen.shot.camera.fov_y / 2)
+    lens = seen.shot.camera.lens(seen.shot.size[1])
     along = np.linalg.norm(seen.offset, axis=1) / np.maximum(seen.depth, 1e-300)
     return seen.slack * along + seen.depth * along * (1 / (256 * lens) + 1e-5)
 

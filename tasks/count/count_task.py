@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.random import Generator
 
+from seethrough.renderer.events import Event
 from seethrough.tasks.count.simulate import STRATEGY
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.controls import Orbit, of_view, orbit
 from seethrough.tasks.kit.entry import KEYS, NumberEntry
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, Measure

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from numpy.random import Generator
 
+from seethrough.renderer.events import Event, KeyPress
 from seethrough.tasks.count.count_task import number_outcome
 from seethrough.tasks.count_in_building.simulate import STRATEGY
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.entry import KEYS, NumberEntry
-from seethrough.tasks.kit.events import Event, KeyPress
 from seethrough.tasks.kit.hud import Label
 from seethrough.tasks.kit.measure import ABSOLUTE_ERROR, CORRECT, COUNT_ERROR, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts

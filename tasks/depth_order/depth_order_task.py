@@ -10,10 +10,10 @@ from typing import TypeAlias
 from numpy.random import Generator
 
 from seethrough.renderer.declared import check, key
+from seethrough.renderer.events import Event, KeyPress, PointerPress
 from seethrough.tasks.depth_order.pair import LIFT, Marked, marked
 from seethrough.tasks.depth_order.simulate import STRATEGY
 from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, View
-from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import Button, Label, Rect
 from seethrough.tasks.kit.measure import CORRECT, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts

@@ -46,7 +46,7 @@ class Marked:
 
     def marks(self) -> NDArray[np.float64]:
         """(2, 2) where the two are, in half view heights from the middle of the view, y up."""
-        return on_view(self.camera, self.scene.centers[list(self.pair)])
+        return self.camera.places(self.scene.centers[list(self.pair)])
 
 
 def marked(rng: Generator, setting: Setting, ratio: float) -> Marked:
@@ -88,7 +88,7 @@ def _views(viewer: Viewer, moving: str) -> list[Camera]:
 def _pairs(scene: Scene, camera: Camera, ratio: float) -> list[tuple[int, int]]:
     things = np.nonzero(scene.targets)[0]
     depth = np.array(depths(camera, scene, tuple(things.tolist())))
-    at = on_view(camera, scene.centers[things])
+    at = camera.places(scene.centers[things])
     inside = (depth > camera.near) & (np.abs(at) < [INSIDE * ASPECT, INSIDE]).all(axis=1)
     found = []
     for i, j in combinations(np.nonzero(inside)[0], 2):
@@ -102,11 +102,3 @@ def depths(camera: Camera, scene: Scene, things: tuple[int, ...]) -> list[float]
     """View depth of the middles of things."""
     found: list[float] = camera.depth(scene.centers[list(things)]).tolist()
     return found
-
-
-def on_view(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 2) places in half view heights from the middle of the view, y up."""
-    seen = (points - camera.eye) @ camera.rotation
-    with np.errstate(divide="ignore", invalid="ignore"):
-        places: NDArray[np.float64] = seen[:, :2] / -seen[:, 2:] / np.tan(camera.fov_y / 2)
-    return places

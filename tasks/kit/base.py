@@ -5,20 +5,28 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Generic, Protocol, cast
+from typing import TYPE_CHECKING, Generic, Protocol, cast, runtime_checkable
 
 from numpy.random import Generator
 from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import Declares
+from seethrough.renderer.events import Event
 from seethrough.renderer.look.dressed import dressed
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element, FloorPlan, Point
 from seethrough.tasks.kit.measure import Measure
-from seethrough.tasks.kit.world import NO_KEYS, NO_TEXTS, Place, Texts, World, WorldParameters
+from seethrough.tasks.kit.world import (
+    NO_KEYS,
+    NO_TEXTS,
+    OwnMoving,
+    Place,
+    Texts,
+    World,
+    WorldParameters,
+)
 
 if TYPE_CHECKING:
     from seethrough.tasks.kit.skills.strategy import Strategy
@@ -98,7 +106,8 @@ class Setting(Generic[Where, Own]):
     @property
     def controls(self) -> str:
         """The name of the text that says how one moves."""
-        return str(getattr(self.place, "controls", self.world.controls))
+        own = self.place
+        return own.controls if isinstance(own, OwnMoving) else self.world.controls
 
 
 Given = TypeVar("Given", bound=Setting, default=Setting)
@@ -203,6 +212,31 @@ class Task(Protocol[WhereTo, OwnTo, Made, State]):
 
     def example(self, state: State, aspect: float) -> Example:
         """What the instruction's picture, so wide for its height, may show of a trial's start."""
+
+
+@runtime_checkable
+class OwnControls(Protocol):
+    """What a task says besides in which one does not move as the world has it."""
+
+    def controls(self, setting: Setting) -> str:
+        """The name of the text that says how."""
+
+
+@runtime_checkable
+class Needs(Protocol):
+    """What a task says besides that needs more than one target."""
+
+    @property
+    def least(self) -> int:
+        """Targets that a scene has to have."""
+
+
+@runtime_checkable
+class Counts(Protocol):
+    """What a task says besides whose questions can be counted."""
+
+    def items(self, setting: Setting) -> int | None:
+        """How many things it can ask for there; None where scenes are drawn."""
 
 
 def opaque(task: Task[WhereTo, OwnTo, Made, State]) -> Task:

@@ -9,8 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import hypot
 
-from seethrough.tasks.kit.controls import changed
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     KeyPress,
     KeyRelease,
@@ -18,6 +17,7 @@ from seethrough.tasks.kit.events import (
     PointerPress,
     PointerRelease,
 )
+from seethrough.tasks.kit.controls import changed
 from seethrough.tasks.kit.hud import Element, Mark, Point
 from seethrough.tasks.kit.world import keys
 

@@ -13,8 +13,8 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
+from seethrough.renderer.events import Event, KeyPress, KeyRelease, PointerMove, Tick
 from seethrough.renderer.scene.camera import Camera
-from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease, PointerMove, Tick
 
 Value = TypeVar("Value")
 ARROWS = frozenset({"left", "right", "up", "down"})

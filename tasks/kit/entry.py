@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from seethrough.tasks.kit.events import Event, KeyPress, PointerPress, PointerRelease
+from seethrough.renderer.events import Event, KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.kit.hud import Button, Element, Entry, Label, Rect, hint
 
 KEYS = ("7", "8", "9", "4", "5", "6", "1", "2", "3", "backspace", "0", "enter")

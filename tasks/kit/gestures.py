@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from seethrough.renderer.techniques.base import Gesture, Own, Shot
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     KeyPress,
     KeyRelease,
@@ -14,6 +13,7 @@ from seethrough.tasks.kit.events import (
     SecondRelease,
     Wheel,
 )
+from seethrough.renderer.techniques.base import Gesture, Parameters, Shot
 
 
 def events_of(gesture: Gesture, time: float, seconds: float) -> list[Event]:
@@ -35,7 +35,7 @@ def events_of(gesture: Gesture, time: float, seconds: float) -> list[Event]:
     return found
 
 
-def after(p: Own, state: Own, shot: Shot, gestures: Iterable[Gesture]) -> Own:
+def after(p: Parameters, state: object, shot: Shot, gestures: Iterable[Gesture]) -> object:
     """A technique's state once hands have done all that."""
     for gesture in gestures:
         for event in events_of(gesture, 0.0, 0.0):

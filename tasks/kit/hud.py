@@ -1,6 +1,6 @@
 """What lies over the 3D view, as values: the display draws it, tasks test clicks against it.
 
-Positions and sizes are in view units (tasks/kit/events.py): 1 is the height of the view.
+Positions and sizes are in view units (renderer/events.py): 1 is the height of the view.
 """
 
 from __future__ import annotations

@@ -24,8 +24,9 @@ class Tag:
     wall: bool | None = key(None, "whether it is a wall: its kind is `wall`")
     impenetrable: bool | None = key(None, "whether it never turns transparent")
     importance: float | None = key(
-        None, "how much it matters, for techniques that ask; a target's is 1", low=0, high=1
-    )
+        None, "how much it matters, for techniques of your own that ask: ours go by targets",
+        low=0, high=1,
+    )  # fmt: skip
     kind: str = key("", "what kind of thing it is, for techniques that go by kinds")
     group: str = key(
         "", "things of one group are drawn in their order in the file where nothing separates them"

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 from numpy.random import Generator
 
+from seethrough.renderer.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.base import Example, Outcome, Setting, Task, View
-from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import MARGIN, Button, FloorPlan, Rect
 from seethrough.tasks.kit.world import Place
 

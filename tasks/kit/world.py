@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import Declares, key
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.events import Event
 
 OWN, SHARED, FILES = "own", "shared", "files"
 ANYWHERE: tuple[str, ...] = ("*",)  # the worlds of a task that takes any place with targets
@@ -113,6 +113,32 @@ class ItemWorld(Protocol):
         """All that can be asked for, in the study's order."""
 
 
+@runtime_checkable
+class OwnMoving(Protocol):
+    """What parameters say besides that decide how one moves, in place of their world."""
+
+    @property
+    def move(self) -> str:
+        """As a world's `moving`, or another word."""
+
+    @property
+    def controls(self) -> str:
+        """The name of the text that says how."""
+
+    @property
+    def lattice(self) -> str:
+        """From which viewpoints data mode knows what is seen: "orbit", "poses"."""
+
+
+@runtime_checkable
+class Lists(Protocol):
+    """What parameters say besides that may list what is asked for, in the study's order."""
+
+    @property
+    def items(self) -> Sequence[object]:
+        """Empty: all there is, in an order that is drawn."""
+
+
 class WorldParameters(Declares, Protocol):
     """The parameters of a world: each has a key `scenes`, of which `scenes` below makes one."""
 
@@ -162,7 +188,12 @@ class World(Protocol[Where, Made]):
 
 def moving_of(world: World, parameters: object) -> str:
     """How one moves in a world with these parameters: as they say themselves, else as it says."""
-    return str(getattr(parameters, "move", world.moving))
+    return parameters.move if isinstance(parameters, OwnMoving) else world.moving
+
+
+def lattice_of(world: World, parameters: object) -> str:
+    """From which viewpoints data mode knows what is seen."""
+    return parameters.lattice if isinstance(parameters, OwnMoving) else world.moving
 
 
 def keys(names: Iterable[str]) -> frozenset[str]:

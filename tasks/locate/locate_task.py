@@ -12,11 +12,11 @@ from typing import TypeAlias
 from numpy.random import Generator
 
 from seethrough.renderer.declared import check, key
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, View
 from seethrough.tasks.kit.clicking import TAKES, Clicking, clicking
 from seethrough.tasks.kit.controls import Orbit
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Element, Label, Sought, hint
 from seethrough.tasks.kit.measure import CORRECT, WRONG_CLICKS, Measure

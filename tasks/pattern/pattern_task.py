@@ -7,9 +7,9 @@ from functools import lru_cache
 
 from numpy.random import Generator
 
+from seethrough.renderer.events import Event, KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
 from seethrough.tasks.kit.controls import Orbit, changed, of_view, orbit
-from seethrough.tasks.kit.events import Event, KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Button, Element, Label, Rect, hint
 from seethrough.tasks.kit.letters import LETTERS

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.random import Generator
 
 from seethrough.renderer.declared import check, key
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Scene
@@ -19,7 +20,6 @@ from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, View
 from seethrough.tasks.kit.clicking import TAKES, Clicking, clicking, of_free_pointer
 from seethrough.tasks.kit.controls import Orbit
 from seethrough.tasks.kit.errors import NoScene
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Element, Mark, Sought, hint
 from seethrough.tasks.kit.measure import MISSES, Measure

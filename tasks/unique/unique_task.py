@@ -9,8 +9,8 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+from seethrough.renderer.events import Event, KeyPress
 from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
-from seethrough.tasks.kit.events import Event, KeyPress
 from seethrough.tasks.kit.hud import FloorPlan, Label
 from seethrough.tasks.kit.measure import CORRECT, DISTANCE, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts

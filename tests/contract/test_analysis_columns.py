@@ -13,7 +13,7 @@ from seethrough.analysis import before, exclude
 from seethrough.analysis.load import plan, schema
 from seethrough.analysis.load.chain import link, seal_of, start_of
 from seethrough.experiment.record import chain
-from seethrough.experiment.study import study_tables
+from seethrough.experiment.study.tables import study_tables
 
 BEFORE = before.design_before({})
 

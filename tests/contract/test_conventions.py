@@ -9,7 +9,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from seethrough.experiment.study.design import generator
+from seethrough.experiment.study.design.design import generator
+from seethrough.renderer.events import KeyPress, PointerMove, Tick
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models import MODELS
@@ -20,7 +21,6 @@ from seethrough.renderer.scene.transforms import rotation_y, translation
 from seethrough.renderer.scene.visibility import shares
 from seethrough.renderer.techniques.standard.opaque import Standard
 from seethrough.tasks.kit.controls import orbit, turned, walk
-from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters

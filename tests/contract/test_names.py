@@ -19,7 +19,8 @@ WHERE_THEY_MAY = (
     "experiment/study/migrate.py",
     "experiment/study/migrate_file.py",
     "experiment/people/fitted/",  # the two levels whose times simulated people are fitted to
-    "renderer/polygons/feudal.py",  # feudal priority's two versions are called static and dynamic
+    # Feudal priority's two versions are called static and dynamic.
+    "renderer/polygons/feudal/feudal.py",
     "renderer/polygons/methods.py",
 )
 

@@ -122,3 +122,13 @@ def test_shaders_say_what_they_provide(tree: list[Path], root: Path) -> None:
         if not first.lstrip().startswith(("//", "/*")):
             silent.append(str(shader.relative_to(root)))
     assert not silent
+
+
+def test_a_folder_can_be_taken_in_at_a_glance(root: Path) -> None:
+    """At most 20 modules of ours side by side, the package's own file not counted."""
+    found = {}
+    for room in ("analysis", "benchmarks", "experiment", "renderer", "seethrough", "tasks"):
+        for folder in [root / room, *(p for p in (root / room).rglob("*") if p.is_dir())]:
+            found[folder] = sum(p.name != "__init__.py" for p in folder.glob("*.py"))
+    assert sum(found.values()) > 500  # it finds what there is
+    assert {folder: count for folder, count in found.items() if count > 20} == {}

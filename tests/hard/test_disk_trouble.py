@@ -24,7 +24,7 @@ from seethrough.experiment.record.columns import TRIALS, Column
 from seethrough.experiment.record.record_files import Table
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.tasks.kit.base import Outcome
 
 STEM = "study-test_subject-P01_session-1"
@@ -35,13 +35,13 @@ import os, resource, signal, sys
 from pathlib import Path
 import numpy as np
 from seethrough.experiment import cli
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
-from seethrough.tasks.kit.events import PointerMove
+from seethrough.renderer.events import PointerMove
 
 data, largest, user = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 if user:  # root, whom no permission stops, becomes somebody else

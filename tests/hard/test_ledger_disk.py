@@ -51,7 +51,7 @@ SESSION = """
 import resource, sys
 from pathlib import Path
 from seethrough.experiment import cli
-from seethrough.experiment.commands import run
+from seethrough.experiment.commands.sessions import run
 from seethrough.experiment.study.config import load
 from seethrough.experiment.record.recorder import FileRecorder, Who
 

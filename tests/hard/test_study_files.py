@@ -137,7 +137,7 @@ def test_a_study_that_would_take_minutes_is_refused_at_once(tmp_path, name):
 
 
 def test_texts_and_comments_may_hold_what_keys_may_not(tmp_path):
-    from seethrough.experiment.study.toml_file import read_toml
+    from seethrough.experiment.study.beside.toml_file import read_toml
 
     path = tmp_path / "s.toml"
     dots = ".".join("a" * 99)

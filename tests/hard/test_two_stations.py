@@ -30,10 +30,10 @@ import os, signal, sys, time
 from pathlib import Path
 from seethrough.experiment import cli
 from seethrough.experiment.ledger import ledger_lock
-from seethrough.experiment.commands import run
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.commands.sessions import run
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.record.trial_record import TrialRecord

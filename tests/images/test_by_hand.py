@@ -11,7 +11,7 @@ from seethrough.experiment.pages.pages import Page, Paragraph, Picture, PlatePic
 from seethrough.experiment.questions.kit import Asking
 from seethrough.experiment.questions.likert.likert_question import LikertParameters
 from seethrough.experiment.questions.number.number_question import NumberParameters
-from seethrough.experiment.study.ready import question
+from seethrough.experiment.study.tables.ready import question
 
 SMALL, LARGE = (800, 600), (1920, 1080)
 OTHERS = {  # parameters that ask most of a hand

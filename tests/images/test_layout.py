@@ -18,7 +18,7 @@ from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import HudDrawing
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, TextField
 from seethrough.experiment.pages.texts import Texts
-from seethrough.experiment.study.ready import one_page
+from seethrough.experiment.study.tables.ready import one_page
 
 SIZES = [(800, 600), (1024, 768), (1920, 1080), (2560, 1080)]
 LANGUAGES = ["en", "de"]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from model_reference import DIRECTIONS, cast, cast_mesh, standing
 
-from seethrough.experiment.study.contact_sheet import _sides
+from seethrough.experiment.study.checked.contact_sheet import _sides
 from seethrough.renderer.models.user import read_model
 
 CASES = model_cases.CASES + model_cases_gltf.CASES

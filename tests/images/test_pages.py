@@ -8,7 +8,7 @@ from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import ACCENT, PILOT
 from seethrough.experiment.pages.pages import Page, Paragraph, TextField
 from seethrough.experiment.questions.tlx.tlx_question import TLX
-from seethrough.experiment.study.ready import one_page
+from seethrough.experiment.study.tables.ready import one_page
 
 TLX_ITEMS = tuple(f"tlx_{name}" for name in TLX)
 

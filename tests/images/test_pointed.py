@@ -7,6 +7,7 @@ from seethrough import registry
 from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.hand import Hand
+from seethrough.renderer.events import KeyPress, PointerPress, PointerRelease, Tick
 from seethrough.renderer.reference.pointed import NOTHING, pointed
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import geometry
@@ -15,7 +16,6 @@ from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import translation
 from seethrough.renderer.techniques.base import Shot
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import KeyPress, PointerPress, PointerRelease, Tick
 from seethrough.tasks.kit.hud import Mark
 
 SIZE = (48, 36)

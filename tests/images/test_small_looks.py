@@ -10,7 +10,7 @@ import pytest
 from seethrough.experiment.display.looking import HEIGHT, Looking
 from seethrough.experiment.people.runs.pool import LazyDraw
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency

@@ -9,13 +9,13 @@ import pytest
 
 from seethrough import registry
 from seethrough.experiment.gallery.gallery_failures import CAMERA, SIZE, Failure, failures, hidden
+from seethrough.renderer import events
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Shot
-from seethrough.tasks.kit import events
 
 WALL = Object(geometry.box(7, 5, 0.2), transforms.translation(0, 0, 2), (0.7, 0.7, 0.65))
 BALL = Object(geometry.sphere(0.8, 2), transforms.translation(0, 0, -2), (0.9, 0.2, 0.1), True)

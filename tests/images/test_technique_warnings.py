@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from seethrough.experiment.gallery.gallery_failures import CAMERA, failures
+from seethrough.experiment.study.checked.technique_warnings import MOST_SCENES, Met, Warner, _spread
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.technique_warnings import MOST_SCENES, Met, Warner, _spread
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named

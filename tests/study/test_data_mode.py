@@ -13,7 +13,7 @@ from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import SIMULATED, generator
+from seethrough.experiment.study.design.design import SIMULATED, generator
 from seethrough.tasks.catalog import TASKS
 
 LATTICE = frozenset({"motor_noise"})  # without it a participant stands on the lattice: exact tables

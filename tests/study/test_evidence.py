@@ -8,7 +8,7 @@ from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import LazyDraw, Pool
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import SIMULATED, generator, session_for
+from seethrough.experiment.study.design.design import SIMULATED, generator, session_for
 
 DEMO = resources.files("seethrough.configs").joinpath("demo.toml").read_text("utf-8")
 STANDARD = 'levels.standard = { technique.use = "standard" }'

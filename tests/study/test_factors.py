@@ -9,7 +9,7 @@ import pytest
 
 from seethrough.experiment import cli
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 
 STUDY = """
 [study]

@@ -19,7 +19,7 @@ from seethrough.experiment.people.runs.data_run import refuse_hands
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.session.levels import hands
 from seethrough.experiment.study.config import parse
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene

@@ -11,7 +11,7 @@ from seethrough.experiment import cli
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.study.config import load, parse
-from seethrough.experiment.study.scopes import TRIAL, scope_of
+from seethrough.experiment.study.tables.scopes import TRIAL, scope_of
 from seethrough.renderer.scene.look import PLAIN, Look
 
 CUES = {
@@ -98,7 +98,7 @@ def test_who_simulates_sees_the_look(context):
     """Fog takes contrast from what is far; data mode's tables of one look are none of another's."""
     from seethrough.experiment.display.looking import Looking
     from seethrough.experiment.people.runs.pool import fingerprint
-    from seethrough.experiment.study.design import session_for
+    from seethrough.experiment.study.design.design import session_for
     from seethrough.experiment.study.study_scenes import StudyScenes
     from seethrough.tasks.catalog import TASKS
 

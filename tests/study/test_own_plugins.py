@@ -24,7 +24,7 @@ from seethrough.experiment.session import strangers
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.strangers import PluginFailed
 from seethrough.experiment.session.surroundings import Surroundings
-from seethrough.experiment.study import plugin_files
+from seethrough.experiment.study.beside import plugin_files
 from seethrough.experiment.study.config import load, parse
 from seethrough.experiment.suites.suite import findings
 from seethrough.tasks.catalog import TASKS
@@ -157,6 +157,8 @@ def test_code_runs_only_once_somebody_trusts_it(own, capsys, monkeypatch):
 WRONG = [
     ("raise ValueError('no')", 'task.toy_task.file = "toy_task.py": cannot be loaded (ValueError'),
     ("x = 1", "expected a TASK in it"),
+    ("import math\nmath.none", "cannot be loaded (AttributeError: module 'math' has no attribute"),
+    ("TASK = 1", "cannot be loaded (AttributeError: 'int' object has no attribute 'name')"),
     ("class T:\n    name = 'other'\nTASK = T()", "calls itself 'other', expected 'toy_task'"),
     ("def f(:", "cannot be loaded (SyntaxError"),
     ("class T:\n    name = 'toy_task'\nTASK = T()", "expected what its suite demands: FAIL"),
@@ -310,4 +312,72 @@ def test_what_the_suite_did_not_meet_ends_the_session_with_the_trials_kept(own, 
     (line,) = error.value.lines
     assert line.startswith("task mine: ") and words in line
     assert [r.trial.number for r in recorder.ended] == [1, 2]
+    assert recorder.status == "plug-in failed"
+
+
+TABLES = {
+    "technique": {"factors": {"view": {"levels": {
+        "near": {"technique": {"use": "toy"}}, "far": {"technique": {"use": "standard"}},
+    }}}},
+    "world": {"world": {"use": "toy_world"}, "design": {"trials": 2, "tasks": ["depth_order"]}},
+    "question": {"questions": {"liked": {"use": "toy_question", "text": "?", "when": "start"}}},
+}  # fmt: skip
+
+
+def test_a_stranger_s_fault_is_a_line_of_any_command(own, capsys, monkeypatch):
+    """Not only of a session: pictures are drawn and studies looked at by many."""
+    path = own / "toy_world.py"
+    code = path.read_text("utf-8").replace("return [first]", "raise KeyError('x')")
+    path.write_text(code, "utf-8")
+    monkeypatch.setattr(plugin_files, "_demand_suite", lambda *_: None)
+    assert cli.main(["check", "toys.toml", "--trust"]) == 2
+    *progress, line = capsys.readouterr().err.splitlines()
+    assert all(said.startswith("measuring difficulty: ") for said in progress)
+    number = code.splitlines().index("        raise KeyError('x')") + 1
+    assert (
+        line == f"seethrough: world toy_world: raised KeyError: 'x' (toy_world.py, line {number})"
+    )
+
+
+ELSEWHERE = [
+    ("technique", "begin", "def begin(self, p):", "raise KeyError('x')"),
+    ("technique", "begin", "def begin(self, p):", "time.sleep(99)"),
+    ("world", "make_scene", "def camera(self):", "raise KeyError('x')"),
+    ("world", "make_scene", "def make(self, rng, p):", "raise KeyError('x')"),
+    ("question", "count", "def count(self, p):", "raise KeyError('x')"),
+    ("question", "count", "def count(self, p):", "return 'many'"),
+    ("question", "last", "def last(self, p, asking, number):", "time.sleep(99)"),
+    ("question", "last", "def last(self, p, asking, number):", "return 7"),
+    ("question", "pages", "def pages(self, p, asking):", "return ()"),
+    ("question", "rows", "def rows(self, p, asking, number, answers):", "return [7]"),
+]
+
+
+@pytest.mark.parametrize(("kind", "what", "head", "act"), ELSEWHERE)
+def test_a_stranger_of_any_kind_may_only_end_the_session(own, kind, what, head, act, monkeypatch):
+    """Also where it has a task of ours in it, or a trial of ours has it."""
+    path = own / f"toy_{kind}.py"
+    code = path.read_text("utf-8")
+    if "camera" in head:
+        code = code.replace("return controls.orbit(p, aspect)", "return Lost()")
+        code += f"\n\nclass Lost:\n    {head}\n        {act}\n"
+    else:
+        code = code.replace(f"    {head}", f"    def unused_{head[4:]}")
+        made = f"    {head}\n        {act}\n"
+        code = code.replace("\n\n\nTECHNIQUE", f"\n\n{made}\n\nTECHNIQUE")
+        code = code.replace("\n\n\nWORLD", f"\n\n{made}\n\nWORLD")
+        code = code.replace("\n\n\nQUESTION", f"\n\n{made}\n\nQUESTION")
+    code = "import time\n" + code
+    plugin = plugin_files.PluginFile(kind, "", path.name, code.encode())
+    name = plugin_files.provide(plugin, path, "here")
+    monkeypatch.setattr(strangers, "PATIENCE", 0.4)
+    answers = {**ANSWERS, "depth_order": ["a"]}
+    config = study(**TABLES[kind], practice={"trials": 0})
+    clock = SimulatedClock(0.0)
+    recorder = MemoryRecorder()
+    person = ScriptedInput(clock, answers)
+    with pytest.raises(PluginFailed) as error:
+        run_session(config, 1, Surroundings(Display(clock), person, clock, recorder, TASKS))
+    (line,) = error.value.lines
+    assert line.startswith(f"{kind} {name}: {what}: ")
     assert recorder.status == "plug-in failed"

@@ -9,7 +9,7 @@ import pytest
 from recorded_session import DrawnDisplay, play_recorded
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands.replay import _verify as verify
+from seethrough.experiment.commands.sessions.replay import _verify as verify
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.replay.replayer import find_trial, replay
 

@@ -8,14 +8,14 @@ import pytest
 from recorded_session import FACTORS, STUDY, Handling, play_recorded
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands.replay import _verify as verify
+from seethrough.experiment.commands.sessions.replay import _verify as verify
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.session.hand import Hand
+from seethrough.renderer.events import KeyPress, PointerMove, Tick, Wheel
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick, Wheel
 
 LENS = replace(named("lens"), depth=60.0, radius=0.3)
 LEVELS = {"lens": {"technique": {"use": "lens"}}, "plain": {"technique": {"use": "standard"}}}

@@ -7,7 +7,7 @@ from desktop import Desktop, Program, wait_until
 # A view through a lens is shown until the wheel was turned thrice and the right button released.
 SHOWN = """
 from dataclasses import replace
-from seethrough.experiment.commands.render import jeep
+from seethrough.experiment.commands.pictures.render import jeep
 from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.window import Window
 from seethrough.experiment.pages.texts import Texts

@@ -20,8 +20,8 @@ import numpy as np
 from broken_own import OWN
 
 from seethrough.experiment.study.config import find
-from seethrough.experiment.study.keys import keys_of
-from seethrough.experiment.study.study_tables import TABLES
+from seethrough.experiment.study.tables.keys import keys_of
+from seethrough.experiment.study.tables.study_tables import TABLES
 
 Table = dict[str, Any]
 BASE = tomllib.loads(find("published").read_text("utf-8"))

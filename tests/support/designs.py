@@ -2,9 +2,9 @@
 
 from hypothesis import strategies as st
 
-from seethrough.experiment.study.balance import Met
-from seethrough.experiment.study.design import CellPlan, Design, session_for
-from seethrough.experiment.study.factors import (
+from seethrough.experiment.study.design.balance import Met
+from seethrough.experiment.study.design.design import CellPlan, Design, session_for
+from seethrough.experiment.study.design.factors import (
     BETWEEN,
     MEASURED,
     WITHIN,
@@ -13,7 +13,7 @@ from seethrough.experiment.study.factors import (
     every_cell,
     left_out,
 )
-from seethrough.experiment.study.squares import MIXED, SQUARES
+from seethrough.experiment.study.design.squares import MIXED, SQUARES
 
 MOST_CELLS = 36  # of a design: its complete cycle is played
 

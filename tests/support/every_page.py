@@ -9,12 +9,12 @@ from seethrough.experiment.session.questionnaire import after, asked, before
 from seethrough.experiment.session.session import _feedback, _instruction, _page
 from seethrough.experiment.session.trial import MENU, TrialRun
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
-from seethrough.experiment.study.ready import one_page
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
+from seethrough.experiment.study.tables.ready import one_page
+from seethrough.renderer.events import KeyPress, PointerPress
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
-from seethrough.tasks.kit.events import KeyPress, PointerPress
 from seethrough.tasks.kit.hud import FloorPlan, practice_mark
 
 

@@ -14,7 +14,7 @@ from types import SimpleNamespace
 from seethrough.experiment.pages.pages import PICTURE_ASPECT
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.tasks.catalog import TASKS

@@ -24,9 +24,9 @@ from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
+from seethrough.renderer.events import KeyPress, PointerMove, Tick
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
 VIEWS = {
     "standard": {"technique": {"use": "standard"}},

@@ -15,7 +15,7 @@ import numpy as np
 from plain_trials import play
 from played_tasks import PUBLISHED
 
-from seethrough.tasks.kit.events import PointerMove, PointerPress
+from seethrough.renderer.events import PointerMove, PointerPress
 from seethrough.tasks.kit.skills.profile import PROFILES
 
 FIGURES = Path(__file__).resolve().parents[1] / "data" / "people" / "performances.json"

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from seethrough.renderer.events import KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.catalog import TASKS, setting, world_of
-from seethrough.tasks.kit.events import KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.kit.hud import Button
 
 ASPECT = 4 / 3

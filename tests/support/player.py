@@ -8,7 +8,7 @@ from pathlib import Path
 from desktop import Program, wait_until
 
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 
 ARTEFACTS = Path(__file__).parents[2] / "out" / "ci"
 START = 60  # s for a cold start on a busy machine: not a bound on speed

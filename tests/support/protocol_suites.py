@@ -2,7 +2,7 @@
 
 from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale
 from seethrough.experiment.record.recorder import trial_row
-from seethrough.tasks.kit.events import KeyPress, Tick
+from seethrough.renderer.events import KeyPress, Tick
 
 PAGE = Page(
     "asked",

@@ -2,7 +2,7 @@
 
 from seethrough.experiment.record.columns import with_factors
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 
 
 def published():

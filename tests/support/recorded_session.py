@@ -14,10 +14,8 @@ from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import provenance
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
-from seethrough.experiment.study.described import design_entry
-from seethrough.renderer.gpu.device.context import standalone
-from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.events import (
+from seethrough.experiment.study.shown.described import design_entry
+from seethrough.renderer.events import (
     KeyPress,
     KeyRelease,
     PointerMove,
@@ -27,6 +25,8 @@ from seethrough.tasks.kit.events import (
     Tick,
     Wheel,
 )
+from seethrough.renderer.gpu.device.context import standalone
+from seethrough.tasks.catalog import TASKS
 
 FACTORS = {
     "transparency": {"levels": {

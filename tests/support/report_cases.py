@@ -13,14 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.tasks.kit.base import Outcome
 
 SECONDS = {"count": 50.0, "pattern": 20.0, "unique": 55.0, "count_in_building": 120.0}
 ITEMS = ("efficiency", "ease", "enjoy")
 LETTERS = "CKRXY"
 LIMIT = 90.0  # seconds, of the folder with timed-out trials
-RUSHED = 0.05  # share of a trial's frames above which it is missed frames that exclude it
 
 VIEW = "transparency"
 

@@ -26,8 +26,8 @@ from seethrough.experiment.people.runs.data_mode import Played
 from seethrough.experiment.record.recorder import FileRecorder, Who, trial_row
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.config import Study, find, parse
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.shown.described import design_entry
 
 NOW = "2026-01-02T03:04:05.000Z"
 KEPT = ("_trials_data.csv", "_questionnaire_data.csv", "certificate.csv")

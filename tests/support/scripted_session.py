@@ -6,9 +6,9 @@ from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
+from seethrough.renderer.events import KeyPress, Tick
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import KeyPress, Tick
 
 FRAME = 0.25  # s between the frames of the fake display: a binary fraction, so sums are exact
 VIEWS = {

@@ -30,7 +30,7 @@ from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.persons.person import TRAITS
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.pool import Pool
-from seethrough.experiment.study.design import SIMULATED, generator, session_for
+from seethrough.experiment.study.design.design import SIMULATED, generator, session_for
 from seethrough.tasks.kit.skills.profile import Profile
 
 Play = Callable[[Profile], Iterable[TrialRow]]

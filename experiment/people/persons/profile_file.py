@@ -9,7 +9,7 @@ from pathlib import Path
 
 from seethrough.analysis.files.written import write_over
 from seethrough.experiment.errors import InputError, gathered, short, shown, unknown
-from seethrough.experiment.study.toml_file import read_toml
+from seethrough.experiment.study.beside.toml_file import read_toml
 from seethrough.tasks.kit.skills.profile import AVERAGE, PROFILES, Profile
 
 SHIPPED = Path(__file__).with_name("profiles")  # files that come with the program

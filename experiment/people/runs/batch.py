@@ -15,8 +15,8 @@ from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import Study, load
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import Trial, session_for
+from seethrough.experiment.study.design.design import Trial, session_for
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.experiment.workers import ordered_map
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile

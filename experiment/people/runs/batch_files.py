@@ -19,6 +19,7 @@ from pathlib import Path
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.export.parquet import INSTALL, ParquetWriter
 from seethrough.experiment.files.folders import stem_of
+from seethrough.experiment.files.json_files import part_of, read_object
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.people.runs.data_mode import Played
 from seethrough.experiment.people.runs.looks import Rows
@@ -27,7 +28,7 @@ from seethrough.experiment.record.columns import Column, with_factors
 from seethrough.experiment.record.dataset import describe_dataset
 from seethrough.experiment.record.record_files import cell, csv_line, header_of
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 
 CHUNK = 16  # participants a folder: the published study's number
 NAME = re.compile(r"S(\d{5,})-S(\d{5,})")
@@ -197,10 +198,7 @@ class Results(AbstractContextManager["Results"]):
         """One folder holds one study, simulated in one way."""
         described = self.out / "dataset_description.json"
         if described.exists():
-            try:
-                name = json.loads(described.read_text(encoding="utf-8"))["name"]
-            except (OSError, ValueError, KeyError, TypeError, RecursionError):
-                raise InputError(f"{described}: expected a JSON object with a name") from None
+            name = read_object(described).get("name")
             if name != study.study.name:
                 raise InputError(
                     f"--out = {self.out}: holds study {name}: expected {study.study.name}"
@@ -209,10 +207,7 @@ class Results(AbstractContextManager["Results"]):
         sidecar = next(self._folder.glob("*/*_trials_data.json"), None)
         if sidecar is None:
             return
-        try:
-            before = dict(json.loads(sidecar.read_text(encoding="utf-8"))["provenance"])
-        except (OSError, ValueError, KeyError, TypeError, RecursionError):
-            raise InputError(f"{sidecar}: expected a JSON object with a provenance") from None
+        before = part_of(read_object(sidecar), "provenance", sidecar)
         # As JSON gives it back: tuples are lists there.
         for key, value in json.loads(json.dumps(about["provenance"])).items():
             if before.get(key) != value:

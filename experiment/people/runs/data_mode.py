@@ -20,11 +20,11 @@ from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import SIMULATED, Trial, generator
+from seethrough.experiment.study.design.design import SIMULATED, Trial, generator
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from seethrough.experiment.people.runs import batch as b
 from seethrough.experiment.people.runs.batch_files import CHUNK, Chunk, Results, Slots
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.session.progress import Progress
+from seethrough.experiment.study.beside.own_model_files import models_of, own_scenes
 from seethrough.experiment.study.config import Study, find, load
-from seethrough.experiment.study.own_model_files import models_of, own_scenes
 from seethrough.experiment.workers import ordered_map
 
 

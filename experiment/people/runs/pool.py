@@ -15,7 +15,7 @@ import numpy as np
 from seethrough.experiment.people.runs.look_tables import Draw, TableEyes
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.design import STUDY_SCENES, Trial, generator
+from seethrough.experiment.study.design.design import STUDY_SCENES, Trial, generator
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.look import PLAIN
@@ -24,7 +24,7 @@ from seethrough.renderer.scene.visibility import Visibility
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Task, View
-from seethrough.tasks.kit.world import FILES, OWN, Place, WorldParameters
+from seethrough.tasks.kit.world import FILES, OWN, Place, WorldParameters, lattice_of
 
 if TYPE_CHECKING:
     from seethrough.experiment.display.looking import Looking
@@ -90,7 +90,7 @@ class Pool(StudyScenes):
         if (name, setting.place) not in self._scenes:
             made = task.make_scene(generator(self.study.study.seed, stream), setting)
             self._scenes[name, setting.place] = made
-            lattice = getattr(setting.place, "lattice", setting.world.moving)
+            lattice = lattice_of(setting.world, setting.place)
             # A file's scene is the same in many trials: what it is, its fingerprint says.
             called = name if setting.place.scenes != FILES else setting.world.name
             self._names[id(made.scene)] = (called, lattice)

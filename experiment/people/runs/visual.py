@@ -22,10 +22,10 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.software import provenance
 from seethrough.experiment.session.surroundings import Surroundings
+from seethrough.experiment.study.beside.own_model_files import keep
 from seethrough.experiment.study.config import Study
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import SIMULATED, generator
-from seethrough.experiment.study.own_model_files import keep
+from seethrough.experiment.study.design.design import SIMULATED, generator
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.experiment.workers import ordered_map
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.skills.profile import AVERAGE, Profile

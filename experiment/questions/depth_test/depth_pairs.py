@@ -8,8 +8,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture, on_picture
-from seethrough.experiment.study.design import STUDY_SCENES, generator
+from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Page, Picture
+from seethrough.experiment.study.design.design import STUDY_SCENES, generator
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Object
@@ -95,7 +95,7 @@ def _depths(view: View) -> dict[str, float]:
     ahead = depth > view.camera.near
     size = np.array([_radius(view.scene.objects[i]) for i in things]) / np.where(ahead, depth, 1)
     size /= np.tan(view.camera.fov_y / 2)  # half-heights of the picture
-    place = on_picture(view.camera, centers)
+    place = view.camera.places(centers)
     shown = ahead & (np.abs(place) < [PICTURE_ASPECT * 1.15, 1.15]).all(axis=1)
     whole = shown & (np.abs(place) + size[:, None] < [PICTURE_ASPECT, 1.0]).all(axis=1)
     found = {}

@@ -43,14 +43,13 @@ AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 @dataclass(frozen=True)
 class FrameStats:
-    """What a frame took: passes over objects, draw calls, masks made, objects put in order, and
-    parts of the picture sorted by pixel. All 0 when the last frame was shown again."""
+    """What a frame took: passes over objects, draw calls, masks made, and objects put in
+    order. All 0 when the last frame was shown again."""
 
     passes: int
     draws: int
     masks: int
     ordered: int
-    exact_parts: int = 0
 
 
 class Layer:
@@ -134,9 +133,7 @@ class Layer:
             passes, draws = self._painter().finish(exact, target.framebuffer)
             self._passes += passes
             self._draws += draws
-        return FrameStats(
-            self._passes, self._draws, len(frame.masked), frame.ordered, len(frame.exact)
-        )
+        return FrameStats(self._passes, self._draws, len(frame.masked), frame.ordered)
 
     def _draw_opaque(self, runs: list[Run], table: SceneTable) -> None:
         """The opaque objects; those on which something is drawn by a program of their own."""

@@ -83,7 +83,7 @@ class DistancePainter:
             windows=windows,
             corners=tile[:, :2].copy(),
             numbers=numbers[made.looped],
-            lens=np.array([0.5 * size[1] / np.tan(camera.fov_y / 2), size[0] / 2, size[1] / 2]),
+            lens=np.array([camera.lens(size[1]), size[0] / 2, size[1] / 2]),
             width=width,
             straight=0.0 if technique.per_pixel_only else contours.STRAIGHT,
         )

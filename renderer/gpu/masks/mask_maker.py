@@ -172,7 +172,7 @@ def _hulls(
     size: tuple[int, int],
 ) -> tuple[Floats32, Ints]:
     points, spans = table.points(targets)
-    scale = 0.5 * size[1] / np.tan(camera.fov_y / 2)
+    scale = camera.lens(size[1])
     lens = np.array([scale, size[0] / 2, size[1] / 2])
     cut = frame.boxes.crosses[targets]
     pixels, starts = projection.clouds(points, spans, *table.turned(targets, camera), lens)

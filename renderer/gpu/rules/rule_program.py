@@ -57,7 +57,7 @@ class RulePrograms:
         shader = self._programs[rules.glsl]
         use(shader, shot.camera, ruled.matrix)
         table.set_look(shader, shot.camera, shot.size[1])
-        shader.set(size=shot.size, lens=0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
+        shader.set(size=shot.size, lens=shot.camera.lens(shot.size[1]))
         for name, value in rules.uniforms(technique, state, shot).items():
             if name in shader.members:
                 member: Any = shader[name]

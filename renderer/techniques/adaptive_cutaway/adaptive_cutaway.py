@@ -47,7 +47,7 @@ class Cones:
     most: Floats
 
 
-class AdaptiveCutaway(removal.Removal):
+class AdaptiveCutaway(removal.Removal[AdaptiveParameters, None, Cones]):
     """Cones before the points of targets."""
 
     name = "adaptive_cutaway"
@@ -98,16 +98,13 @@ class AdaptiveCutaway(removal.Removal):
 
         depth = np.ascontiguousarray(needed["target_depth"], dtype=np.float32)
         find = cones.of_pixels if p.exact else cones.of_blocks
-        return {"clip": find(depth, _lens(shot), float(np.tan(np.radians(p.angle))))}
+        return {
+            "clip": find(depth, shot.camera.lens(shot.size[1]), float(np.tan(np.radians(p.angle))))
+        }
 
     def exactly(self, p: AdaptiveParameters) -> AdaptiveParameters:
         """At every pixel."""
         return replace(p, exact=True)
-
-
-def _lens(shot: Shot) -> float:
-    """Pixels for a slope of 1."""
-    return float(0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2))
 
 
 def _hole(p: AdaptiveParameters, depth: Floats, shot: Shot) -> Floats:
@@ -115,7 +112,7 @@ def _hole(p: AdaptiveParameters, depth: Floats, shot: Shot) -> Floats:
     height, width = depth.shape
     pixels = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1).reshape(-1, 2)
     points = np.nonzero(depth.ravel() > 0)[0]
-    wide = np.tan(np.radians(p.angle)) * _lens(shot)  # slopes in pixels
+    wide = np.tan(np.radians(p.angle)) * shot.camera.lens(shot.size[1])  # slopes in pixels
     found = np.zeros(height * width)
     for q in points:
         away = np.hypot(*(pixels - pixels[q]).T)

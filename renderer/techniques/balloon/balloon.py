@@ -14,10 +14,11 @@ from functools import cache
 import numpy as np
 
 from seethrough.renderer.declared import key
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import base, pointing
-from seethrough.renderer.techniques.base import Floats, Gesture, Own, Shot, Shown, Texts
+from seethrough.renderer.techniques.base import Floats, Gesture, Shot, Shown, Texts
 from seethrough.renderer.techniques.pointing import Pointing
 
 ROD = (0.25, 0.25, 0.28)
@@ -54,7 +55,7 @@ class BalloonParameters(base.Parameters):
     )  # fmt: skip
 
 
-class Balloon(base.Plain):
+class Balloon(base.Plain[BalloonParameters, Pointing]):
     """Things move; how their surfaces show does not change."""
 
     name = "balloon"
@@ -70,7 +71,7 @@ class Balloon(base.Plain):
         return Pointing(None, p.depth)
 
     def on_event(
-        self, p: BalloonParameters, state: Pointing, event: Own, shot: Shot
+        self, p: BalloonParameters, state: Pointing, event: Event, shot: Shot
     ) -> tuple[Pointing, bool]:
         """The pointer carries the ball, keys and wheel move it away."""
         return pointing.followed(state, event, p.step)

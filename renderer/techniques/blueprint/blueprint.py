@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Bools, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Look, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.lines import LINE, on_edges, unsure
 
@@ -34,7 +34,7 @@ class BlueprintParameters(Layered):
     )  # fmt: skip
 
 
-class Blueprint(Layering):
+class Blueprint(Layering[BlueprintParameters, None, tuple[Bools, Bools]]):
     """Lines of all layers."""
 
     name = "blueprint"
@@ -44,7 +44,7 @@ class Blueprint(Layering):
     Parameters = BlueprintParameters
     strength = "uniform float fill;\nfloat opacity_of(Surface s) { return fill; }\n"
 
-    def known(self, p: BlueprintParameters, state: Own, seen: Surfaces) -> tuple[Bools, Bools]:
+    def known(self, p: BlueprintParameters, state: None, seen: Surfaces) -> tuple[Bools, Bools]:
         """(m,) which surfaces are on an edge, and for which that is in doubt."""
         ruled = self.objects(p, seen.shot.scene)[seen.object] != 0
         kept = seen.front | (ruled & (p.surfaces == "all"))
@@ -56,7 +56,7 @@ class Blueprint(Layering):
         return on_edges(seen, rows, layer, p.crease, unsure(seen, rows, p.surfaces == "all"))
 
     def rule(
-        self, p: BlueprintParameters, state: Own, seen: Surfaces, known: tuple[Bools, Bools]
+        self, p: BlueprintParameters, state: None, seen: Surfaces, known: tuple[Bools, Bools]
     ) -> Look:
         """Lines on edges, a faint fill elsewhere."""
         edge, doubt = known
@@ -65,7 +65,7 @@ class Blueprint(Layering):
         tint[edge] = (*LINE, 1.0)
         return Look(found.kept, found.opacity, tint, found.doubt)
 
-    def uniforms(self, p: BlueprintParameters, state: Own, shot: Shot) -> dict[str, object]:
+    def uniforms(self, p: BlueprintParameters, state: None, shot: Shot) -> dict[str, object]:
         """The fill."""
         return {**super().uniforms(p, state, shot), "fill": p.fill}
 

@@ -37,7 +37,7 @@ class Hole:
     depth: float
 
 
-class Breakaway(removal.Removal):
+class Breakaway(removal.Removal[BreakawayParameters, None, list[Hole]]):
     """Holes in the shape of targets."""
 
     name = "breakaway"

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Look, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 THINGS = ("distractors", "everything")
@@ -44,7 +44,7 @@ class ConstantParameters(Layered):
             )
 
 
-class Constant(Layering):
+class Constant(Layering[ConstantParameters]):
     """One opacity for all."""
 
     name = "constant"
@@ -59,7 +59,7 @@ class Constant(Layering):
         open_ = ~scene.impenetrable & (~scene.targets | (p.things == "everything"))
         return open_.astype(np.int64)
 
-    def rule(self, p: ConstantParameters, state: Own, seen: Surfaces, known: Own) -> Look:
+    def rule(self, p: ConstantParameters, state: object, seen: Surfaces, known: object) -> Look:
         """The same for each surface."""
         return self.look(p, seen, np.full(len(seen.depth), p.alpha))
 
@@ -75,7 +75,7 @@ class Constant(Layering):
         """Pixel by pixel."""
         return replace(p, order=PIXEL)
 
-    def uniforms(self, p: ConstantParameters, state: Own, shot: Shot) -> dict[str, object]:
+    def uniforms(self, p: ConstantParameters, state: object, shot: Shot) -> dict[str, object]:
         """The opacity."""
         return {**super().uniforms(p, state, shot), "alpha": p.alpha}
 

@@ -44,7 +44,7 @@ class Wedge:
     depth: float
 
 
-class Cutaway(removal.Removal):
+class Cutaway(removal.Removal[CutawayParameters, None, list[Wedge]]):
     """Few planes cut off what stands before a target."""
 
     name = "cutaway"
@@ -132,7 +132,7 @@ def linear(wedge: Wedge, shot: Shot) -> Floats:
     """(k + 1, 3) 1 / depth at which lines of sight leave a wedge, at most 0 where they
     never do: a · column + b · row + c at a pixel's middle."""
     right, up, back = shot.camera.rotation.T
-    lens = 0.5 * shot.size[1] / np.tan(shot.camera.fov_y / 2)
+    lens = shot.camera.lens(shot.size[1])
     # A line of sight is depth · (forward + x right + y up); it meets n · p = away at 1 / depth
     # = n · (forward + x right + y up) / away.
     x = wedge.normals @ right / wedge.away / lens

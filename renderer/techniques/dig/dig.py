@@ -13,13 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from seethrough.renderer.declared import key
+from seethrough.renderer.events import Event, KeyPress, Wheel
 from seethrough.renderer.techniques import pointing, removal
 from seethrough.renderer.techniques.base import (
     Bools,
     Floats,
     Gesture,
     Look,
-    Own,
     Shot,
     Surfaces,
     Texts,
@@ -62,7 +62,7 @@ class Digging:
     holes: tuple[tuple[float, ...], ...] = ()
 
 
-class Dig(removal.Removal):
+class Dig(removal.Removal[DigParameters, Digging]):
     """Holes that the viewer digs."""
 
     name = "dig"
@@ -97,19 +97,19 @@ bool pierced(Surface s) {{ return holes > 0; }}
         return Digging(Pointing(None, p.depth))
 
     def on_event(
-        self, p: DigParameters, state: Digging, event: Own, shot: Shot
+        self, p: DigParameters, state: Digging, event: Event, shot: Shot
     ) -> tuple[Digging, bool]:
         """Dig, deepen and fill."""
-        kind, word = type(event).__name__, getattr(event, "key", "")
-        if kind == "KeyPress" and word == "q":
+        word = event.key if isinstance(event, KeyPress) else ""
+        if word == "q":
             eye = shot.camera.eye
             end = eye + state.at.direction(shot) * state.at.depth
             axis = (*eye.tolist(), *end.tolist())
             return replace(state, holes=(*state.holes, axis)[-MOST:]), True
-        if kind == "KeyPress" and word == "r":
+        if word == "r":
             return replace(state, holes=()), True
-        if (kind == "KeyPress" and word == "e") or kind == "Wheel":
-            by = (1 + p.step) ** (1 if kind == "KeyPress" else event.dy)
+        if word == "e" or isinstance(event, Wheel):
+            by = (1 + p.step) ** (event.dy if isinstance(event, Wheel) else 1)
             return replace(state, holes=_deeper(state.holes, by)), True
         at, used = pointing.followed(state.at, event, p.step)
         return replace(state, at=at), used
@@ -132,7 +132,7 @@ bool pierced(Surface s) {{ return holes > 0; }}
             found |= _apart(scene.centers, start, end) < p.radius + scene.radii
         return found & ~scene.targets & ~scene.impenetrable
 
-    def rule(self, p: DigParameters, state: Digging, seen: Surfaces, known: Own) -> Look:
+    def rule(self, p: DigParameters, state: Digging, seen: Surfaces, known: object) -> Look:
         """Removed near the axis of a hole."""
         signed = np.full(len(seen.depth), -np.inf)
         for start, end in _axes(state, seen.shot.camera.eye):

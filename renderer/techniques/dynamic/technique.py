@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from seethrough.renderer.events import Event, PointerMove
 from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.pointing import Pointing, followed
+
+if TYPE_CHECKING:
+    from seethrough.renderer.techniques.dynamic.exact import Mask
+
+Masks: TypeAlias = Mapping[int, "Mask"]  # by target
 
 TEXTS: base.Texts = {
     "en": {
@@ -23,7 +31,7 @@ TEXTS: base.Texts = {
 }
 
 
-class DynamicRendering(base.Plain):
+class DynamicRendering(base.Plain[DynamicTransparency, Pointing | None, Masks]):
     """What stands before a target turns transparent, by a mask about it."""
 
     name = "dynamic"
@@ -40,10 +48,10 @@ class DynamicRendering(base.Plain):
         return Pointing(p.pointer, 0.0) if p.mode == "active" else None
 
     def on_event(
-        self, p: DynamicTransparency, state: Pointing | None, event: base.Own, shot: base.Shot
+        self, p: DynamicTransparency, state: Pointing | None, event: Event, shot: base.Shot
     ) -> tuple[Pointing | None, bool]:
         """The pointer carries the searchlight, and others see its moves too."""
-        if state is None or type(event).__name__ != "PointerMove":
+        if state is None or not isinstance(event, PointerMove):
             return state, False
         return followed(state, event, 0.0)
 
@@ -51,19 +59,21 @@ class DynamicRendering(base.Plain):
         """With the searchlight where the pointer is."""
         return p if state is None else replace(p, pointer=state.pointer)
 
-    def touches(self, p: DynamicTransparency, state: base.Own, shot: base.Shot) -> base.Bools:
+    def touches(
+        self, p: DynamicTransparency, state: Pointing | None, shot: base.Shot
+    ) -> base.Bools:
         """Whatever is not impenetrable, where there is a target."""
         scene = shot.scene
         return np.full(len(scene.objects), bool(scene.targets.any())) & ~scene.impenetrable
 
-    def known(self, p: DynamicTransparency, state: base.Own, seen: base.Surfaces) -> base.Own:
+    def known(self, p: DynamicTransparency, state: Pointing | None, seen: base.Surfaces) -> Masks:
         """The masks."""
         from seethrough.renderer.techniques.dynamic import exact
 
         return exact.known(self.drawn(p, state), seen)
 
     def rule(
-        self, p: DynamicTransparency, state: base.Own, seen: base.Surfaces, known: base.Own
+        self, p: DynamicTransparency, state: Pointing | None, seen: base.Surfaces, known: Masks
     ) -> base.Look:
         """Opacities of the front-most surface of each object."""
         from seethrough.renderer.techniques.dynamic import exact

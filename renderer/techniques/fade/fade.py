@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
+from seethrough.renderer.events import Event, PointerMove
 from seethrough.renderer.techniques import pointing
-from seethrough.renderer.techniques.base import Bools, Look, Own, Shot, Surfaces, Texts
+from seethrough.renderer.techniques.base import Bools, Look, Shot, Surfaces, Texts
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.pointing import Pointing
 
@@ -41,7 +42,7 @@ class FadeParameters(Layered):
     )
 
 
-class Fade(Layering):
+class Fade(Layering[FadeParameters, Pointing]):
     """Clear about the pointer, opaque elsewhere."""
 
     name = "fade"
@@ -66,10 +67,10 @@ float opacity_of(Surface s) {
         return Pointing(None, 1.0)
 
     def on_event(
-        self, p: FadeParameters, state: Pointing, event: Own, shot: Shot
+        self, p: FadeParameters, state: Pointing, event: Event, shot: Shot
     ) -> tuple[Pointing, bool]:
         """The pointer carries it."""
-        if type(event).__name__ != "PointerMove":
+        if not isinstance(event, PointerMove):
             return state, False
         return pointing.followed(state, event, 0.0)
 
@@ -82,7 +83,7 @@ float opacity_of(Surface s) {
         box = np.array([[x - half, y - half, x + half, y + half]])
         return reached(shot, box, np.array([np.inf]))
 
-    def rule(self, p: FadeParameters, state: Pointing, seen: Surfaces, known: Own) -> Look:
+    def rule(self, p: FadeParameters, state: Pointing, seen: Surfaces, known: object) -> Look:
         """By the distance of the pixel from the pointer."""
         height = seen.shot.size[1]
         away = np.hypot(*(seen.place - state.pixel(seen.shot)).T) / height

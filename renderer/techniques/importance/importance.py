@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.removal import reached
 
@@ -33,7 +33,7 @@ class ImportanceParameters(Layered):
     style: str = key("opacity", "how a surface grows sparse", choices=STYLES)
 
 
-class Importance(Layering):
+class Importance(Layering[ImportanceParameters, None, Floats]):
     """Sparse where a target is behind."""
 
     name = "importance"
@@ -55,7 +55,7 @@ float opacity_of(Surface s) {{
 }}
 """
 
-    def touches(self, p: ImportanceParameters, state: Own, shot: Shot) -> Bools:
+    def touches(self, p: ImportanceParameters, state: None, shot: Shot) -> Bools:
         """What overlaps a target on the screen and reaches nearer than its end."""
         from seethrough.renderer.scene.projection import screen_boxes
 
@@ -63,11 +63,11 @@ float opacity_of(Surface s) {{
         among = shot.scene.targets & boxes.inside
         return reached(shot, boxes.extents[among] + [-1, -1, 1, 1], boxes.far[among])
 
-    def known(self, p: ImportanceParameters, state: Own, seen: Surfaces) -> Floats:
+    def known(self, p: ImportanceParameters, state: None, seen: Surfaces) -> Floats:
         """(h·w,) depth of the farthest surface of a target that faces the viewer."""
         return seen.farthest(seen.targets & seen.front)
 
-    def rule(self, p: ImportanceParameters, state: Own, seen: Surfaces, known: Floats) -> Look:
+    def rule(self, p: ImportanceParameters, state: None, seen: Surfaces, known: Floats) -> Look:
         """Sparse before the farthest target at the pixel."""
         before = seen.depth < known[seen.pixel]
         strength = np.full(len(before), p.least)
@@ -77,7 +77,7 @@ float opacity_of(Surface s) {{
         near = np.abs(seen.depth - known[seen.pixel]) <= 2 * seen.slack
         return self.look(p, seen, np.where(before, strength, 1.0), near & seen.penetrable)
 
-    def uniforms(self, p: ImportanceParameters, state: Own, shot: Shot) -> dict[str, object]:
+    def uniforms(self, p: ImportanceParameters, state: None, shot: Shot) -> dict[str, object]:
         """How sparse."""
         style = {"least": p.least, "door": p.style == "screen door"}
         return {**super().uniforms(p, state, shot), **style}
@@ -85,7 +85,7 @@ float opacity_of(Surface s) {{
     def pictures(
         self,
         p: ImportanceParameters,
-        state: Own,
+        state: None,
         shot: Shot,
         needed: Mapping[str, NDArray[np.float32]],
     ) -> Mapping[str, NDArray[np.float32]]:

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
+from seethrough.renderer.events import Event
 from seethrough.renderer.techniques import pointing, removal
 from seethrough.renderer.techniques.base import (
     Bools,
     Floats,
     Gesture,
     Look,
-    Own,
     Shot,
     Surfaces,
     Texts,
@@ -58,7 +58,7 @@ class LensParameters(removal.Removing):
     step: float = key(0.1, "by which share a key or the wheel moves it", low=0, high=1)
 
 
-class Lens(removal.Removal):
+class Lens(removal.Removal[LensParameters, Pointing]):
     """A volume under the pointer in which nothing penetrable is shown."""
 
     name = "lens"
@@ -94,7 +94,7 @@ bool pierced(Surface s) {
         return Pointing(None, p.depth)
 
     def on_event(
-        self, p: LensParameters, state: Pointing, event: Own, shot: Shot
+        self, p: LensParameters, state: Pointing, event: Event, shot: Shot
     ) -> tuple[Pointing, bool]:
         """The pointer carries it, keys and wheel move it away."""
         return pointing.followed(state, event, p.step)
@@ -117,7 +117,7 @@ bool pierced(Surface s) {
             box = removal.whole(shot, 1)
         return removal.reached(shot, box, np.array([end]))
 
-    def rule(self, p: LensParameters, state: Pointing, seen: Surfaces, known: Own) -> Look:
+    def rule(self, p: LensParameters, state: Pointing, seen: Surfaces, known: object) -> Look:
         """Removed in the tube or ball."""
         x, y = state.pixel(seen.shot)
         width, height = seen.shot.size

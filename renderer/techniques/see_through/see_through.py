@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Look, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 
@@ -24,7 +24,7 @@ class SeeThroughParameters(Layered):
     kinds: tuple[str, ...] = key(("wall",), "kinds of things that are transparent")
 
 
-class SeeThrough(Layering):
+class SeeThrough(Layering[SeeThroughParameters]):
     """One opacity for things of some kinds."""
 
     name = "see_through"
@@ -39,11 +39,11 @@ class SeeThrough(Layering):
         kinds = np.array([thing.kind in p.kinds for thing in scene.objects], dtype=bool)
         return (kinds & ~scene.targets & ~scene.impenetrable).astype(np.int64)
 
-    def rule(self, p: SeeThroughParameters, state: Own, seen: Surfaces, known: Own) -> Look:
+    def rule(self, p: SeeThroughParameters, state: object, seen: Surfaces, known: object) -> Look:
         """The same for each surface of the kinds."""
         return self.look(p, seen, np.full(len(seen.depth), p.alpha))
 
-    def uniforms(self, p: SeeThroughParameters, state: Own, shot: Shot) -> dict[str, object]:
+    def uniforms(self, p: SeeThroughParameters, state: object, shot: Shot) -> dict[str, object]:
         """The opacity."""
         return {**super().uniforms(p, state, shot), "alpha": p.alpha}
 

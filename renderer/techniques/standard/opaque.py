@@ -12,7 +12,7 @@ class Standard(base.Parameters):
     """Opaque objects and a depth buffer. It has no parameters."""
 
 
-class StandardRendering(base.Plain):
+class StandardRendering(base.Plain[Standard]):
     """Nothing is touched: the frame is the depth buffer's."""
 
     name = "standard"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Look, Own, Shot, Surfaces
+from seethrough.renderer.techniques.base import Look, Shot, Surfaces
 from seethrough.renderer.techniques.layered import Layered, Layering
 
 
@@ -30,7 +30,7 @@ class ViewDependentParameters(Layered):
     falloff: float = key(1.0, "how soon opacity falls from the silhouette", low=0.05, high=50)
 
 
-class ViewDependent(Layering):
+class ViewDependent(Layering[ViewDependentParameters]):
     """Clear within, opaque along silhouettes."""
 
     name = "view_dependent"
@@ -48,14 +48,16 @@ float opacity_of(Surface s) {
 }
 """
 
-    def rule(self, p: ViewDependentParameters, state: Own, seen: Surfaces, known: Own) -> Look:
+    def rule(
+        self, p: ViewDependentParameters, state: object, seen: Surfaces, known: object
+    ) -> Look:
         """By the angle between normal and line of sight."""
         lengths = np.linalg.norm(seen.normal, axis=1) * np.linalg.norm(seen.offset, axis=1)
         facing = np.abs((seen.normal * seen.offset).sum(axis=1)) / np.maximum(lengths, 1e-300)
         alpha = p.least + (p.most - p.least) * (1 - np.minimum(facing, 1.0) ** p.falloff)
         return self.look(p, seen, alpha)
 
-    def uniforms(self, p: ViewDependentParameters, state: Own, shot: Shot) -> dict[str, object]:
+    def uniforms(self, p: ViewDependentParameters, state: object, shot: Shot) -> dict[str, object]:
         """The curve."""
         curve = {"least": p.least, "most": p.most, "falloff": p.falloff}
         return {**super().uniforms(p, state, shot), **curve}

@@ -9,9 +9,9 @@ from math import asin, atan2
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.skills.mood import Mood
 from seethrough.tasks.kit.skills.profile import Profile
 

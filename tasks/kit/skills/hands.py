@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from math import hypot, log2, pi
 
-from seethrough.renderer.techniques.base import Gesture
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     Event,
     KeyPress,
     KeyRelease,
@@ -16,6 +15,7 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
     Tick,
 )
+from seethrough.renderer.techniques.base import Gesture
 from seethrough.tasks.kit.gestures import events_of
 from seethrough.tasks.kit.hud import Rect
 from seethrough.tasks.kit.skills.mood import Mood

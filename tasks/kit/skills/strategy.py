@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field
 
-from seethrough.tasks.kit.events import Event
+from seethrough.renderer.events import Event
 from seethrough.tasks.kit.skills.glance import Glance
 from seethrough.tasks.kit.skills.mood import Mood
 

@@ -12,12 +12,12 @@ from math import acos
 
 import numpy as np
 
+from seethrough.renderer.events import Event, KeyPress, KeyRelease
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import screen_boxes
 from seethrough.renderer.scene.visibility import Visibility, better
-from seethrough.renderer.techniques.base import Floats, Own, Shot
+from seethrough.renderer.techniques.base import Floats, Parameters, Shot
 from seethrough.tasks.kit.base import View
-from seethrough.tasks.kit.events import Event, KeyPress, KeyRelease
 from seethrough.tasks.kit.skills.hands import Hands
 from seethrough.tasks.kit.skills.mood import Mood
 
@@ -31,7 +31,7 @@ class Sweep:
     """What a person's hands do with a technique (its parameters) in a trial, in a view so wide for
     its height. `spent` is how many seconds that took by now."""
 
-    def __init__(self, mood: Mood, technique: Own, aspect: float) -> None:
+    def __init__(self, mood: Mood, technique: Parameters, aspect: float) -> None:
         self.spent = 0.0
         self._mood, self._technique = mood, technique
         self._size = (round(aspect * HEIGHT), HEIGHT)
@@ -104,7 +104,7 @@ class Sweep:
         high = np.minimum(boxes.extents[inside, 2:].max(axis=0), self._size)
         share = (np.arange(PLACES) + 0.5) / PLACES
         right, up, _ = camera.rotation.T
-        lens = HEIGHT / 2 / np.tan(camera.fov_y / 2)
+        lens = camera.lens(HEIGHT)
         return [
             camera.eye + depth * (
                 camera.forward
@@ -116,7 +116,7 @@ class Sweep:
         ]  # fmt: skip
 
 
-def sweep_of(mood: Mood, technique: Own | None, aspect: float) -> Sweep | None:
+def sweep_of(mood: Mood, technique: Parameters | None, aspect: float) -> Sweep | None:
     """For a technique that hands work; None for all others."""
     if technique is None or not technique.technique.active(technique):
         return None

@@ -10,8 +10,8 @@ from math import atan2, cos, dist, hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.scene import Scene
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Inset
 from seethrough.tasks.kit.skills.counting import saccade
 from seethrough.tasks.kit.skills.glance import WINDOW_PIXELS, Glance, likely

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from seethrough.tasks.kit.events import Event, KeyPress, PointerPress
+from seethrough.renderer.events import Event, KeyPress, PointerPress
 from seethrough.tasks.kit.hud import Button, Element, FloorPlan, Point, Rect
 from seethrough.tasks.worlds.building.building import Building
 

@@ -10,11 +10,11 @@ from math import atan2, pi
 
 import numpy as np
 
+from seethrough.renderer.events import Event
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.tasks.kit.base import View
 from seethrough.tasks.kit.controls import Walk, changed, walk
-from seethrough.tasks.kit.events import Event
 from seethrough.tasks.kit.hud import Element
 from seethrough.tasks.kit.turning import inset
 from seethrough.tasks.worlds.building.building import Building

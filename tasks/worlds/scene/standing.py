@@ -7,10 +7,10 @@ from math import asin, atan, atan2, sin, tan
 
 import numpy as np
 
+from seethrough.renderer.events import Event, KeyPress
 from seethrough.renderer.scene.camera import Camera
 from seethrough.tasks.kit.clicking import of_free_pointer
 from seethrough.tasks.kit.controls import MARGIN, Held, Orbit, Walk, changed
-from seethrough.tasks.kit.events import Event, KeyPress
 from seethrough.tasks.worlds.scene.scene_parameters import SceneParameters
 from seethrough.tasks.worlds.scene.scene_place import ScenePlace
 

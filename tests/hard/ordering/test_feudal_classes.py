@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from seethrough.renderer.polygons import feudal
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.polygons import polygons_from
 
 

@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.polygons import Polygons, polygons_from, triangles_from
 from seethrough.renderer.polygons.predicates import paper_sides, plane_corners
 

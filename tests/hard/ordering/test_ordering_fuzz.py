@@ -13,7 +13,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.polygons import triangles_from
 from seethrough.renderer.polygons.predicates import plane_corners
 

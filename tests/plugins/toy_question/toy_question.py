@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass
 
-from seethrough.experiment.pages.pages import Choice
-from seethrough.experiment.questions.kit import OnOnePage, row
-from seethrough.renderer.declared import check, key
+from seethrough.api import OnOnePage, check, key, pages, row
 
 
 @dataclass(frozen=True)
@@ -27,7 +25,7 @@ class Toy(OnOnePage):
     }  # fmt: skip
 
     def blocks(self, p, asking):
-        return (Choice(asking.name, p.text, ("toy_question.no", "toy_question.yes")),)
+        return (pages.Choice(asking.name, p.text, ("toy_question.no", "toy_question.yes")),)
 
     def rows(self, p, asking, number, answers):
         return [row(asking.name, answers[asking.name])]

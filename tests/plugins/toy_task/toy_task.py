@@ -2,20 +2,13 @@
 
 from dataclasses import dataclass, replace
 
-from seethrough.tasks.kit.base import Basics, Outcome, View
-from seethrough.tasks.kit.controls import Orbit
-from seethrough.tasks.kit.events import KeyPress
-from seethrough.tasks.kit.hud import Label
-from seethrough.tasks.kit.measure import CORRECT
-from seethrough.tasks.kit.skills.hands import Hands
-from seethrough.tasks.kit.skills.strategy import Strategy
-from seethrough.tasks.kit.world import keys
+from seethrough.api import Basics, Hands, Outcome, Strategy, View, events, hud, keys, measure
 
 
 @dataclass(frozen=True, eq=False)
 class State:
     place: object
-    viewer: Orbit
+    viewer: object
     said: str = ""
 
 
@@ -27,7 +20,7 @@ def look(mood, glance):
 
 class Toy(Basics):
     name, code, source = "toy_task", "TOY", "nobody"
-    worlds, measures = ("abstract",), (CORRECT,)
+    worlds, measures = ("abstract",), (measure.CORRECT,)
     texts = {"en": {"toy_task.title": "Red?", "toy_task.instruction": "Y or N."}}
     takes = keys("yn")
     simulate = Strategy(look)
@@ -36,11 +29,13 @@ class Toy(Basics):
         return State(made, setting.world.viewer(made, setting.place, aspect))
 
     def on_event(self, state, event):
-        said = event.key if isinstance(event, KeyPress) and event.key in "yn" else state.said
+        said = event.key if isinstance(event, events.KeyPress) and event.key in "yn" else state.said
         return replace(state, viewer=state.viewer.on_event(event), said=said)
 
     def view(self, state):
-        return View(state.place.scene, state.viewer.camera(), (Label(self.title, (0.02, 0.02)),))
+        return View(
+            state.place.scene, state.viewer.camera(), (hud.Label(self.title, (0.02, 0.02)),)
+        )
 
     def outcome(self, state):
         return Outcome(state.said, "y", state.said == "y") if state.said else None

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.renderer.declared import key
-from seethrough.renderer.techniques import removal
+from seethrough.api import key, removal
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.renderer.declared import check, key
-from seethrough.renderer.scene import geometry
-from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.renderer.scene.transforms import translation
-from seethrough.tasks.kit.controls import ARROWS, orbit
-from seethrough.tasks.kit.world import keys, scenes
+from seethrough.api import Object, Scene, check, controls, geometry, key, keys, scenes, transforms
 
 BALL = geometry.sphere(0.5)
 
@@ -31,17 +26,20 @@ class Place:
 
 class Toy:
     name, version, source, scenario = "toy_world", "1", "nobody", "toy_world"
-    moving, controls, Parameters, takes = "orbit", "toy_world.controls", Row, keys(ARROWS)
+    moving, controls, Parameters, takes = "orbit", "toy_world.controls", Row, keys(controls.ARROWS)
     texts = {"en": {"toy_world.controls": "Drag to turn."}}
 
     def make(self, rng, p):
         at = rng.uniform(-1, 1, (p.balls, 3)) + np.linspace(-5, 5, p.balls)[:, None] * [1, 0, 0]
         looks = [((1.0, 0, 0), True) if x > 0 else ((0, 0, 1.0), False) for x, _, _ in at]
-        things = [Object(BALL, translation(*x), *look) for x, look in zip(at, looks, strict=True)]
+        things = [
+            Object(BALL, transforms.translation(*x), *look)
+            for x, look in zip(at, looks, strict=True)
+        ]
         return Place(Scene(tuple(things)))
 
     def viewer(self, place, p, aspect):
-        return orbit(p, aspect)
+        return controls.orbit(p, aspect)
 
     def views(self, p, first):
         return [first]

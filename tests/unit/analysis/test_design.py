@@ -14,7 +14,7 @@ from seethrough.analysis.load.study import load_study
 from seethrough.analysis.page.blocks import Table, walk
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.report import Options, make_report
-from seethrough.analysis.sections.omnibus import complete
+from seethrough.analysis.sections.tests.omnibus import complete
 
 
 def read(**entry):
@@ -61,6 +61,15 @@ def of_measure(**changes):
          "design.factors[0].baseline = 'none': expected one of plain, xray, cut, lens"),
         (of_factor(numbers=[1, 2]),
          "design.factors[0].numbers = [1, 2]: expected a number for each level"),
+        (of_factor(tasks={"plain": 5}),
+         "design.factors[0].tasks.plain = 5: expected an array of texts"),
+        (of_factor(tasks={"plain": ["find", 5]}),
+         "design.factors[0].tasks.plain = ['find', 5]: expected an array of texts"),
+        (of_factor(tasks=["find"]),
+         "design.factors[0].tasks = ['find']: expected a table, by level"),
+        (of_factor(labels={"plain": 5}),
+         "design.factors[0].labels.plain = 5: expected a text"),
+        (of_factor(labels=7), "design.factors[0].labels = 7: expected a table, by level"),
         (of_factor(name="time"),
          "design.factors[0].name = 'time': expected a name that is no fixed column"),
         ({"factors": [VIEWS, VIEWS]}, "design.factors = 'view': expected each name once"),
@@ -76,6 +85,8 @@ def of_measure(**changes):
          "design.predictions[0].contrast = 'light': expected a factor: view"),
         ({"predictions": [{"name": "H", "measure": "time", "margin": 0.8}]},
          "design.predictions.margin.time = 0.8: expected a number above 1"),
+        ({"predictions": [{"name": "H", "measure": "tiem", "margin": 2}]},
+         "design.predictions.margin = 'tiem': expected a measure: time"),
         ({"predictions": [{"name": "H", "measure": "time", "expect": "better"}]},
          "design.predictions[0].expect = 'better': expected one of less, more, different"),
     ],
@@ -84,6 +95,19 @@ def test_what_is_wrong_is_one_line(entry, line):
     with pytest.raises(DataError) as caught:
         read(**entry)
     assert any(line in said for said in caught.value.lines), caught.value.lines
+
+
+def test_a_level_s_only_task_is_no_list_of_letters():
+    (factor,) = read(**of_factor(tasks={"plain": "find", "xray": ["find", "count"]})).factors
+    assert factor.tasks == {"plain": ("find",), "xray": ("find", "count")}
+
+
+def test_a_margin_is_of_the_measure_that_has_the_column():
+    """A prediction may name a measure by its column; its margin belongs to it all the same."""
+    about = of_measure(name="duration", column="time", log=True)
+    stated = {"name": "H", "measure": "time", "expect": "equivalent", "margin": 1.5}
+    design = read(**about, predictions=[stated])
+    assert next(m.margin for t in design.tasks for m in t.measures) == 1.5
 
 
 def test_all_that_is_wrong_is_said_at_once():

@@ -15,7 +15,7 @@ from seethrough.analysis.report import Options, make_report, tables_of
 from seethrough.analysis.stats.reliability import HEYWOOD, reliability
 from seethrough.analysis.stats.undefined import Undefined
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 
 ANSWERS = np.array([
     [2, 2, 0, 1], [0, 1, 0, 1], [2, 2, 1, 2], [2, 1, 3, 1], [4, 3, 2, 3], [1, 2, 2, 1],

@@ -12,9 +12,9 @@ from seethrough.analysis.before import design_before
 from seethrough.analysis.comparison import Pair, add_holm, compare, compare_logs, decisive
 from seethrough.analysis.equivalence import Margin, no_difference
 from seethrough.analysis.page.blocks import Prose
-from seethrough.analysis.sections.answers_directed import by_task
-from seethrough.analysis.sections.answers_margin import accurate
-from seethrough.analysis.sections.ordinal import friedman_table
+from seethrough.analysis.sections.answers.answers_directed import by_task
+from seethrough.analysis.sections.answers.answers_margin import accurate
+from seethrough.analysis.sections.tests.ordinal import friedman_table
 
 MARGINS = {"time": 1.2, "count_error": 2.0, "correct": 0.1}
 DESIGN = design_before({"analysis": {"margins": MARGINS}})

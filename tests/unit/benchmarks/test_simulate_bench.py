@@ -7,7 +7,7 @@ import pytest
 
 from seethrough.benchmarks.sessions import simulate
 from seethrough.experiment import cli
-from seethrough.tasks.kit.events import KeyPress, KeyRelease, Tick
+from seethrough.renderer.events import KeyPress, KeyRelease, Tick
 
 
 @pytest.mark.parametrize(

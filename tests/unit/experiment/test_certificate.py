@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands.check import smooth
+from seethrough.experiment.commands.studies.check import smooth
 from seethrough.experiment.session import machine
 from seethrough.experiment.session.machine import FrameTimes
-from seethrough.experiment.study.certificate import (
+from seethrough.experiment.study.checked.certificate import (
     Certifier,
     Difficulty,
     matches,
     worst,
 )
 from seethrough.experiment.study.config import parse
-from seethrough.experiment.study.design import Trial, session_for
+from seethrough.experiment.study.design.design import Trial, session_for
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.camera import look_at

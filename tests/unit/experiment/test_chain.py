@@ -13,11 +13,11 @@ from published_design import published
 from seethrough.experiment.record.chain import verify
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
+from seethrough.renderer.events import KeyPress, Tick
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
-from seethrough.tasks.kit.events import KeyPress, Tick
 
 DESIGN = published()
 LEVELS = {"transparency": "dynamic", "scenario": "abstract"}

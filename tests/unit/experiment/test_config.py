@@ -7,8 +7,8 @@ import pytest
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, load, parse, shipped
-from seethrough.experiment.study.keys import keys_of
-from seethrough.experiment.study.study_tables import TABLES
+from seethrough.experiment.study.tables.keys import keys_of
+from seethrough.experiment.study.tables.study_tables import TABLES
 
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 

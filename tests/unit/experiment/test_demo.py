@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands import demo
+from seethrough.experiment.commands.sessions import demo
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Picture, on_picture
+from seethrough.experiment.pages.pages import PICTURE_ASPECT, Choice, Picture
 from seethrough.experiment.questions.depth_test.depth_pairs import (
     APART,
     PAIRS,
@@ -42,7 +42,7 @@ def test_places_are_those_of_tangents():
     points = seen_from.eye + depths[:, None] * (
         half * (places[:, :1] * right + places[:, 1:] * up) - back
     )
-    np.testing.assert_allclose(on_picture(seen_from, points), places, atol=1e-9)
+    np.testing.assert_allclose(seen_from.places(points), places, atol=1e-9)
 
 
 def things(*rows):

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import generator, session_for
-from seethrough.experiment.study.items import letters, rotation
-from seethrough.experiment.study.squares import latin_rows, square, williams_rows
+from seethrough.experiment.study.design.design import generator, session_for
+from seethrough.experiment.study.design.items import letters, rotation
+from seethrough.experiment.study.design.squares import latin_rows, square, williams_rows
 
 PUBLISHED = load("published").plan
 BEFORE = "7bff85ab6bbae8c07520eb60501753e1a68649f0351a8d05459d9d66455dffca"

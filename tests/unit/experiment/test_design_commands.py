@@ -9,10 +9,10 @@ from seethrough.experiment import cli
 from seethrough.experiment.session import balance_check
 from seethrough.experiment.session.answering import played
 from seethrough.experiment.session.balance_check import refilled, table_of, verdicts
-from seethrough.experiment.study import design, items
 from seethrough.experiment.study.config import load, shipped
-from seethrough.experiment.study.design import session_for
-from seethrough.experiment.study.design_page import color
+from seethrough.experiment.study.design import design, items
+from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.shown.design_page import color
 
 FACTORIAL = ["clutter", "expertise", "livingston2003", "opacity", "published", "training"]
 

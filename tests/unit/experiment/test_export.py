@@ -18,7 +18,7 @@ from seethrough.experiment.export.dataset import _rows, harmless
 from seethrough.experiment.export.parquet import ParquetWriter
 from seethrough.experiment.record.columns import with_factors
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry
 
 
 def columns_of_demo():

@@ -3,7 +3,7 @@
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands import status
+from seethrough.experiment.commands.sessions import status
 
 
 def from_compiled_code(_):

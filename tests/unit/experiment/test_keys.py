@@ -9,10 +9,10 @@ import pytest
 from seethrough.experiment.cli import main
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, parse
-from seethrough.experiment.study.keys import REFERENCE, REQUIRED, keys_of, reference, tables
-from seethrough.experiment.study.merge import nested
-from seethrough.experiment.study.scopes import sections
-from seethrough.experiment.study.study_tables import TABLES
+from seethrough.experiment.study.tables.keys import REFERENCE, REQUIRED, keys_of, reference, tables
+from seethrough.experiment.study.tables.merge import nested
+from seethrough.experiment.study.tables.scopes import sections
+from seethrough.experiment.study.tables.study_tables import TABLES
 from seethrough.renderer.declared import Of, declared
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.kit.own_models import OwnModel
@@ -29,7 +29,7 @@ PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 
 
 def test_the_page_is_what_the_code_declares():
-    """`python -m seethrough.experiment.study.keys` makes it anew."""
+    """`python -m seethrough.experiment.study.tables.keys` makes it anew."""
     assert REFERENCE.read_text(encoding="utf-8") == reference()
 
 

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands import withdraw as withdraw_module
+from seethrough.experiment.commands.sessions import withdraw as withdraw_module
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.ledger import ledger_lock
 from seethrough.experiment.ledger.ledger import Ledger

@@ -6,14 +6,14 @@ from types import SimpleNamespace
 
 import pytest
 
-from seethrough.experiment.commands import simulate
+from seethrough.experiment.commands.sessions import simulate
 from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.persons.profile_file import find
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session import live
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
 from seethrough.tasks.kit.base import Outcome
 
 STUDY = load("demo")

@@ -4,7 +4,7 @@ import io
 
 import pytest
 
-from seethrough.experiment.commands.run import _brought, _check_brought
+from seethrough.experiment.commands.sessions.run import _brought, _check_brought
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import load
 

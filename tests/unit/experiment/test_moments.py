@@ -13,7 +13,7 @@ from seethrough.experiment.session.questionnaire import item_of, said_in
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import parse
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.tasks.catalog import TASKS
 
 LIKERT = {"use": "likert", "text": "Hard?", "points": 7}

@@ -12,7 +12,7 @@ from scene_files import CORNERS, FACES, file_of
 from small_study import SMALL
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.study import sheet_text
+from seethrough.experiment.study.checked import sheet_text
 from seethrough.experiment.study.config import load
 
 

@@ -7,7 +7,7 @@ import pytest
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.record.columns import QUESTIONNAIRE
 from seethrough.experiment.record.record_files import Table, Traces
-from seethrough.tasks.kit.events import KeyPress
+from seethrough.renderer.events import KeyPress
 
 
 @pytest.fixture

@@ -8,9 +8,9 @@ import pytest
 
 from seethrough.experiment import cli
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.study.beside.own_model_files import keep, kept
 from seethrough.experiment.study.config import load, parse
-from seethrough.experiment.study.design import session_for
-from seethrough.experiment.study.own_model_files import keep, kept
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes
 from seethrough.tasks.catalog import TASKS
 
@@ -177,7 +177,7 @@ def test_check_puts_a_picture_of_each_model_into_a_sheet(tmp_path):
     from PIL import Image
 
     from seethrough.experiment.display.driver import open_context
-    from seethrough.experiment.study.contact_sheet import write
+    from seethrough.experiment.study.checked.contact_sheet import write
 
     study, sheet = load(str(written(tmp_path))), tmp_path / "own-models.png"
     context = open_context()

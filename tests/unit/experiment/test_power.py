@@ -15,7 +15,7 @@ from seethrough.analysis.stats.ranks import friedman
 from seethrough.experiment import cli
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.power import effects
-from seethrough.experiment.power.closed import interval_of, needed, signed_power, wrong_sign
+from seethrough.experiment.power.closed import interval_of, needed, signed_power
 from seethrough.experiment.power.decisions import Part, Planned, Results, Test, decide, run
 from seethrough.experiment.power.planned import plans_of
 from seethrough.experiment.power.power import curve
@@ -45,6 +45,12 @@ def test_closed_form_agrees_with_published_values():
     assert grown == sorted(grown, reverse=True) and grown[-1] == 3
     # One-sided, 80 %: dz .5 takes 27 (G*Power 3.1, t test, one sample).
     assert needed(0.5, 0.05, sides=1) == 27
+
+
+def wrong_sign(delta, n, alpha):
+    """Type S: P(wrong sign | p < α), two-sided."""
+    right, wrong = (signed_power(d, n, alpha) for d in (delta, -delta))
+    return wrong / (right + wrong)
 
 
 def test_type_s_and_m_are_those_of_the_definitions():

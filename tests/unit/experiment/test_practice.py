@@ -18,11 +18,11 @@ from seethrough.experiment.session.session import _feedback, run_session
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
+from seethrough.renderer.events import KeyPress, PointerPress, Tick
 from seethrough.tasks.catalog import TASKS, WORLDS
 from seethrough.tasks.explore import EXPLORE
 from seethrough.tasks.kit.base import Outcome, Setting
-from seethrough.tasks.kit.events import KeyPress, PointerPress, Tick
 from seethrough.tasks.kit.hud import Label
 
 STUDY = load("published")

@@ -20,7 +20,7 @@ from seethrough.experiment.people.simulated_input import SimulatedInput
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import Trial, session_for
+from seethrough.experiment.study.design.design import Trial, session_for
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import Outcome
 

@@ -18,8 +18,8 @@ from seethrough.experiment.questions.tlx.tlx_question import TLX
 from seethrough.experiment.session import questionnaire
 from seethrough.experiment.session.questionnaire import Said
 from seethrough.experiment.study.config import find, load, parse
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.ready import READY, question
+from seethrough.experiment.study.shown.described import design_entry
+from seethrough.experiment.study.tables.ready import READY, question
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 PUBLISHED = load("published")

@@ -15,11 +15,11 @@ from seethrough.experiment.record.columns import columns_in
 from seethrough.experiment.record.record_files import cell
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
-from seethrough.experiment.study.design import Trial
+from seethrough.experiment.study.design.design import Trial
+from seethrough.renderer.events import KeyPress, PointerMove, Tick
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Outcome, View
-from seethrough.tasks.kit.events import KeyPress, PointerMove, Tick
 
 DESIGN = published()
 LEVELS = {"transparency": "dynamic", "scenario": "abstract"}

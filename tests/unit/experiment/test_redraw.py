@@ -6,7 +6,7 @@ import pytest
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, parse
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 
 PUBLISHED = tomllib.loads(find("published").read_text(encoding="utf-8"))
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seethrough.experiment.commands import check
+from seethrough.experiment.commands.studies import check
 from seethrough.experiment.display import refresh, system_window, window
 from seethrough.experiment.study.config import load
 from seethrough.experiment.verdicts import Verdicts

@@ -76,7 +76,9 @@ def test_the_page_shows_the_pictures_and_what_is_refused(tmp_path, capsys, monke
     odd = replace(first, name="odd", caption="7 < 30", size=(30, 7))
     refused = tuple(gallery_hard._refused())
     some = [Section("Some & few", "", (first, odd)), Section("Refused", "", (), refused)]
-    monkeypatch.setattr("seethrough.experiment.commands.gallery.sections", lambda *_: iter(some))
+    monkeypatch.setattr(
+        "seethrough.experiment.commands.pictures.gallery.sections", lambda *_: iter(some)
+    )
     assert main(["gallery", "--out", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().out.endswith("index.html: 2 pictures\n")
     page = (tmp_path / "out" / "index.html").read_text("utf-8")

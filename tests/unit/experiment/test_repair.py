@@ -14,10 +14,10 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.resume import starting_point
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.shown.described import design_entry
+from seethrough.renderer.events import Tick
 from seethrough.tasks.kit.base import Outcome
-from seethrough.tasks.kit.events import Tick
 
 STUDY = load("demo")
 TRIALS = [t for s in session_for(1, STUDY.plan) for t in s.trials]

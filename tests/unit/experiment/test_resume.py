@@ -10,8 +10,8 @@ from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.questionnaire import Said
 from seethrough.experiment.session.resume import already_done, going_on, past, starting_point
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.tasks.kit.base import Outcome
 
 STUDY = load("published")

@@ -9,8 +9,8 @@ from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.display import DisplayLost, Leave
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
+from seethrough.renderer.events import FocusChange, KeyPress, PointerPress, Tick
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.events import FocusChange, KeyPress, PointerPress, Tick
 
 
 def test_every_task_set_has_its_instruction_training_and_trials_in_that_order():

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.study.balance import cycle
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.balance import cycle
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_items import StudyItems
 from seethrough.experiment.study.study_scenes import StudyScenes
 

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, load, parse, shipped
-from seethrough.experiment.study.described import design_entry
-from seethrough.experiment.study.design import session_for
-from seethrough.experiment.study.merge import leaves, merged, nested, overlap
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.migrate import is_old, migrated
 from seethrough.experiment.study.migrate_file import migrated_text
+from seethrough.experiment.study.shown.described import design_entry
+from seethrough.experiment.study.tables.merge import leaves, merged, nested, overlap
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "studies"
 BASE = """

@@ -13,7 +13,7 @@ from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session import questionnaire
 from seethrough.experiment.session.moments import moments_of
 from seethrough.experiment.study.config import find, load, parse
-from seethrough.experiment.study.design import session_for
+from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.translations import needed, own_texts, texts_of, unshowable
 
 FRENCH = find("french")

@@ -10,8 +10,7 @@ from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.window import Window
 from seethrough.experiment.session.session import run_session
 from seethrough.experiment.session.surroundings import Surroundings
-from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     FocusChange,
     KeyPress,
     KeyRelease,
@@ -20,6 +19,7 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
     Tick,
 )
+from seethrough.tasks.catalog import TASKS
 
 
 @dataclass

@@ -8,7 +8,7 @@ import pytest
 
 from seethrough.experiment.display.display import Leave
 from seethrough.experiment.people.watched_input import WatchedInput
-from seethrough.tasks.kit.events import KeyPress, PointerMove, PointerPress, Tick
+from seethrough.renderer.events import KeyPress, PointerMove, PointerPress, Tick
 
 PLAN = [
     KeyPress(3.0, "b"),

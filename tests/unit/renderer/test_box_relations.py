@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from seethrough.renderer.polygons.box_geometry import Boxes, contour_table
-from seethrough.renderer.polygons.box_relations import APART, FIRST, SECOND, relate
+from seethrough.renderer.polygons.boxes.box_geometry import Boxes, contour_table
+from seethrough.renderer.polygons.boxes.box_relations import APART, FIRST, SECOND, relate
 
 CLOSE = 1e-9  # of the picture: outlines that nearly touch may be taken for either
 

@@ -6,7 +6,8 @@ import pytest
 from seethrough.benchmarks.orderings.ordering import crossing
 from seethrough.renderer.plan import clusters
 from seethrough.renderer.plan.explain import of_cluster
-from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.fragments import TooManyPieces
 from seethrough.renderer.scene.geometry import merged, quad, transformed
 from seethrough.renderer.scene.scene import Object, Scene

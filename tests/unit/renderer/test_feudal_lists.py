@@ -7,8 +7,9 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.polygons import bsp, feudal
-from seethrough.renderer.polygons.feudal_stretches import SWITCHES, knot_roots
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.polygons.feudal import feudal
+from seethrough.renderer.polygons.feudal.feudal_stretches import SWITCHES, knot_roots
 from seethrough.renderer.polygons.polygons import polygons_from, triangles_from
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from seethrough.renderer.polygons import boxes
-from seethrough.renderer.polygons.box_geometry import Boxes, contour_table, fit
-from seethrough.renderer.polygons.box_overlap import shared_views
+from seethrough.renderer.polygons.boxes import boxes
+from seethrough.renderer.polygons.boxes.box_geometry import Boxes, contour_table, fit
+from seethrough.renderer.polygons.boxes.box_overlap import shared_views
 from seethrough.renderer.polygons.polygons import Polygons, polygons_from
 
 NOTHING = Polygons(np.empty((0, 3)), np.zeros(1, np.int64), np.empty((0, 0)), np.empty(0, np.int64))

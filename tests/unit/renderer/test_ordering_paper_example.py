@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seethrough.renderer.polygons.feudal_kernels import (
+from seethrough.renderer.polygons.feudal.feudal_kernels import (
     BEHIND,
     COPLANAR,
     CUT,
@@ -21,9 +21,9 @@ from seethrough.renderer.polygons.feudal_kernels import (
     UNKNOWN,
     Geometry,
 )
-from seethrough.renderer.polygons.feudal_list import priority_list, program
-from seethrough.renderer.polygons.feudal_relations import Relations
-from seethrough.renderer.polygons.feudal_tree import build_dynamic, build_static
+from seethrough.renderer.polygons.feudal.feudal_list import priority_list, program
+from seethrough.renderer.polygons.feudal.feudal_relations import Relations
+from seethrough.renderer.polygons.feudal.feudal_tree import build_dynamic, build_static
 
 OUTWARD = (1, 2, 5, 8, 9, 10)
 # Front, back, cut (tables 1, 2 and 5).

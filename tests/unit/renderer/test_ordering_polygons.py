@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seethrough.renderer.polygons import axis_tree, bsp, distance, feudal
+from seethrough.renderer.polygons import axis_tree, bsp, distance
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.methods import METHODS, prepare
 from seethrough.renderer.polygons.polygons import Polygons, polygons_from, triangles_from
 from seethrough.renderer.polygons.triangulation import clip_ears

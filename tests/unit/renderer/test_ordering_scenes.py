@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from seethrough.renderer.models.translucent.scenes import scene
-from seethrough.renderer.polygons import bsp, feudal
+from seethrough.renderer.polygons import bsp
+from seethrough.renderer.polygons.feudal import feudal
 from seethrough.renderer.polygons.polygons import newell
 
 # Polygons, and the splits of the paper's BSP trees (tables 6 and 7).

@@ -2,8 +2,7 @@
 
 import pytest
 
-from seethrough.tasks.kit.clicking import RATE, SLIP, clicking
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     KeyPress,
     KeyRelease,
     PointerMove,
@@ -11,6 +10,7 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
     Tick,
 )
+from seethrough.tasks.kit.clicking import RATE, SLIP, clicking
 
 
 def after(*events, aspect=4 / 3):

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from seethrough.tasks.kit import events
+from seethrough.renderer import events
+from seethrough.renderer.events import KeyPress, KeyRelease, PointerMove, Tick
 from seethrough.tasks.kit.controls import orbit, turned, walk
-from seethrough.tasks.kit.events import KeyPress, KeyRelease, PointerMove, Tick
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters

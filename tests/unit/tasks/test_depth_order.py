@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from seethrough.experiment.suites.played import played
+from seethrough.renderer.events import KeyPress, PointerPress
 from seethrough.tasks.catalog import TASKS, WORLDS, setting
 from seethrough.tasks.depth_order.depth_order_task import DepthOrderParameters, buttons
 from seethrough.tasks.depth_order.pair import LIFT
 from seethrough.tasks.kit.errors import NoScene
-from seethrough.tasks.kit.events import KeyPress, PointerPress
 from seethrough.tasks.kit.hud import Label
 
 TASK = TASKS["depth_order"]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from played_tasks import begun, button, click, keys, of, play
 
-from seethrough.tasks.kit.events import KeyPress, PointerPress
+from seethrough.renderer.events import KeyPress, PointerPress
 from seethrough.tasks.kit.hud import FloorPlan, Label
 from seethrough.tasks.worlds.building.building_parameters import METRES
 from seethrough.tasks.worlds.building.floor import room_at

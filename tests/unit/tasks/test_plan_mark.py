@@ -4,7 +4,7 @@ import pytest
 from numpy.testing import assert_allclose
 from played_tasks import ASPECT
 
-from seethrough.tasks.kit.events import KeyPress, PointerPress
+from seethrough.renderer.events import KeyPress, PointerPress
 from seethrough.tasks.worlds.building.plan_mark import PlanMark
 
 

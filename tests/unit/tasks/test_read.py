@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from seethrough.experiment.suites.played import played
+from seethrough.renderer.events import KeyPress
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import named
 from seethrough.tasks.catalog import TASKS, setting
-from seethrough.tasks.kit.events import KeyPress
 from seethrough.tasks.read.read_task import ReadParameters
 from seethrough.tasks.read.sign import SIGN, sign_mesh
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters

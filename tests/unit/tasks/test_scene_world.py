@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scene_files import file_of
 
+from seethrough.renderer.events import KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.catalog import TASKS, WORLDS, setting
-from seethrough.tasks.kit.events import KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.kit.hud import Inset, Mark, Sought
 from seethrough.tasks.kit.tags import KindTag, Tag
 from seethrough.tasks.kit.world import FileFaults

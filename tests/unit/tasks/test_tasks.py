@@ -5,9 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from played_tasks import ASPECT, PUBLISHED, begin, begun, button, click, keys, of, play
 
-from seethrough.tasks.catalog import TASKS, setting
-from seethrough.tasks.kit.entry import NumberEntry
-from seethrough.tasks.kit.events import (
+from seethrough.renderer.events import (
     KeyPress,
     KeyRelease,
     PointerMove,
@@ -15,6 +13,8 @@ from seethrough.tasks.kit.events import (
     PointerRelease,
     Tick,
 )
+from seethrough.tasks.catalog import TASKS, setting
+from seethrough.tasks.kit.entry import NumberEntry
 from seethrough.tasks.kit.hud import Button, Entry, FloorPlan, Inset, Label
 from seethrough.tasks.kit.letters import LETTERS
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters

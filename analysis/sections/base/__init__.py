@@ -1,0 +1,1 @@
+"""What every section is given, and the tables that it makes."""

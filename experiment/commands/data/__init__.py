@@ -1,0 +1,1 @@
+"""Commands that read what was recorded, or say how much of it a study needs."""

@@ -1,0 +1,1 @@
+"""Commands that play sessions, or look after those that were played."""

@@ -1,0 +1,57 @@
+"""`seethrough texts`: what is to be translated for a study in a language of its own."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+
+from seethrough.experiment.errors import InputError
+from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_regular
+from seethrough.experiment.study.beside.toml_file import parse_toml
+from seethrough.experiment.study.config import find, load
+from seethrough.experiment.study.translations import needed, template
+from seethrough.tasks.kit.own_texts import flat
+
+NAME = re.compile(r"[A-Za-z0-9-]{1,32}")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The command's own arguments."""
+    parser.add_argument("study", metavar="STUDY", help="TOML file of a study")
+    parser.add_argument("--language", required=True, metavar="NAME", help="as fr")
+    parser.add_argument(
+        "--out", type=Path, metavar="FILE", help="default: NAME.toml beside the study"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write every text that participants of the study read, to be filled in; what has been filled
+    in before is taken over."""
+    language = arguments.language
+    if not NAME.fullmatch(language):
+        raise InputError(f"--language = {language}: expected letters, digits and -, as fr")
+    study = load(arguments.study, translated=False)
+    beside = find(arguments.study).parent / f"{language}.toml"
+    out = arguments.out or beside
+    if out.exists():
+        raise InputError(
+            f"{out}: exists already; expected a new file: --out FILE, with what is in it taken over"
+        )
+    before = {}
+    if beside.exists():
+        try:
+            before = flat(parse_toml(read_regular(beside, LARGEST_TEXT), str(beside)))
+        except TypeError as error:
+            raise InputError(f"{beside}: {error}") from None
+    texts = needed(study)
+    missing = sum(not before.get(key, "") for key in texts)
+    try:
+        out.write_text(template(study, before), "utf-8")
+    except OSError as error:
+        raise InputError(f"{out}: cannot be written: {error.strerror}") from None
+    print(f"{out}: {len(texts)} texts, {missing} to be filled in")
+    print(
+        f'then, in the study: language = "{out.name}" below [study]; `check` says what is missing'
+    )
+    return 0

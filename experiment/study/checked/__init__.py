@@ -1,0 +1,1 @@
+"""What `check` finds out about a study's scenes before anybody is invited."""

@@ -1,0 +1,1 @@
+"""Who meets what, in which order, counted out for every slot."""

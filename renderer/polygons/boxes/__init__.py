@@ -1,0 +1,1 @@
+"""Orders of boxes about polygons."""

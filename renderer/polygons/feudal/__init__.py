@@ -1,0 +1,1 @@
+"""The feudal priority order."""
