@@ -13,6 +13,7 @@ from seethrough.analysis.errors import DataError
 from seethrough.experiment import streams
 from seethrough.experiment.errors import InputError, one_line, unknown
 from seethrough.renderer.errors import CannotDraw
+from seethrough.tasks.kit.errors import NoScene
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
@@ -134,8 +135,10 @@ def _is_interrupt(error: BaseException | None) -> bool:
 
 
 def _run(words: Sequence[str]) -> int:
+    study = ""
     try:
         arguments = _parser(words).parse_args(words)
+        study = getattr(arguments, "study", None) or ""
         if getattr(arguments, "trust", False):
             from seethrough.experiment.files import trust
 
@@ -147,6 +150,8 @@ def _run(words: Sequence[str]) -> int:
         return _failed(error.shown(), 2)
     except CannotDraw as error:
         return _failed([str(error)], 2)
+    except NoScene as error:
+        return _failed([f"{study}: {error}" if study else str(error)], 2)
     except OSError as error:
         if error.filename is None:
             raise

@@ -20,7 +20,11 @@ from seethrough.experiment.study.parser import Parser
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_items import lacking_items
 from seethrough.experiment.study.tables.study_errors import study_error
-from seethrough.experiment.study.translations import unshowable_texts, with_translations
+from seethrough.experiment.study.translations import (
+    unshowable_names,
+    unshowable_texts,
+    with_translations,
+)
 
 __all__ = ["Study", "find", "load", "parse", "shipped"]
 
@@ -80,9 +84,9 @@ def load(name: str, translated: bool = True) -> Study:
         raise gathered(lines)
     study = with_translations(study, path) if translated else study
     study = study.with_places(lambda place: beside(place, path))
-    lacking = lacking_items(study)
-    if lacking:
-        raise gathered([f"{path}: {line}" for line in lacking])
+    lacking = [f"{path}: {line}" for line in lacking_items(study)]
+    if lines := lacking + unshowable_names(study, str(path)):
+        raise gathered(lines)
     return study
 
 

@@ -21,7 +21,9 @@ from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_be
 from seethrough.experiment.study.beside.toml_file import parse_toml
 from seethrough.experiment.study.study import Study
 from seethrough.renderer.declared import declared
+from seethrough.tasks.catalog import WORLDS
 from seethrough.tasks.kit.own_texts import flat_values
+from seethrough.tasks.kit.world import NamingWorld
 
 OWN = "study."  # begins the names of a study's own texts
 PLACE = re.compile(r"\{\w+\}")
@@ -212,6 +214,22 @@ def unshowable_texts(study: Study, file: str) -> list[str]:
         f"{bad}"
         for key, text in every.items()
         if (bad := unshowable(text))
+    ]
+
+
+def unshowable_names(study: Study, file: str) -> list[str]:
+    """A line for each name of a thing that participants read and the font lacks letters for."""
+    named = [
+        (f"world.{part.world}.{key}", name)
+        for part in study.parts.values()
+        if isinstance(world := WORLDS[part.world], NamingWorld)
+        for key, name in world.called(part.place)
+    ]
+    return [
+        f"{file}: {key}: a thing is called {shown(name)}: expected letters that the font has, not "
+        f"{bad}"
+        for key, name in dict.fromkeys(named)
+        if (bad := unshowable(name))
     ]
 
 

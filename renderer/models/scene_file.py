@@ -7,8 +7,9 @@ has it, in the file's own units and with its own axis upwards.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain, count
 from pathlib import Path
 
 import numpy as np
@@ -35,7 +36,7 @@ __all__ = ["DETAIL", "KINDS", "SceneFile", "Standpoint", "Thing", "read_scene"]
 @dataclass(frozen=True, eq=False)
 class Thing:
     """A thing of a file: its name, mesh, where it stands (4, 4), and what the file says of it and
-    of the nodes above it (`extras`, the nearest last)."""
+    of the nodes above it (`extras`, of equal names the nearest, in the order of nodes)."""
 
     name: str
     mesh: Mesh
@@ -82,8 +83,8 @@ def _single(source: Source, detail: int) -> SceneFile:
     found = found_in(source)
     mesh = meshed(found.parts, found, detail).mesh
     thing = Thing(source.path.stem, mesh, np.eye(4))
-    count = len(mesh.triangles)
-    return SceneFile((thing,), (), {}, count, tuple(found.notes), source.digest())
+    triangles = len(mesh.triangles)
+    return SceneFile((thing,), (), {}, triangles, tuple(found.notes), source.digest())
 
 
 class _Reader:
@@ -108,7 +109,7 @@ class _Reader:
         return SceneFile(tuple(things), standpoints, spots, total, notes, digest)
 
     def _things(self) -> Iterator[Thing]:
-        count = total = 0
+        number = total = 0
         for index, node in self._nodes.with_meshes():
             mesh = self._mesh(index, node)
             if mesh is None:
@@ -116,8 +117,8 @@ class _Reader:
             name, extras = self._name(index), self._extras(index)
             places = [np.eye(4)] if node.joints is not None else self._nodes.places(index)
             for place in places:
-                count, total = count + 1, total + len(mesh.triangles)
-                if count > MOST_THINGS:
+                number, total = number + 1, total + len(mesh.triangles)
+                if number > MOST_THINGS:
                     raise Refused(f"more than {MOST_THINGS} things: expected at most so many")
                 if total > MOST_IN_ALL:
                     raise Refused(f"more than {MOST_IN_ALL} triangles: expected at most so many")
@@ -140,10 +141,12 @@ class _Reader:
 
     def _made(self, number: object, node: Node) -> Mesh | None:
         parts = primitives(self._file, number, node, np.eye(4), self._materials, self._found)
-        count = sum(len(part.triangles) for part in parts)
-        if not count:
+        triangles = sum(len(part.triangles) for part in parts)
+        if not triangles:
+            if parts or not self._file.row(MESHES, number)["primitives"]:
+                self._found.note(f"meshes[{number}] has no triangles, and is left out")
             return None
-        too_many(count)
+        too_many(triangles)
         try:
             check_parts(parts)
             mesh = meshed(parts, self._found, self._detail).mesh
@@ -175,7 +178,7 @@ class _Reader:
             said.insert(-1, self._file.row(MESHES, rows[-1]["mesh"]).get("extras", {}))
         for extras in said:
             if isinstance(extras, dict):
-                found |= extras
+                found = {k: v for k, v in found.items() if k not in extras} | extras
         return found
 
     def _standpoints(self) -> tuple[Standpoint, ...]:
@@ -188,14 +191,16 @@ class _Reader:
             if camera.get("type") != "perspective":
                 self._found.note("a camera without perspective is left out")
                 continue
+            if "perspective" not in camera:
+                raise Refused(f"cameras[{raw['camera']}].perspective: missing, expected an object")
             said = camera["perspective"]["yfov"]
-            if not isinstance(said, int | float) or not 0.05 <= said <= 2.8:
+            if not 0.05 <= said <= 2.8:
                 raise Refused(
                     f"cameras[{raw['camera']}].perspective.yfov = {str(said)[:40]}: expected an "
                     "angle from 0.05 to 2.8 radians"
                 )
             name = raw.get("name") or camera.get("name") or f"camera {len(found) + 1}"
-            name = _text(name, f"nodes[{index}].name")
+            name = _unlike(_text(name, f"nodes[{index}].name"), [s.name for s in found])
             found.append(Standpoint(name, _upright(world, index), float(said)))
         return tuple(found)
 
@@ -205,6 +210,12 @@ class _Reader:
             for index, world in self._nodes.world.items()
             if not {"mesh", "camera"} & self._file.row(NODES, index).keys()
         }
+
+
+def _unlike(name: str, taken: Sequence[str]) -> str:
+    """The name, or with a number behind it where another has it already."""
+    more = (f"{name} {k}" for k in count(2))
+    return next(n for n in chain([name], more) if n not in taken)
 
 
 def _text(said: object, what: str) -> str:

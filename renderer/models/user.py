@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from seethrough.renderer.arrays import Bools, Floats
 from seethrough.renderer.models.files.part import (
     GREY,
+    LARGEST,
     MOST_TRIANGLES,
     Found,
     Part,
@@ -39,8 +40,6 @@ KINDS = tuple(READERS)
 DETAIL = 30_000
 """Triangles that textures may add: a logo of 64 texels on each side of a box takes as many."""
 Read = TypeVar("Read")
-LARGEST = 1e30
-"""Coordinates beyond this overflow in the cubic terms of a volume."""
 
 __all__ = ["DETAIL", "GREY", "KINDS", "MOST_TRIANGLES", "Facts", "load_model", "read_model"]
 
@@ -120,10 +119,9 @@ def told(source: Source, read: Callable[[Source], Read]) -> Read:
     except (Refused, OSError):
         raise
     except Exception as error:  # a broken file may lack or mistake anything that its format has
-        reason = " ".join(str(error).split())[:100]
-        kind = type(error).__name__
+        said = f"expected a {source.path.suffix[1:].upper()} file, it cannot be read"
         raise Refused(
-            f"expected a {source.path.suffix[1:].upper()} file, it cannot be read: {kind}: {reason}"
+            f"{said}: something in it is missing, or is not what its format says"
         ) from error
 
 

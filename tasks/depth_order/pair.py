@@ -14,6 +14,7 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Setting
 from seethrough.tasks.kit.controls import changed
+from seethrough.tasks.kit.errors import NoScene
 from seethrough.tasks.kit.world import Place, Viewer
 
 ASPECT = 4 / 3  # of the view that has to hold both: none that a study opens is narrower
@@ -51,7 +52,7 @@ class Marked:
 def marked(rng: Generator, setting: Setting, ratio: float) -> Marked:
     """A place of the world's, and two of its targets in one of its views, at random.
 
-    Raises ValueError where the world has no such two.
+    Raises NoScene where the world has no such two.
     """
     for _ in range(MOST_PLACES):
         place = setting.world.make(rng, setting.place)
@@ -62,9 +63,9 @@ def marked(rng: Generator, setting: Setting, ratio: float) -> Marked:
                 a, b = found[int(rng.integers(len(found)))]
                 pair = (a, b) if rng.random() < 0.5 else (b, a)
                 return Marked(place, views[number], pair)
-    raise ValueError(
-        f"ratio = {ratio:g}, expected two targets in one view of {setting.world.name} that differ "
-        "so much in depth"
+    raise NoScene(
+        f"task.depth_order.ratio = {ratio:g}: expected two targets in one view of the world "
+        f"{setting.world.name}, clearly apart in it, whose depths differ so much"
     )
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from fnmatch import fnmatchcase
+from functools import cache
 
 from seethrough.renderer.declared import check, key
 from seethrough.renderer.scene.scene import Scene
@@ -54,19 +55,42 @@ KINDS_OF = {
 }
 
 
+OPPOSITE = {"target": "occluder", "occluder": "target"}
+"""Of these two, what is said last holds."""
+
+
+@cache
+def _pattern(name: str) -> re.Pattern[str]:
+    return re.compile(".*".join(map(re.escape, re.split(r"\*+", name))), re.DOTALL)
+
+
+def fits(name: str, pattern: str) -> bool:
+    """Whether a thing's name is of the pattern: * is any part of it, all else is itself, for names
+    have brackets and question marks of their own."""
+    return _pattern(pattern).fullmatch(name) is not None
+
+
 def tagged(name: str, extras: Mapping[str, object], tags: Iterable[Tag]) -> dict[str, object]:
-    """What holds for a thing: what its file says, then each entry of the table that fits its name.
+    """What holds for a thing: what its file says, in its order, then each entry of the table that
+    fits its name.
 
     Raises ValueError, naming tag and value, for what a file says that a tag cannot be.
     """
     found: dict[str, object] = {}
-    for tag in TAGS:
-        if tag in extras:
-            found[tag] = _checked(name, tag, extras[tag])
+    for tag, value in extras.items():
+        if tag in TAGS:
+            _say(found, tag, _checked(name, tag, value))
     for entry in tags:
-        if fnmatchcase(name, entry.name):
-            found |= entry.said()
+        if fits(name, entry.name):
+            for tag, value in entry.said().items():
+                _say(found, tag, value)
     return found
+
+
+def _say(found: dict[str, object], tag: str, value: object) -> None:
+    found[tag] = value
+    if tag in OPPOSITE and value:
+        found.pop(OPPOSITE[tag], None)
 
 
 def with_kind_tags(scene: Scene, tags: Sequence[KindTag]) -> Scene:
@@ -78,7 +102,7 @@ def with_kind_tags(scene: Scene, tags: Sequence[KindTag]) -> Scene:
     things = []
     for thing in scene.objects:
         for tag in tags:
-            if fnmatchcase(thing.kind, tag.name):
+            if fits(thing.kind, tag.name):
                 hard = thing.impenetrable if tag.impenetrable is None else tag.impenetrable
                 group = taken + groups[tag.group] if tag.group else thing.group
                 thing = replace(thing, impenetrable=hard, group=group)

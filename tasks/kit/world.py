@@ -98,6 +98,14 @@ class FileWorld(Protocol):
 
 
 @runtime_checkable
+class NamingWorld(Protocol):
+    """What a world says besides where participants read names that a study gives its things."""
+
+    def called(self, parameters: object) -> Iterable[tuple[str, str]]:
+        """(parameter, name), of all that may be asked for by name."""
+
+
+@runtime_checkable
 class ItemWorld(Protocol):
     """What a world says besides in which all that can be asked for is counted."""
 

@@ -19,6 +19,7 @@ from seethrough.renderer.scene.scene import Scene
 from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, View
 from seethrough.tasks.kit.clicking import TAKES, Clicking, clicking, of_free_pointer
 from seethrough.tasks.kit.controls import Orbit
+from seethrough.tasks.kit.errors import NoScene
 from seethrough.tasks.kit.example import around
 from seethrough.tasks.kit.hud import Element, Mark, Sought, hint
 from seethrough.tasks.kit.measure import MISSES, Measure
@@ -99,7 +100,7 @@ class Select(Basics[SelectState, SelectSetting]):
         return "scene.walk" if walks else setting.controls
 
     def make_scene(self, rng: Generator, setting: SelectSetting) -> SelectPlace:
-        """A place with one of its targets marked; nothing else is a target. Raises ValueError where
+        """A place with one of its targets marked; nothing else is a target. Raises NoScene where
         there is none."""
         asked = _asked(rng, setting)
         scene = asked.scene
@@ -164,7 +165,7 @@ def _asked(rng: Generator, setting: SelectSetting) -> Asked[Place]:
         place = world.make(rng, setting.place)
         items = tuple(Asked(place, int(i)) for i in np.nonzero(place.scene.targets)[0])
     if not items:
-        raise ValueError("expected a scene with a target")
+        raise NoScene(f"world.{world.name}: expected a target in each of its scenes, one has none")
     drawn = int(rng.integers(len(items)))
     return items[drawn if setting.item is None else setting.item]
 

@@ -9,6 +9,7 @@ from seethrough.renderer.scene.geometry import torus
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.scene.transforms import moved, placed, random_rotation
 from seethrough.tasks.kit.enclosure import encloses, enclosing_pairs
+from seethrough.tasks.kit.errors import NoScene
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene, unit_mesh
 
@@ -96,7 +97,7 @@ def test_a_scene_that_never_comes_free_is_refused(monkeypatch):
     monkeypatch.setattr(
         "seethrough.tasks.worlds.abstract.abstract_scene.enclosing_pairs", lambda _: [(0, 1)]
     )
-    with pytest.raises(ValueError, match=r"objects = 9, radius = \[2.5, 5.0\], expected room in a"):
+    with pytest.raises(NoScene, match=r"objects = 9, radius = \[2.5, 5.0\]: expected room in a"):
         abstract_scene(
             np.random.default_rng(1), AbstractParameters(objects=9, target_share=(0.0, 0.2))
         )

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.beside.own_model_files import models_of
+from seethrough.experiment.study.checked import sheet_text
 from seethrough.experiment.study.config import Study
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.user import Facts
@@ -99,7 +100,7 @@ def write(study: Study, context: Context, path: Path) -> None:
 
     Raises InputError.
     """
-    from PIL import Image, ImageDraw, ImageFont, PngImagePlugin
+    from PIL import Image, ImageDraw, PngImagePlugin
 
     if path.exists() and not is_sheet(path):
         raise InputError(f"{path}: exists already and is no contact sheet; expected a new file")
@@ -107,18 +108,19 @@ def write(study: Study, context: Context, path: Path) -> None:
     width = MARGIN + (len(VIEWS) + 1) * (TILE + MARGIN) + TEXT + MARGIN
     sheet = Image.new("RGB", (width, MARGIN + len(models) * (TILE + MARGIN + 20)), "white")
     draw = ImageDraw.Draw(sheet)
-    font, bold = ImageFont.load_default(13), ImageFont.load_default(16)
+    font, bold = sheet_text.font(14), sheet_text.font(17)
     renderer = Renderer(context, (TILE, TILE))
     for row, own in enumerate(models):
         top = MARGIN + row * (TILE + MARGIN + 20)
-        draw.text((MARGIN, top), f"{own.name}   ({own.file})", fill="black", font=bold)
+        title = sheet_text.fitted(f"{own.name}   ({own.file})", bold, width - 2 * MARGIN)
+        draw.text((MARGIN, top), title, fill="black", font=bold)
         for column, (said, picture) in enumerate(_pictures(own, renderer)):
             left = MARGIN + column * (TILE + MARGIN)
             sheet.paste(Image.fromarray(picture), (left, top + 20))
             draw.text((left + 4, top + TILE), said, fill=(90, 90, 90), font=font)
         left = MARGIN + (len(VIEWS) + 1) * (TILE + MARGIN)
         lines = _wrapped(described(own, facts_of(own), study))
-        text = "\n".join(lines).replace("×", "x")  # which Pillow's own font lacks
+        text = "\n".join(sheet_text.fitted(line, font, TEXT) for line in lines)
         draw.multiline_text((left, top + 22), text, fill="black", font=font, spacing=3)
     marked = PngImagePlugin.PngInfo()
     marked.add_text(*MARK)

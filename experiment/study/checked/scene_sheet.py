@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seethrough.experiment.display.looking import Looking
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.study.checked import sheet_text
 from seethrough.experiment.study.checked.contact_sheet import MARK, is_sheet
 from seethrough.experiment.study.study import Study
 from seethrough.renderer.gpu.renderer import Renderer
@@ -105,7 +106,7 @@ def write(scenes: list[SceneSeen], context: Context, path: Path) -> None:
 
     Raises InputError.
     """
-    from PIL import Image, ImageDraw, ImageFont, PngImagePlugin
+    from PIL import Image, ImageDraw, PngImagePlugin
 
     if path.exists() and not is_sheet(path):
         raise InputError(f"{path}: exists already and is no contact sheet; expected a new file")
@@ -114,16 +115,18 @@ def write(scenes: list[SceneSeen], context: Context, path: Path) -> None:
     height = MARGIN + sum(CAPTION + 8 + n * step[1] for n in rows)
     sheet = Image.new("RGB", (MARGIN + COLUMNS * step[0], height), "white")
     draw, top = ImageDraw.Draw(sheet), MARGIN
-    font, bold = ImageFont.load_default(12), ImageFont.load_default(16)
+    font, bold = sheet_text.font(13), sheet_text.font(17)
     renderer = Renderer(context, TILE)
     for scene, count in zip(scenes, rows, strict=True):
-        draw.text((MARGIN, top), scene.place.file, fill="black", font=bold)
+        title = sheet_text.fitted(scene.place.file, bold, sheet.width - 2 * MARGIN)
+        draw.text((MARGIN, top), title, fill="black", font=bold)
         top += CAPTION + 8
         for k, (name, camera, shown) in enumerate(scene.views):
             left, down = MARGIN + k % COLUMNS * step[0], top + k // COLUMNS * step[1]
             renderer.draw(scene.place.scene, camera, Standard())
             sheet.paste(Image.fromarray(renderer.read().copy()), (left, down))
-            text = f"{name}: {int(shown.sum())} of {len(shown)} targets"
+            text = f": {int(shown.sum())} of {len(shown)} targets"
+            text = sheet_text.fitted(name, font, TILE[0] - font.getlength(text)) + text
             draw.text((left + 2, down + TILE[1] + 2), text, fill=(70, 70, 70), font=font)
         top += count * step[1]
     marked = PngImagePlugin.PngInfo()

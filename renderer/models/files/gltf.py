@@ -8,7 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Floats
-from seethrough.renderer.models.files.gltf_file import COMPRESSED, GltfFile, compressed
+from seethrough.renderer.models.files.gltf_file import (
+    COLORS,
+    COMPRESSED,
+    INDICES,
+    POSITIONS,
+    TEXTURE_PLACES,
+    GltfFile,
+    compressed,
+)
 from seethrough.renderer.models.files.gltf_json import ACCESSORS, ANIMATIONS, MESHES, Primitive
 from seethrough.renderer.models.files.gltf_material import Material, Materials
 from seethrough.renderer.models.files.gltf_nodes import Node, Nodes
@@ -88,7 +96,13 @@ def _part(
             if "bufferView" not in file.row(ACCESSORS, attributes["POSITION"]):
                 raise compressed(said, name)
             found.note(f"it is shown as it was before compression with {said}")
-    points = node.posed(file.numbers(attributes["POSITION"])[:, :3], primitive)
+    points = node.posed(file.numbers(attributes["POSITION"], POSITIONS), primitive)
+    for name in attributes:
+        if name != "POSITION" and file.row(ACCESSORS, attributes[name])["count"] != len(points):
+            count = file.row(ACCESSORS, attributes[name])["count"]
+            raise Refused(
+                f"{what}.{name[:40]}: {count} entries: expected {len(points)}, one a vertex"
+            )
     if node.joints is not None and "JOINTS_0" in attributes:
         points = node.skinned(points, attributes)
     else:
@@ -104,7 +118,7 @@ def _part(
     if material.texture is not None:
         name = f"TEXCOORD_{material.uv_set}"
         if name in attributes:
-            uv = _placed(file.numbers(attributes[name])[:, :2], material)[triangles]
+            uv = _placed(file.numbers(attributes[name], TEXTURE_PLACES), material)[triangles]
             found.colors.add("texture")
         else:
             found.note(f"a texture is not shown: no texture coordinates ({name})")
@@ -116,7 +130,7 @@ def _part(
 def _triangles(file: GltfFile, primitive: Primitive, count: int, what: str) -> NDArray[np.int64]:
     """(m, 3) vertices, of lists, strips and fans alike."""
     if "indices" in primitive:
-        flat = file.accessor(primitive["indices"])[:, 0].astype(np.int64)
+        flat = file.accessor(primitive["indices"], INDICES)[:, 0].astype(np.int64)
     else:
         flat = np.arange(count)
     if len(flat) and flat.max() >= count:
@@ -145,7 +159,7 @@ def _colors(
 ) -> Floats:
     """(m, 3, 4): the material's factor times the vertices' colours, both linear."""
     if "COLOR_0" in attributes:
-        own = checked_colors(file.numbers(attributes["COLOR_0"]), "vertex")
+        own = checked_colors(file.numbers(attributes["COLOR_0"], COLORS), "vertex")
         if own.shape[1] == 3:
             own = np.concatenate([own, np.ones((len(own), 1))], axis=1)
         factor = WHITE if material.plain else material.color

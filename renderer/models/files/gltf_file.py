@@ -6,6 +6,8 @@ import base64
 import binascii
 import json
 import struct
+from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 from urllib.parse import unquote
 
@@ -13,11 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Numbers
+from seethrough.renderer.models.files.gltf_check import check_json
 from seethrough.renderer.models.files.gltf_json import (
     ACCESSORS,
     BUFFERS,
     IMAGES,
     VIEWS,
+    Accessor,
     Kind,
     Row,
     Sparse,
@@ -28,12 +32,38 @@ from seethrough.renderer.models.files.source import Refused, Source
 
 _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+FLOAT = 5126
+_UNSIGNED = (5121, 5123, 5125)
+_SMALL = (5121, 5123)
 _MOST_ROWS = 6 * MOST_TRIANGLES  # of an accessor
 COMPRESSED = {
     "KHR_draco_mesh_compression": "Draco",
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
+
+
+@dataclass(frozen=True)
+class Use:
+    """What an array is used as (`of`), and what it then may be: its shapes, what its numbers are
+    stored as, and whether whole numbers have to be `shares` of the largest one."""
+
+    of: str
+    shapes: tuple[str, ...]
+    kinds: tuple[int, ...] = (FLOAT,)
+    shares: bool = False
+
+
+INDICES = Use("indices", ("SCALAR",), _UNSIGNED)
+POSITIONS = Use("POSITION", ("VEC3",), tuple(_KINDS))
+TEXTURE_PLACES = Use("TEXCOORD", ("VEC2",), tuple(_KINDS))
+COLORS = Use("COLOR", ("VEC3", "VEC4"), (FLOAT, *_SMALL), shares=True)
+JOINTS = Use("JOINTS", ("VEC4",), _SMALL)
+WEIGHTS = Use("WEIGHTS", ("VEC4",), (FLOAT, *_SMALL), shares=True)
+BINDINGS = Use("inverseBindMatrices", ("MAT4",))
+PLACES = Use("TRANSLATION", ("VEC3",), tuple(_KINDS))
+SCALES = Use("SCALE", ("VEC3",), tuple(_KINDS))
+TURNS = Use("ROTATION", ("VEC4",), (FLOAT, 5120, 5122), shares=True)
 
 
 class GltfFile:
@@ -47,12 +77,17 @@ class GltfFile:
             data = self._binary(data)
         try:
             found = json.loads(data.decode("utf-8-sig"))
-        except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-            reason = " ".join(str(error).split())[:80]
+        except RecursionError:
+            reason = "too many brackets in each other"
+            raise Refused(f"expected a {self._kind} file, it cannot be read: {reason}") from None
+        except ValueError as error:  # no UTF-8, no JSON, or a number of thousands of digits
+            digits = isinstance(error, json.JSONDecodeError | UnicodeDecodeError)
+            reason = " ".join(str(error).split())[:80] if digits else "a number of too many digits"
             raise Refused(f"expected a {self._kind} file, it cannot be read: {reason}") from None
         if not isinstance(found, dict):
             raise Refused(f"expected a {self._kind} file, it cannot be read: no JSON object")
-        # What the file says has no type but as it is asked for: see gltf_json.
+        check_json(found)
+        # What the file says has no type but as it is asked for: see gltf_json, gltf_check.
         self.json: dict[str, Any] = found
         version = str(found.get("asset", {}).get("version", "none"))
         if not version.startswith("2."):
@@ -71,10 +106,11 @@ class GltfFile:
             raise Refused(f"{kind.name}[{index}] of {len(rows)}: expected one the file has")
         return rows[index]
 
-    def accessor(self, index: object) -> Numbers:
-        """(n, width) as stored. Raises Refused."""
+    def accessor(self, index: object, use: Use) -> Numbers:
+        """(n, width) as stored. Raises Refused, also for what cannot be used so."""
         made = self.row(ACCESSORS, index)
         what = f"accessors[{index}]"
+        self._check_use(made, use, what)
         kind, width = np.dtype(_KINDS[made["componentType"]]), _WIDTHS[made["type"]]
         count = made["count"]
         if not 0 <= count <= _MOST_ROWS:
@@ -88,13 +124,31 @@ class GltfFile:
             values = self._sparse(values, made["sparse"], what)
         return values
 
-    def numbers(self, index: object) -> NDArray[np.float64]:
+    def numbers(self, index: object, use: Use) -> NDArray[np.float64]:
         """(n, width) float64, whole numbers as shares where the file says that they are."""
-        values = self.accessor(index)
+        values = self.accessor(index, use)
         if not self.row(ACCESSORS, index).get("normalized", False):
             return values.astype(float)
         most = np.iinfo(values.dtype.str).max
         return np.maximum(values.astype(float) / most, -1.0)
+
+    def _check_use(self, made: Accessor, use: Use, what: str) -> None:
+        """Raises Refused for an array that is not what it is to be used as."""
+        kind, shape = made["componentType"], made["type"]
+        if kind not in _KINDS:
+            raise Refused(f"{what}.componentType = {kind}: expected {_listed(_KINDS)}")
+        if shape not in use.shapes:
+            raise Refused(
+                f"{what}.type = {shape[:40]!r}: expected {_listed(use.shapes)} of {use.of}"
+            )
+        whole = kind != FLOAT
+        if made.get("normalized", False) and (not whole or kind == 5125):
+            raise Refused(f"{what}.normalized = true: expected small whole numbers to be shares")
+        shares = made.get("normalized", False)
+        if kind not in use.kinds or (whole and use.shares and not shares):
+            more = ", shares where they are whole numbers" if use.shares else ""
+            said = f"{what}.componentType = {kind}"
+            raise Refused(f"{said}: expected {_listed(use.kinds)} of {use.of}{more}")
 
     def image(self, index: object) -> tuple[bytes, str]:
         """A picture's bytes, and what to call it. Raises Refused."""
@@ -102,7 +156,13 @@ class GltfFile:
         if "bufferView" in made:
             view = self.row(VIEWS, made["bufferView"])
             data, start = self._buffer(view["buffer"]), view.get("byteOffset", 0)
-            return data[start : start + view["byteLength"]], f"texture {index}"
+            end = start + view["byteLength"]
+            if end > len(data):
+                said = f"reaches beyond buffers[{view['buffer']}]: the file is cut off"
+                raise Refused(f"bufferViews[{made['bufferView']}]: {said}")
+            return data[start:end], f"texture {index}"
+        if "uri" not in made:
+            raise Refused(f"images[{index}]: no picture: expected a file or data")
         uri = made["uri"]
         if uri.startswith("data:"):
             return _inline(uri, f"texture {index}"), f"texture {index}"
@@ -180,7 +240,11 @@ class GltfFile:
         where, made = sparse["indices"], sparse["values"]
         if not 0 <= count <= len(values):
             raise Refused(f"{what}: {count} sparse entries of {len(values)}: expected no more")
-        kind = np.dtype(_KINDS[where["componentType"]])
+        number = where.get("componentType")
+        if number not in _UNSIGNED:
+            said = f"{what}.sparse.indices.componentType = {number}"
+            raise Refused(f"{said}: expected {_listed(_UNSIGNED)}")
+        kind = np.dtype(_KINDS[number])
         start = where.get("byteOffset", 0)
         rows = self._view(where["bufferView"], kind, 1, count, start, what)[:, 0].astype(np.int64)
         start, width = made.get("byteOffset", 0), values.shape[1]
@@ -192,6 +256,11 @@ class GltfFile:
         values = values.copy()
         values[rows] = new
         return values
+
+
+def _listed(values: Iterable[object]) -> str:
+    *most, last = (str(value) for value in values)
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 def compressed(said: str, name: str) -> Refused:

@@ -1,14 +1,13 @@
 """The JSON of a glTF 2.0 file, as its specification has it: what is read here of each object.
 
-A file may say otherwise: a value that is not what it should be raises as it is read, and the reader
-of models says which file that was (renderer/models/user.py).
+A file may say otherwise: gltf_check holds it to what is declared here before anything is read.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Generic, TypedDict, TypeVar
+from typing import Generic, Required, TypedDict, TypeVar
 
 Row = TypeVar("Row")
 
@@ -18,12 +17,13 @@ class Kind(Generic[Row]):
     """A top-level list of the file's, and what is in it."""
 
     name: str
+    row: type[Row]
 
 
 class Indices(TypedDict, total=False):
     """Where the places of an accessor's sparse entries are, or the entries themselves."""
 
-    bufferView: int
+    bufferView: Required[int]
     byteOffset: int
     componentType: int
 
@@ -41,9 +41,9 @@ class Accessor(TypedDict, total=False):
 
     bufferView: int
     byteOffset: int
-    componentType: int
-    type: str
-    count: int
+    componentType: Required[int]
+    type: Required[str]
+    count: Required[int]
     normalized: bool
     sparse: Sparse
 
@@ -51,9 +51,9 @@ class Accessor(TypedDict, total=False):
 class View(TypedDict, total=False):
     """A part of a buffer."""
 
-    buffer: int
+    buffer: Required[int]
     byteOffset: int
-    byteLength: int
+    byteLength: Required[int]
     byteStride: int
     extensions: Mapping[str, object]
 
@@ -62,7 +62,7 @@ class Buffer(TypedDict, total=False):
     """A file, or data within this one."""
 
     uri: str
-    byteLength: int
+    byteLength: Required[int]
 
 
 class Image(TypedDict, total=False):
@@ -75,7 +75,7 @@ class Image(TypedDict, total=False):
 class Primitive(TypedDict, total=False):
     """Triangles of a mesh: its attributes are accessors by name."""
 
-    attributes: Mapping[str, int]
+    attributes: Required[Mapping[str, int]]
     indices: int
     material: int
     mode: int
@@ -86,9 +86,9 @@ class Primitive(TypedDict, total=False):
 class MeshRow(TypedDict, total=False):
     """A mesh."""
 
-    name: str
+    name: object
     extras: object
-    primitives: list[Primitive]
+    primitives: Required[list[Primitive]]
     weights: list[float]
 
 
@@ -107,7 +107,7 @@ class NodeExtensions(TypedDict, total=False):
 class NodeRow(TypedDict, total=False):
     """Something in the scene, and where: a matrix, or a turn, a size and a place."""
 
-    name: str
+    name: object
     extras: object
     camera: int
     mesh: int
@@ -124,13 +124,13 @@ class NodeRow(TypedDict, total=False):
 class Perspective(TypedDict, total=False):
     """How wide a camera sees."""
 
-    yfov: float
+    yfov: Required[float]
 
 
 class CameraRow(TypedDict, total=False):
     """A camera."""
 
-    name: str
+    name: object
     type: str
     perspective: Perspective
 
@@ -144,7 +144,7 @@ class SceneRow(TypedDict, total=False):
 class Skin(TypedDict, total=False):
     """Joints that hold a mesh."""
 
-    joints: list[int]
+    joints: Required[list[int]]
     inverseBindMatrices: int
 
 
@@ -166,7 +166,7 @@ class TextureExtensions(TypedDict, total=False):
 class Reference(TypedDict, total=False):
     """Which texture, looked up by which coordinates."""
 
-    index: int
+    index: Required[int]
     texCoord: int
     extensions: TextureExtensions
 
@@ -224,16 +224,26 @@ class Sampler(TypedDict, total=False):
     magFilter: int
 
 
-ACCESSORS: Kind[Accessor] = Kind("accessors")
-ANIMATIONS: Kind[Mapping[str, object]] = Kind("animations")
-BUFFERS: Kind[Buffer] = Kind("buffers")
-CAMERAS: Kind[CameraRow] = Kind("cameras")
-IMAGES: Kind[Image] = Kind("images")
-MATERIALS: Kind[MaterialRow] = Kind("materials")
-MESHES: Kind[MeshRow] = Kind("meshes")
-NODES: Kind[NodeRow] = Kind("nodes")
-SAMPLERS: Kind[Sampler] = Kind("samplers")
-SCENES: Kind[SceneRow] = Kind("scenes")
-SKINS: Kind[Skin] = Kind("skins")
-TEXTURES: Kind[TextureRow] = Kind("textures")
-VIEWS: Kind[View] = Kind("bufferViews")
+class AnimationRow(TypedDict, total=False):
+    """An animation: that there is one is all that is read."""
+
+    channels: object
+
+
+ACCESSORS: Kind[Accessor] = Kind("accessors", Accessor)
+ANIMATIONS: Kind[AnimationRow] = Kind("animations", AnimationRow)
+BUFFERS: Kind[Buffer] = Kind("buffers", Buffer)
+CAMERAS: Kind[CameraRow] = Kind("cameras", CameraRow)
+IMAGES: Kind[Image] = Kind("images", Image)
+MATERIALS: Kind[MaterialRow] = Kind("materials", MaterialRow)
+MESHES: Kind[MeshRow] = Kind("meshes", MeshRow)
+NODES: Kind[NodeRow] = Kind("nodes", NodeRow)
+SAMPLERS: Kind[Sampler] = Kind("samplers", Sampler)
+SCENES: Kind[SceneRow] = Kind("scenes", SceneRow)
+SKINS: Kind[Skin] = Kind("skins", Skin)
+TEXTURES: Kind[TextureRow] = Kind("textures", TextureRow)
+VIEWS: Kind[View] = Kind("bufferViews", View)
+KINDS = (
+    ACCESSORS, ANIMATIONS, BUFFERS, CAMERAS, IMAGES, MATERIALS, MESHES, NODES, SAMPLERS, SCENES,
+    SKINS, TEXTURES, VIEWS,
+)  # fmt: skip

@@ -103,10 +103,9 @@ class Materials:
 
 def _place(moved: Placing) -> Floats:
     """(2, 3) new ← old texture coordinates: scaled, then turned, then moved."""
-    (sx, sy), angle = moved.get("scale", (1, 1)), float(moved.get("rotation", 0.0))
+    scale, offset = moved.get("scale", [1, 1]), moved.get("offset", [0, 0])
+    if len(scale) != 2 or len(offset) != 2:
+        raise Refused(f"{_PLACED} = {str(moved)[:60]}: expected two numbers each")
+    (sx, sy), (x, y), angle = scale, offset, float(moved.get("rotation", 0.0))
     c, s = np.cos(angle), np.sin(angle)
-    x, y = moved.get("offset", (0, 0))
-    place = np.array([[c * sx, s * sy, x], [-s * sx, c * sy, y]], float)
-    if not np.isfinite(place).all():
-        raise Refused(f"{_PLACED} = {str(moved)[:60]}: expected finite numbers")
-    return place
+    return np.array([[c * sx, s * sy, x], [-s * sx, c * sy, y]], float)

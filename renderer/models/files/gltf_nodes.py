@@ -8,7 +8,16 @@ from typing import Final
 import numpy as np
 
 from seethrough.renderer.arrays import Floats
-from seethrough.renderer.models.files.gltf_file import GltfFile
+from seethrough.renderer.models.files.gltf_file import (
+    BINDINGS,
+    JOINTS,
+    PLACES,
+    POSITIONS,
+    SCALES,
+    TURNS,
+    WEIGHTS,
+    GltfFile,
+)
 from seethrough.renderer.models.files.gltf_json import (
     MESHES,
     NODES,
@@ -22,6 +31,7 @@ from seethrough.renderer.models.files.source import Refused
 
 _INSTANCED: Final = "EXT_mesh_gpu_instancing"
 _COUNTS = {"matrix": 16, "rotation": 4, "scale": 3, "translation": 3}
+_INSTANCE = {"TRANSLATION": PLACES, "ROTATION": TURNS, "SCALE": SCALES}
 _MOST_INSTANCES = 10_000
 
 
@@ -37,7 +47,11 @@ class Node:
         """Points (n, 3) moved by the morph targets as the file weights them."""
         for weight, target in zip(self._weights, primitive.get("targets", []), strict=False):
             if weight and "POSITION" in target:
-                points = points + weight * self._file.numbers(target["POSITION"])
+                moved = self._file.numbers(target["POSITION"], POSITIONS)
+                if len(moved) != len(points):
+                    said = f"a shape to blend of {len(moved)} vertices"
+                    raise Refused(f"{said}: expected {len(points)}, as its mesh has")
+                points = points + weight * moved
         return points
 
     def skinned(self, points: Floats, attributes: Mapping[str, int]) -> Floats:
@@ -47,8 +61,8 @@ class Node:
         for k in range(8):
             if f"JOINTS_{k}" not in attributes or f"WEIGHTS_{k}" not in attributes:
                 break
-            joints = self._file.accessor(attributes[f"JOINTS_{k}"]).astype(np.int64)
-            weights = self._file.numbers(attributes[f"WEIGHTS_{k}"])
+            joints = self._file.accessor(attributes[f"JOINTS_{k}"], JOINTS).astype(np.int64)
+            weights = self._file.numbers(attributes[f"WEIGHTS_{k}"], WEIGHTS)
             used = weights != 0
             if joints[used].max(initial=0) >= len(self.joints):
                 raise Refused(
@@ -131,7 +145,7 @@ class Nodes:
         world = np.array([self.world[j] for j in names]).reshape(-1, 4, 4)
         if "inverseBindMatrices" not in skin:
             return world
-        inverse = self._file.numbers(skin["inverseBindMatrices"]).reshape(-1, 4, 4)
+        inverse = self._file.numbers(skin["inverseBindMatrices"], BINDINGS).reshape(-1, 4, 4)
         if len(inverse) < len(names):
             raise Refused(f"skins[{index}]: {len(inverse)} matrices of {len(names)} joints")
         return world @ np.swapaxes(inverse[: len(names)], 1, 2)
@@ -142,9 +156,9 @@ class Nodes:
             yield np.eye(4)
             return
         columns = {
-            key.lower(): self._file.numbers(number)
+            key.lower(): self._file.numbers(number, _INSTANCE[key])
             for key, number in made["attributes"].items()
-            if key in ("TRANSLATION", "ROTATION", "SCALE")
+            if key in _INSTANCE
         }
         counts = {len(values) for values in columns.values()}
         if len(counts) != 1 or max(counts) > _MOST_INSTANCES:
@@ -173,6 +187,10 @@ def _matrix(raw: NodeRow | Mapping[str, Floats], what: str) -> Floats:
         matrix = np.eye(4)
         matrix[:3, :3] = np.array(turn) * np.array(raw.get("scale", (1, 1, 1)), float)
         matrix[:3, 3] = raw.get("translation", (0, 0, 0))
-    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+    if not np.isfinite(matrix).all():
         raise Refused(f"{what}: a place that is not finite: expected numbers")
+    if not np.allclose(matrix[3], (0, 0, 0, 1), rtol=0, atol=1e-6):  # as 32 bits round
+        shown = ", ".join(f"{value:g}" for value in matrix[3])
+        raise Refused(f"{what}.matrix: its last row is {shown}: expected 0, 0, 0, 1")
+    matrix[3] = 0, 0, 0, 1
     return matrix

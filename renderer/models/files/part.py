@@ -14,6 +14,8 @@ from seethrough.renderer.models.files.texture import Texture
 
 GREY = (0.7, 0.7, 0.7)
 """As shown, of what has no colour in its file."""
+LARGEST = 1e30
+"""Coordinates beyond this overflow in the cubic terms of a volume."""
 MOST_TRIANGLES = 250_000
 """Half of the whole walkthrough: more in one object is a mistake more often than a wish."""
 MOST_CORNERS = 5000

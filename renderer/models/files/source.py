@@ -60,6 +60,8 @@ class Source:
             return None
         way = PurePosixPath(name.strip().replace("\\", "/"))
         parts = [part for part in way.parts if part != "."]
+        if not parts:
+            return None
         if way.is_absolute() or ":" in parts[0] or ".." in parts:
             parts = parts[-1:]
         folder = self.path.parent

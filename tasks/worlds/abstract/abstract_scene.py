@@ -14,6 +14,7 @@ from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Color, Object, Scene
 from seethrough.renderer.scene.transforms import placed, random_rotation
 from seethrough.tasks.kit.enclosure import enclosing_pairs, farthest
+from seethrough.tasks.kit.errors import NoScene
 from seethrough.tasks.kit.letters import grid_reach, letter_points
 from seethrough.tasks.kit.tags import with_kind_tags
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
@@ -151,7 +152,7 @@ def _disclosed(
             again = inner if inner >= fixed else outer
             old = objects[again]
             objects[again] = _object(rng, p, old.kind, old.color, None)
-    raise ValueError(
-        f"objects = {p.objects}, radius = {list(p.radius)}, expected room in a cube of {p.side:g} "
-        "for objects that do not enclose each other"
+    raise NoScene(
+        f"world.abstract.objects = {p.objects}, radius = {list(p.radius)}: expected room in a cube "
+        f"of {p.side:g} for objects that do not enclose each other"
     )

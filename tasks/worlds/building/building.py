@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import placed, rotation_y
+from seethrough.tasks.kit.errors import NoScene
 from seethrough.tasks.kit.own_models import mesh_of
 from seethrough.tasks.kit.tags import with_kind_tags
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
@@ -52,9 +53,9 @@ def unique_building(
     names = _names(parameters, models)
     free = parameters.objects - 1
     if free and (len(names) < 2 or free < 2):
-        raise ValueError(
-            f"objects = {parameters.objects}, types = {names}, expected one object of one type "
-            "and at least two each of others"
+        raise NoScene(
+            f"world.building.objects = {parameters.objects}, types = {names}: expected one object "
+            "of one type and at least two each of others"
         )
     asked, *others = _shuffled(rng, names)
     others = others[: free // 2]
@@ -70,7 +71,7 @@ def count_building(
     asked, *others = _shuffled(rng, names)
     truth = int(rng.integers(parameters.count[0], parameters.count[1] + 1))
     if truth < parameters.objects and not others:
-        raise ValueError(f"types = {names}, expected at least two")
+        raise NoScene(f"world.building.types = {names}: expected at least two")
     counts = {asked: truth} | _shares(rng, others, parameters.objects - truth, least=0)
     return _furnished(rng, parameters, models, asked, counts)
 
@@ -168,9 +169,9 @@ def _places(
             ):
                 break
         else:
-            raise ValueError(
-                f"objects = {p.objects}, object_radius = {list(p.object_radius)}, expected room "
-                f"for them on a floor of {p.side:g} × {p.side:g}"
+            raise NoScene(
+                f"world.building.objects = {p.objects}, object_radius = {list(p.object_radius)}: "
+                f"expected room for them on a floor of {p.side:g} × {p.side:g}"
             )
         places[i] = place
         done.append(int(i))

@@ -27,6 +27,10 @@ class BuildingWorld:
     Parameters = BuildingParameters
     texts: Texts = OwnTexts("seethrough.tasks.worlds.building")
 
+    def called(self, parameters: BuildingParameters) -> list[tuple[str, str]]:
+        """The names of the study's own models."""
+        return [(f"models[{i}].name", own.name) for i, own in enumerate(parameters.models)]
+
     def make(self, rng: Generator, parameters: BuildingParameters) -> Building:
         """A building in which one kind of thing occurs once, all others more often."""
         return unique_building(rng, parameters)

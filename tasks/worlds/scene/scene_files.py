@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
-from fnmatch import fnmatchcase
 from functools import partial
 from pathlib import Path
 
+from seethrough.tasks.kit.tags import fits
 from seethrough.tasks.kit.world import FileFault, FileFaults
 from seethrough.tasks.worlds.scene.kept_scene import packed
 from seethrough.tasks.worlds.scene.scene_parameters import READER, SceneParameters, is_shipped
@@ -68,7 +68,7 @@ def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileF
     """What is said of things and cameras that there are not."""
     names = list(dict.fromkeys(name for place in places for name in place.names))
     for number, tag in enumerate(p.tags):
-        if not any(fnmatchcase(name, tag.name) for name in names):
+        if not any(fits(name, tag.name) for name in names):
             yield FileFault(f"tags[{number}].name", tag.name, _expected("a thing", tag.name, names))
     for place in places:
         if p.start and p.start not in place.cameras:

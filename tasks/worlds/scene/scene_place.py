@@ -21,6 +21,7 @@ from seethrough.tasks.worlds.scene.kept_scene import unpacked
 from seethrough.tasks.worlds.scene.scene_parameters import SceneParameters, is_shipped
 
 NEAR = 0.002  # of the scene's radius, where a camera of the file stands
+LEAST, MOST = 1e-6, 1e9  # m, of a scene's radius: beyond, a card's 32 bits hold no place in it
 PLACES_KEPT = 16
 
 
@@ -113,6 +114,10 @@ def opened(p: SceneParameters, file: str) -> ScenePlace:
     scene = Scene(tuple(_moved(thing, moved) for thing in things))
     reach = np.linalg.norm(scene.centers, axis=1) + scene.radii
     radius = float(reach.max())
+    if not LEAST <= radius <= MOST:
+        raise ValueError(
+            f"{2 * radius:.3g} m large: expected from {LEAST:g} to {MOST:g} m; is `unit` right?"
+        )
     cameras = {s.name: _camera(s, moved @ whole, p.unit, radius) for s in found.standpoints}
     names = tuple(thing.name for thing in found.things)
     labels = tuple(str(own.get("label") or n) for own, n in zip(tags, names, strict=True))

@@ -54,6 +54,15 @@ class SceneWorld:
         files = enumerate(parameters.files)
         return {f"files[{i}]": len(opened(parameters, file).targets) for i, file in files}
 
+    def called(self, parameters: SceneParameters) -> list[tuple[str, str]]:
+        """What participants call the targets of each scene."""
+        found = []
+        for number, file in enumerate(parameters.files):
+            place = opened(parameters, file)
+            labels = dict.fromkeys(place.labels[i] for i in place.targets)
+            found += [(f"files[{number}]", label) for label in labels]
+        return found
+
     def make(self, rng: Generator, parameters: SceneParameters) -> ScenePlace:
         """The scene of one of the files, drawn."""
         return opened(parameters, parameters.files[int(rng.integers(len(parameters.files)))])

@@ -180,7 +180,7 @@ def test_what_cannot_be_built_is_refused():
     rng = np.random.default_rng(1)
     with pytest.raises(ValueError, match=r"types = \['unicorn'\], expected some of \['ball'"):
         count_building(rng, BuildingParameters(types=("unicorn",)), MODELS)
-    with pytest.raises(ValueError, match=r"types = \['ball'\], expected at least two"):
+    with pytest.raises(ValueError, match=r"types = \['ball'\]: expected at least two"):
         count_building(rng, BuildingParameters(types=("ball",)), MODELS)
     with pytest.raises(ValueError, match=r"expected one object of one type"):
         unique_building(rng, BuildingParameters(types=("ball",)), MODELS)

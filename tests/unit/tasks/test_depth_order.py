@@ -8,6 +8,7 @@ from seethrough.renderer.events import KeyPress, PointerPress
 from seethrough.tasks.catalog import TASKS, WORLDS, setting
 from seethrough.tasks.depth_order.depth_order_task import DepthOrderParameters, buttons
 from seethrough.tasks.depth_order.pair import LIFT
+from seethrough.tasks.kit.errors import NoScene
 from seethrough.tasks.kit.hud import Label
 
 TASK = TASKS["depth_order"]
@@ -73,6 +74,6 @@ def test_simulated_people_see_the_larger_difference_better_than_chance(world):
 
 def test_a_ratio_that_no_world_has_is_said():
     with pytest.raises(
-        ValueError, match="ratio = 10, expected two targets in one view of abstract"
+        NoScene, match="ratio = 10: expected two targets in one view of the world abstract"
     ):
         begun("abstract", 1, ratio=10.0)

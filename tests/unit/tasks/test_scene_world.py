@@ -238,3 +238,59 @@ def test_generated_worlds_take_tags_by_kind():
     p = BuildingParameters(grid=6, objects=14, tags=(KindTag("*wall", impenetrable=False),))
     walls = WORLDS["building"].make(np.random.default_rng(1), p).scene.objects
     assert {o.kind for o in walls if o.impenetrable} == {"floor"}
+
+
+def test_a_name_is_itself_but_for_stars(tmp_path):
+    """Editors write brackets into names; a question mark is one."""
+    names = ("Bolt[1]", "bolt?", "bolt2", "b.lt2")
+    nodes = [{"name": n, "mesh": 0, "translation": [5 * i, 0, 0]} for i, n in enumerate(names)]
+    (tmp_path / "engine.glb").write_bytes(file_of(nodes, range(4)))
+    for pattern, fitting in (
+        ("Bolt[1]", {"Bolt[1]"}), ("bolt?", {"bolt?"}), ("b.lt*", {"b.lt2"}),
+        ("*[*", {"Bolt[1]"}), ("*lt*2", {"bolt2", "b.lt2"}), ("*", set(names)),
+    ):  # fmt: skip
+        place = opened(read(tmp_path, tags=(Tag(pattern, target=True),)), "engine.glb")
+        assert {place.names[i] for i in place.targets} == fitting
+
+
+def test_of_target_and_occluder_the_last_one_holds(tmp_path):
+    """Said of what it belongs to, of the thing, in the study's table, in this order."""
+    nodes = [
+        {"name": "body", "mesh": 0, "children": [1], "extras": {"occluder": True}},
+        {"name": "pump", "mesh": 0, "translation": [5, 0, 0], "extras": {"target": 1}},
+    ]
+    (tmp_path / "engine.glb").write_bytes(file_of(nodes, (0,)))
+    for tags, targets in (
+        ((), ["pump"]),
+        ((Tag("body", target=True),), ["body", "pump"]),
+        ((Tag("pump", occluder=True),), []),
+        ((Tag("pump", occluder=True), Tag("*", target=True)), ["body", "pump"]),
+        ((Tag("*", target=True), Tag("pump", occluder=True)), ["body"]),
+        ((Tag("pump", target=False),), []),
+    ):
+        place = opened(read(tmp_path, tags=tags), "engine.glb")
+        assert [place.names[i] for i in place.targets] == targets
+
+
+def test_cameras_of_one_name_are_all_there(tmp_path):
+    """A file's names need not differ: each view is one of the fixed ones."""
+    nodes = [
+        {"name": "a", "mesh": 0},
+        *({"name": "cam", "camera": 0, "translation": [0, 0, z]} for z in (7, 8, 9)),
+    ]
+    (tmp_path / "engine.glb").write_bytes(file_of(nodes, range(4), cameras=CAMERAS))
+    p = read(tmp_path, move="fixed", start="cam 2")
+    place = opened(p, "engine.glb")
+    assert [float(c.eye[2]) for c in place.cameras.values()] == [7, 8, 9]
+    assert SCENE.viewer(place, p, 4 / 3).camera().eye[2] == 8
+
+
+@pytest.mark.parametrize(("unit", "at"), [(1e6, 1e25), (1e-6, 0.001)])
+def test_a_scene_of_no_size_that_can_be_drawn_is_refused(tmp_path, unit, at):
+    scale = [1e-4] * 3 if unit < 1 else [1, 1, 1]
+    nodes = [{"name": "a", "mesh": 0, "scale": scale}, {"name": "b", "mesh": 0, "scale": scale}]
+    nodes[1]["translation"] = [at, 0, 0]
+    (tmp_path / "engine.glb").write_bytes(file_of(nodes, range(2)))
+    with pytest.raises(FileFaults) as caught:
+        read(tmp_path, unit=unit)
+    assert "m large: expected from 1e-06 to 1e+09 m; is `unit` right?" in str(caught.value)
