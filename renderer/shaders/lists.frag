@@ -33,7 +33,7 @@ void main() {
         int count = 0;
         uint at = head;
         while (at != 0u) {
-            uint k = (at - 1u) * 5u;
+            uint k = (at - 1u) * WORDS;
             uvec3 own = uvec3(lists[k + 1u], lists[k + 4u], k);
             if (first || before(last, own)) {
                 int i = count;

@@ -54,6 +54,15 @@ uniform sampler2D below;    // of what is opaque
 uniform sampler2D covered;  // colour and opacity of all layers before
 #endif
 
+#if defined(PEELED) || defined(LINED)
+// A direction in two numbers.
+vec2 folded(vec3 normal) {
+    vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+    vec2 turned = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    return n.z >= 0.0 ? n.xy : turned;
+}
+#endif
+
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
 #ifdef PEELED
@@ -83,20 +92,21 @@ void main() {
 #ifdef LISTED
     uint at = atomicAdd(count, 1u);
     if (at >= room) discard;
-    uint k = at * 5u;
+    uint k = at * WORDS;
     lists[k] = atomicExchange(heads[texel.y * width + texel.x], at + 1u);
     lists[k + 1u] = floatBitsToUint(gl_FragCoord.z);
     lists[k + 2u] = packHalf2x16(shown_color.rg * shown);
     lists[k + 3u] = packHalf2x16(vec2(shown_color.b * shown, shown));
     lists[k + 4u] = uint(object);
+#ifdef LINED
+    lists[k + 5u] = packSnorm2x16(folded(normal));
+#endif
     picture = vec4(0.0);
 #elif defined(BLENDED)
     picture = vec4(shown_color * shown, shown);
 #elif defined(PEELED)
     picture = vec4(shown_color * shown, shown);
-    vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
-    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    place = vec4(gl_FragCoord.z, float(object + 1), n.z >= 0.0 ? n.xy : folded);
+    place = vec4(gl_FragCoord.z, float(object + 1), folded(normal));
 #else
     picture = vec4(shown_color, 1.0);
 #endif
