@@ -8,16 +8,9 @@ from designs import designs, played
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from seethrough.experiment.study.design import conditions, design, items, squares
 from seethrough.experiment.study.design.balance import counted, cycle, repeated
-from seethrough.experiment.study.design.design import (
-    CellPlan,
-    Design,
-    conditions,
-    design,
-    items,
-    session_for,
-    squares,
-)
+from seethrough.experiment.study.design.design import CellPlan, Design, session_for
 from seethrough.experiment.study.design.factors import Factor, Level
 
 MOST_SLOTS = 400  # of a complete cycle that is played
