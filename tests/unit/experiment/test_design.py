@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design.design import generator, session_for
+from seethrough.experiment.study.design.design import CellPlan, Design, generator, session_for
+from seethrough.experiment.study.design.factors import BETWEEN, Factor, Level, every_cell
 from seethrough.experiment.study.design.items import letters, rotation
-from seethrough.experiment.study.design.squares import latin_rows, square, williams_rows
+from seethrough.experiment.study.design.squares import MIXED, latin_rows, square, williams_rows
 
 PUBLISHED = load("published").plan
 BEFORE = "7bff85ab6bbae8c07520eb60501753e1a68649f0351a8d05459d9d66455dffca"
@@ -149,3 +150,31 @@ def test_a_stream_gives_the_same_numbers_again_and_neighbours_differ():
 def test_slots_start_at_one():
     with pytest.raises(ValueError, match="slot = 0, expected at least 1"):
         session_for(0, PUBLISHED)
+
+
+def plain_levels(*names):
+    return tuple(Level(name) for name in names)
+
+
+def of_factors(*factors, practice=0, people=8, shared=False, trials=2):
+    plan = CellPlan("abstract", ("count",), trials, practice, shared)
+    return Design(factors, dict.fromkeys(every_cell(factors), plan), "williams", people)
+
+
+def test_places_fill_in_step_with_what_each_group_still_needs():
+    """Two wanted of one group, six of the other: one person in four goes to the first."""
+    group = Factor("group", plain_levels("few", "many"), BETWEEN, people=(2, 6))
+    design = of_factors(group)
+    # (group, number): slot 1 + group + 2 (number − 1); a tie is the first group's
+    assert design.slots(8) == [1, 2, 4, 6, 3, 8, 10, 12]
+
+
+def test_practice_meets_the_mixed_cells_in_turn():
+    mixed = Factor("size", plain_levels("small", "large"), order=MIXED)
+    (task_set,) = session_for(1, of_factors(mixed, practice=5))
+    met = [t.levels["size"] for t in task_set.training]
+    assert sorted(Counter(met).values()) == [2, 3]
+    assert all(a != b for a, b in pairwise(met))
+    assert len({(t.stream, t.levels["size"]) for t in task_set.training}) == 5
+    whole = [t.levels["size"] for t in task_set.trials]
+    assert Counter(whole) == {"small": 2, "large": 2}
