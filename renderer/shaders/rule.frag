@@ -37,7 +37,7 @@ struct Surface {
     float depth;   // view depth
     vec2 slope;    // to the right and up, for each unit of depth
     vec2 place;    // the middle of the pixel: column + 0.5, row + 0.5
-    ivec2 texel;   // of the pixel in `pictures`
+    ivec2 texel;   // of the pixel in `pictures`, whose first row is the top one
     bool front;    // whether the outside faces the eye
     int number;    // the technique's own number of the object
 };
@@ -77,7 +77,7 @@ void main() {
     s.depth = dot(offset, forward);
     s.slope = (gl_FragCoord.xy - 0.5 * size) / lens;
     s.place = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y);
-    s.texel = texel;
+    s.texel = ivec2(texel.x, int(size.y) - 1 - texel.y);
     s.front = gl_FrontFacing;
     s.number = channel;
     float shown = opacity(s);

@@ -87,8 +87,7 @@ class RulePrograms:
             texture = kept(self._context.texture(size, 1, dtype="f4"))
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
             self._pictures[name] = texture
-        rows = np.ascontiguousarray(picture[::-1], dtype="f4")
-        self._pictures[name].write(rows)
+        self._pictures[name].write(np.ascontiguousarray(picture, dtype="f4"))
         return self._pictures[name]
 
     def _target_depth(self, table: SceneTable, shot: Shot, matrix: bytes) -> NDArray[np.float32]:
