@@ -15,6 +15,7 @@ uniform vec3 up;
 uniform vec3 forward;
 uniform vec2 size;     // of the picture, in pixels
 uniform float lens;    // pixels for a slope of 1
+uniform bool upright;  // whether the first row of pictures is the top one
 
 #ifdef LISTED
 layout(early_fragment_tests) in;
@@ -37,7 +38,7 @@ struct Surface {
     float depth;   // view depth
     vec2 slope;    // to the right and up, for each unit of depth
     vec2 place;    // the middle of the pixel: column + 0.5, row + 0.5
-    ivec2 texel;   // of the pixel in `pictures`, whose first row is the top one
+    ivec2 texel;   // of the pixel in `pictures`
     bool front;    // whether the outside faces the eye
     int number;    // the technique's own number of the object
 };
@@ -77,7 +78,7 @@ void main() {
     s.depth = dot(offset, forward);
     s.slope = (gl_FragCoord.xy - 0.5 * size) / lens;
     s.place = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y);
-    s.texel = ivec2(texel.x, int(size.y) - 1 - texel.y);
+    s.texel = ivec2(texel.x, upright ? int(size.y) - 1 - texel.y : texel.y);
     s.front = gl_FrontFacing;
     s.number = channel;
     float shown = opacity(s);

@@ -16,7 +16,8 @@ from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.techniques.base import Parameters, Shot
+from seethrough.renderer.scene.projection import screen_boxes
+from seethrough.renderer.techniques.base import Parameters, Plain, Shot
 
 PICTURES = 5  # the first texture unit of a rule's pictures
 
@@ -51,7 +52,11 @@ class RulePrograms:
         the technique needs to know the targets' depth."""
         technique, state, shot, table = ruled.technique, ruled.state, ruled.shot, ruled.table
         rules = technique.technique
-        needed = self.needed(table, technique, shot, ruled.matrix)
+        # What a rule needs as it is drawn stays on the GPU; what it makes pictures of comes down.
+        direct = rules.needs and getattr(type(rules), "pictures", None) is Plain.pictures
+        needed = {} if direct else self.needed(table, technique, shot, ruled.matrix)
+        if direct:
+            self._draw_target_depth(table, shot, ruled.matrix)
         if rules.glsl not in self._programs:
             values = {"rule": rules.glsl}
             self._programs[rules.glsl] = program(
@@ -65,6 +70,13 @@ class RulePrograms:
             if name in shader.members:
                 member: Any = shader[name]
                 member.value = value
+        shader.set(upright=not direct)
+        if direct:
+            depths = self._framebuffers[shot.size].color_attachments[0]
+            assert isinstance(depths, moderngl.Texture)
+            depths.use(PICTURES)
+            shader.set(target_depth=PICTURES)
+            return shader
         pictures = rules.pictures(technique, state, shot, needed)
         for unit, (name, picture) in enumerate(sorted(pictures.items()), PICTURES):
             if name in shader.members:
@@ -93,22 +105,31 @@ class RulePrograms:
     def _target_depth(self, table: SceneTable, shot: Shot, matrix: bytes) -> NDArray[np.float32]:
         """(h, w) view depth of the farthest front-facing surface of a target; 0 where there is
         none."""
+        framebuffer = self._draw_target_depth(table, shot, matrix)
+        data = framebuffer.read(components=1, dtype="f4", alignment=1)
+        return np.frombuffer(data, "f4").reshape(shot.size[1], shot.size[0])[::-1]
+
+    def _draw_target_depth(
+        self, table: SceneTable, shot: Shot, matrix: bytes
+    ) -> moderngl.Framebuffer:
         if shot.size not in self._framebuffers:
             for old in self._framebuffers.values():
                 old.release()
             texture = self._context.texture(shot.size, 1, dtype="f4")
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
             depth = self._context.depth_renderbuffer(shot.size)
             self._framebuffers = {shot.size: self._context.framebuffer([texture], depth)}
         framebuffer = self._framebuffers[shot.size]
         framebuffer.clear(depth=0.0)
         framebuffer.use()
-        targets = np.nonzero(shot.scene.targets)[0]
+        scene = shot.scene
+        inside = screen_boxes(scene.corners, shot.camera, shot.size).inside
+        targets = np.nonzero(scene.targets & inside)[0]
         sequence, runs = table.sequence([targets], shot.camera)
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = ">"
         draw(self._context, self._depth, table, sequence, runs[0], shot.camera, matrix)
-        data = framebuffer.read(components=1, dtype="f4", alignment=1)
-        return np.frombuffer(data, "f4").reshape(shot.size[1], shot.size[0])[::-1]
+        return framebuffer
 
 
 def use(shader: Shader, camera: Camera, matrix: bytes) -> None:
