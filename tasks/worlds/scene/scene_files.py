@@ -31,7 +31,7 @@ def named(p: SceneParameters) -> dict[str, str]:
 def found(p: SceneParameters, folder: Path) -> SceneParameters:
     """The parameters with their files, which lie in the folder, read and hashed; all that they say
     of the files is checked. Raises FileFaults, all that is wrong."""
-    said = p.sha256
+    pinned = p.sha256
     p = replace(p, folder=str(folder), sha256=(), reader=READER)
     hashes, faults = [], []
     for number, file in enumerate(p.files):
@@ -39,7 +39,7 @@ def found(p: SceneParameters, folder: Path) -> SceneParameters:
             hashes.append(read(p, file).digest)
         except (ValueError, OSError) as error:
             faults.append(_of_file(p, number, error))
-    faults += [] if faults else _another(p, said, hashes)
+    faults += [] if faults else _another(p, pinned, hashes)
     if faults:
         raise FileFaults(faults)
     p = replace(p, sha256=tuple(hashes))
@@ -138,6 +138,11 @@ def kept_in(p: SceneParameters, folder: Path) -> SceneParameters:
         if not path.is_file():
             said = f"expected the scene as it was shown, in {path}"
             faults.append(FileFault(f"files[{number}]", file, said))
+            continue
+        try:
+            read(p, file)
+        except (ValueError, OSError) as error:
+            faults.append(FileFault(f"files[{number}]", file, f"expected what was kept: {error}"))
     if faults:
         raise FileFaults(faults)
     return p

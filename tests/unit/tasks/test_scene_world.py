@@ -15,6 +15,7 @@ from seethrough.tasks.locate.locate_task import LocateParameters
 from seethrough.tasks.select.select_task import MARKED, SelectParameters
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+from seethrough.tasks.worlds.scene import scene_place
 from seethrough.tasks.worlds.scene.scene_parameters import Item, SceneParameters
 from seethrough.tasks.worlds.scene.scene_place import opened
 
@@ -127,6 +128,13 @@ def test_what_a_data_folder_keeps_is_the_scene(folder, tmp_path):
         assert (a.target, a.kind, a.group) == (b.target, b.kind, b.group)
     with pytest.raises(FileFaults, match="expected the scene as it was shown"):
         SCENE.kept_in(replace(p, detail=7), kept)
+    (file,) = kept.iterdir()
+    whole = file.read_bytes()
+    for broken in (b"", whole[:100], whole[: len(whole) // 2], b"PK" + bytes(500)):
+        file.write_bytes(broken)
+        scene_place._unpacked.cache_clear()
+        with pytest.raises(FileFaults, match=rf"expected what was kept: .*{file.name}: not a kept"):
+            SCENE.kept_in(p, kept)
 
 
 def test_items_are_every_target_of_every_file_or_those_that_the_study_lists(folder):
