@@ -255,3 +255,16 @@ def test_bad_effects_are_refused_in_a_line(effect, more, message):
 def test_printed_numbers_are_for_the_published_study_alone():
     with pytest.raises(InputError, match="--effect = published: expected the published study's"):
         effects.effect_of(load("clutter"), "published", None, None)
+
+
+@pytest.mark.parametrize(
+    ("more", "value", "said"),
+    [
+        ({"log": True}, log(2), "ratio 0.5"),  # twice as long with the baseline
+        ({"unit": "s"}, 2.0, "-2 s"),  # scores are baseline − level, and it says level − baseline
+        ({}, 0.0, "+0"),
+        ({"single": True}, 2.0, "2"),  # no difference: its own value
+    ],
+)
+def test_a_true_estimate_is_said_as_the_report_does(more, value, said):
+    assert effects._said(Test("of a measure", 0, **more), value) == said

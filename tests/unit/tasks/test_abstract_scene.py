@@ -124,8 +124,11 @@ def test_parameters_are_refused_by_name(changes, message):
 
 
 def test_a_letter_that_does_not_fit_is_refused():
-    with pytest.raises(ValueError, match=r"objects = 50, expected enough of them: the letter"):
-        scene_of(1, "R", objects=50)
+    said = r"objects = 50, expected enough of them: the letter takes \d+ red cones, "
+    with pytest.raises(ValueError, match=said + r"target_share allows 10$"):
+        scene_of(1, "R", objects=50, target_share=(0.1, 0.2))
+    with pytest.raises(ValueError, match=said + r"targets allow 5$"):
+        scene_of(1, "R", objects=50, targets=(1, 5))
     with pytest.raises(ValueError, match=r"expected another than the pattern's cones"):
         scene_of(1, "Y", shapes=("cone",))
 
