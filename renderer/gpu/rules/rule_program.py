@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device.context import REQUIRED
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
@@ -36,8 +37,10 @@ class Ruled:
 class RulePrograms:
     """The programs of all techniques that were drawn, and their pictures."""
 
-    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
-        self._context, self._defines = context, list(defines)
+    def __init__(
+        self, context: moderngl.Context, defines: Sequence[str], version: int = REQUIRED
+    ) -> None:
+        self._context, self._defines, self._version = context, list(defines), version
         self._programs: dict[str, Shader] = {}
         self._pictures: dict[str, moderngl.Texture] = {}
         self._depth = program(context, "object.vert", "view_depth.frag")
@@ -52,7 +55,7 @@ class RulePrograms:
         if rules.glsl not in self._programs:
             values = {"rule": rules.glsl}
             self._programs[rules.glsl] = program(
-                self._context, "object.vert", "rule.frag", self._defines, values=values
+                self._context, "object.vert", "rule.frag", self._defines, self._version, values
             )
         shader = self._programs[rules.glsl]
         use(shader, shot.camera, ruled.matrix)
