@@ -195,3 +195,13 @@ def test_welch_keeps_its_size_where_the_pooled_error_does_not():
     error = np.sqrt(0.05 * 0.95 / runs)
     assert ours < 0.06 + 3 * error  # definitions of this analysis: .05 to .06 for groups of four
     assert pooled > 0.15
+
+
+@pytest.mark.parametrize(
+    ("x", "quadratic"),
+    [((0, 1, 2), (1, -2, 1)), ((0, 2, 1), (1, 1, -2)), ((3, 1, 2), (1, 1, -2)),
+     ((1, 2, 3, 4), (1, -1, -1, 1)), ((2, 1, 4, 3), (-1, 1, 1, -1))],
+)  # fmt: skip
+def test_a_quadratic_trend_opens_upwards_whatever_the_order_of_the_levels(x, quadratic):
+    w = np.array(quadratic, float)
+    assert trend(x, 2) == pytest.approx(w / np.sqrt((w**2).sum()), abs=1e-12)
