@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from math import floor, log10
 
 from imgui_bundle import imgui
@@ -13,9 +13,11 @@ from seethrough.experiment.pages.hud_drawing import (
     ACCENT,
     INK,
     PAPER,
+    draw_here,
     draw_mark,
     draw_place,
     draw_plan,
+    draw_start,
     rgba,
 )
 from seethrough.experiment.pages.interface import Interface
@@ -32,7 +34,7 @@ from seethrough.experiment.pages.pages import (
     TextField,
 )
 from seethrough.experiment.pages.texts import Texts
-from seethrough.tasks.kit.hud import Inset
+from seethrough.tasks.kit.hud import FloorPlan, Inset
 
 MOST_RADIOS = 10  # a scale of more steps is a slider
 COLORS = {
@@ -255,13 +257,23 @@ class Blocks:
         imgui.same_line()
         imgui.begin_group()
         radius, high = 0.018 * scale, imgui.get_text_line_height()
-        for text, draw_sign in (("plan.place", draw_place), ("plan.mark", draw_mark)):
+        for text, draw_sign in _signs(picture.plan):
             at = imgui.get_cursor_screen_pos()
             draw_sign(lines, imgui.ImVec2(at.x + 1.5 * radius, at.y + high / 2), radius)
             imgui.dummy(imgui.ImVec2(3 * radius, high))
             imgui.same_line()
             imgui.text_wrapped(self.texts.get(text))
         imgui.end_group()
+
+
+def _signs(plan: FloorPlan) -> Iterator[tuple[str, Callable[..., None]]]:
+    """What each sign on a plan means, and what draws it."""
+    yield "plan.place", draw_place
+    yield "plan.mark", draw_mark
+    if plan.start is not None:
+        yield "plan.start", draw_start
+    if plan.here is not None:
+        yield "plan.here", draw_here
 
 
 def _stepped(field_: TextField, text: str) -> str:

@@ -40,8 +40,11 @@ class _Layers:
 
     def release(self) -> None:
         """Give the GPU's memory back."""
-        for thing in (self.taken, self.total, *self.colors, *self.places, self.sum, self.last):
-            thing.release()
+        self.taken.release()
+        self.total.release()
+        self.last.release()
+        for texture in (*self.colors, *self.places, self.sum):
+            texture.release()
 
 
 class LinedPainter:

@@ -88,7 +88,7 @@ def _layers(
     across, up = pixel % size[0], pixel // size[0]
     pixel = (size[1] - 1 - up) * size[0] + across
     shown = np.zeros(size[0] * size[1])
-    found = []
+    found: list[Drawn] = []
     for k in range(int(rank.max(initial=-1)) + 1):
         if most is not None and k >= most:
             break

@@ -21,7 +21,7 @@ ORDERED = "ordered"  # polygon by polygon, in the order of a method
 LISTS = "lists"  # surfaces that show through one another
 LINED = "lined"  # and with lines along their edges
 
-Painter = PeelPainter | RemovalPainter | OrderPainter | ListPainter
+Painter = PeelPainter | RemovalPainter | OrderPainter | ListPainter | LinedPainter
 
 
 def _where_able(
