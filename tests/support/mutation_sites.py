@@ -109,6 +109,8 @@ def _run(node: ast.AST) -> list[ast.AST]:
             return [target, *([] if value is None else [value])]
         case ast.FunctionDef(body=body, args=args):
             return [*body, args]
+        case ast.ClassDef(body=body):  # what stands above and beside a class's name is its kind
+            return list(body)
         case ast.arguments(defaults=defaults, kw_defaults=named):
             return [*defaults, *(d for d in named if d is not None)]
         case ast.If(test=ast.Name(id="TYPE_CHECKING")):

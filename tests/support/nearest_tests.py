@@ -87,7 +87,7 @@ class Imports:
             named = bool(words & set(Path(test).stem.split("_")))
             named += bool(re.search(said, self.text[test]))
             kind = KINDS.index("/".join(test.split("/")[:2]))
-            dear = {3: 1.0, 4: 2.0}.get(kind, 0.0)  # whole sessions, whole trees
+            dear = {3: 1.0, 4: 0.5}.get(kind, 0.0)  # whole sessions, whole trees
             return far[test] - 0.75 * named + dear, kind, len(self.text[test])
 
         return sorted(found, key=rank)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -56,6 +57,7 @@ def test_a_prediction_of_times(tmp_path, prediction, verdict):
     row = tables["predictions"].row("H1")
     assert row["verdict"] == verdict
     assert f": {verdict}" in first.replace("\\", "") and "> H1, " in first
+    assert not re.search(r"\bp (= [<>\\]|[.\d])", first)  # "p = .03" and "p < .001" alone
 
 
 def test_all_is_decided_by_the_largest_p_and_any_by_holm(tmp_path):

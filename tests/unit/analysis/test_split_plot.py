@@ -10,6 +10,7 @@ from math import comb, prod
 import numpy as np
 import oracles
 import pytest
+from scipy import stats
 
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.contrasts import estimate, trend, within_margin
@@ -164,6 +165,9 @@ def test_three_groups_of_yes_and_no_have_the_p_of_all_ways_to_deal_the_yes(ones,
     chance = {ways: prod(map(comb, sizes, ways)) / comb(sum(sizes), 5) for ways in every}
     p = min(1.0, sum(c for ways, c in chance.items() if far(ways) >= far(ones)))
     error = np.sqrt(p * (1 - p) / 20_000)  # of the drawn share; one is added above and below
+    counts = [[k, n - k] for k, n in zip(ones, sizes, strict=True)]
+    pearson = stats.chi2_contingency(counts, correction=False).statistic
+    assert found.h == pytest.approx(pearson * (sum(sizes) - 1) / sum(sizes), rel=1e-9)
     assert found.method == "20000 permutations"
     assert found.exact == pytest.approx(p, abs=4 * error + 1 / 20_000)
 
@@ -195,3 +199,13 @@ def test_welch_keeps_its_size_where_the_pooled_error_does_not():
     error = np.sqrt(0.05 * 0.95 / runs)
     assert ours < 0.06 + 3 * error  # definitions of this analysis: .05 to .06 for groups of four
     assert pooled > 0.15
+
+
+@pytest.mark.parametrize(
+    ("x", "quadratic"),
+    [((0, 1, 2), (1, -2, 1)), ((0, 2, 1), (1, 1, -2)), ((3, 1, 2), (1, 1, -2)),
+     ((1, 2, 3, 4), (1, -1, -1, 1)), ((2, 1, 4, 3), (-1, 1, 1, -1))],
+)  # fmt: skip
+def test_a_quadratic_trend_opens_upwards_whatever_the_order_of_the_levels(x, quadratic):
+    w = np.array(quadratic, float)
+    assert trend(x, 2) == pytest.approx(w / np.sqrt((w**2).sum()), abs=1e-12)

@@ -398,3 +398,13 @@ def test_many_stations_fill_groups_exactly(tmp_path):
     assert [sum(place_of(s, 2)[0] == g for s in slots) for g in (0, 1)] == [6, 3]
     with Ledger.existing(tmp_path) as again:
         assert [g.people for g in again.plan.groups] == [6, 3]
+
+
+def test_beyond_its_quota_a_group_has_places_only_once_every_group_has_all():
+    groups = [Places(1, 1, {"age": age}, {"age": age}) for age in ("young", "old")]
+    young = {"age": "young"}
+    assert next_slot((), (), groups, young) == 1
+    assert next_slot((), {1}, groups, young) is None  # nobody old has come yet
+    assert next_slot({2}, {1}, groups, young) is None  # nor gone through with it
+    assert next_slot((), {1, 2}, groups, young) == 3
+    assert next_slot((), {1}, groups, {"age": "old"}) == 2
