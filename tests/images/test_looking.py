@@ -7,10 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from seethrough import registry
 from seethrough.benchmarks.drawing.breaking import crossings, small_crossings
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.reference.reference import exact
+from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.geometry import box
+from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.scene.transforms import translation
 from seethrough.renderer.scene.visibility import SEEN
+from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 SIZE = (120, 90)
@@ -36,3 +42,24 @@ def test_what_is_sorted_by_pixel_is_seen(context, make, doubt, whole):
     np.testing.assert_allclose(seen.pixels[targets], shown[targets], rtol=0.05, atol=4)
     weight = np.array([w[w >= SEEN].mean() for w in truth.weights[targets]])
     np.testing.assert_allclose(seen.weight[targets], weight, atol=0.03)
+
+
+@pytest.mark.parametrize("name", registry.known("technique"))
+def test_what_is_seen_does_not_depend_on_what_was_looked_at_before(context, name):
+    """A crowd that fills the view, then three things in its middle."""
+    rng = np.random.default_rng(4)
+    crowd = Scene(tuple(
+        Object(box(1, 1, 1), translation(*rng.uniform(-3, 3, 3)), target=k % 7 == 0)
+        for k in range(90)
+    ))  # fmt: skip
+    few = Scene(tuple(
+        Object(box(0.6, 0.6, 0.6), translation(0, 0, -z), target=z == 2) for z in range(3)
+    ))  # fmt: skip
+    camera = look_at(np.array([0.3, 0.2, 8.0]), np.zeros(3), fov_y=0.7, near=1, far=20)
+    p = named(name)
+    renderer = Renderer(context, (160, 120))
+    renderer.look(crowd, camera, p, (80, 60))
+    seen = renderer.look(few, camera, p, (80, 60))
+    fresh = Renderer(context, (160, 120)).look(few, camera, p, (80, 60))
+    for column in ("pixels", "weight", "position", "contrast", "area"):
+        np.testing.assert_array_equal(getattr(seen, column), getattr(fresh, column))

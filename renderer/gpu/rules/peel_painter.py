@@ -100,6 +100,9 @@ class PeelPainter:
             self._buffers = _Buffers(context, size, self._ids, bool(lines))
         buffers = self._buffers
         context.copy_framebuffer(buffers.opaque, target.framebuffer)
+        for layer in buffers.layers if self._ids else ():
+            pipeline.within(layer, None)
+            layer.clear()  # all of it is read, though only the scope is drawn
         scope = scope_of(frame, size)
         for framebuffer in (*buffers.layers, buffers.total, buffers.lines, target.framebuffer):
             framebuffer.scissor = scope
