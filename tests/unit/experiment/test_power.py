@@ -294,3 +294,11 @@ def test_one_test_that_is_significant_the_other_way_is_against():
         found = decide(planned, [first, second], 0.05)
         assert found.against.tolist() == [True, True, False]
         assert not found.supported.any()
+
+
+def test_a_fifth_less_is_a_ratio_of_four_fifths():
+    """Differences of logarithms, baseline − level; a spread of 30 % is a factor of 1.3."""
+    found = effects._size(Test("time", 0, log=True), 20.0, "%", 30.0)
+    assert found == pytest.approx((log(5 / 4), log(1.3)), rel=1e-12)
+    assert effects._size(Test("errors", 0, unit="objects"), 2.0, "objects", 3.0) == (2.0, 3.0)
+    assert effects._size(Test("errors", 0), 0.4, "sd", None) == (0.4, 1.0)
