@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import errno
 import importlib
+import re
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
@@ -16,6 +17,11 @@ from seethrough.renderer.errors import CannotDraw
 from seethrough.tasks.kit.errors import NoScene
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
+ARGUMENT = re.compile(
+    r"argument ([^:]+): (?:expected (?:one|at least one) argument|"
+    r"invalid (\w+)(?: value)?: '(.*?)'(?: \(choose from (.*)\))?)", re.DOTALL,
+)  # fmt: skip
+KINDS = {"int": "a whole number", "float": "a number"}
 FULL = (errno.ENOSPC, errno.EIO, errno.EDQUOT)  # where the output goes, as `> FILE` on a full disk
 
 ROOMS = {  # where a command is, below commands/
@@ -71,8 +77,21 @@ class _Parser(argparse.ArgumentParser):
     """Says what is wrong in one line; the usage is in --help."""
 
     def error(self, message: str) -> NoReturn:
-        print(f"{self.prog}: {one_line(message)} (see {self.prog} --help)", file=sys.stderr)
+        said = one_line(_in_words(message))
+        print(f"{self.prog}: {said} (see {self.prog} --help)", file=sys.stderr)
         raise SystemExit(2)
+
+
+def _in_words(message: str) -> str:
+    """What argparse says of an argument, as we say it: name = value: expected …"""
+    found = ARGUMENT.fullmatch(message)
+    if found is None:
+        return message
+    name, kind, value, choices = found.group(1, 2, 3, 4)
+    if kind is None:
+        return f"{name}: missing, expected a value"
+    known = f"one of {choices.replace(chr(39), '')}" if choices else KINDS.get(kind, kind)
+    return f"{name} = {value[:60]}: expected {known}"
 
 
 def _place(name: str) -> str:

@@ -134,7 +134,7 @@ def problems(
 ) -> Iterator[tuple[str, object, str]]:
     """(name, value, what was expected) of each of the values that is not allowed.
 
-    Types have been checked, but for those of numbers. What is `wrong` already is not looked at, nor
+    Types of tables have been checked. What is `wrong` already is not looked at, nor
     are limits that follow from what is wrong.
     """
     hints, found = get_type_hints(cls), set(wrong)
@@ -161,9 +161,11 @@ def _fits(value: object, hint: object, said: Key, values: Mapping[str, object]) 
     plain, _ = _plain(hint)
     if said.choices:
         found = value if _many(plain) and isinstance(value, tuple) else (value,)
+        if not all(isinstance(one, str) for one in found):
+            return False
         return bool(found) and len(set(found)) == len(found) and set(found) <= {*said.choices}
     if said.low is None:
-        return True
+        return _is_of(value, plain)
     high = _most(said.high, values) if isinstance(said.high, Of) else said.high
     kind = get_args(plain)[0] if get_origin(plain) is tuple else plain
     if get_origin(plain) is not tuple:
@@ -172,6 +174,15 @@ def _fits(value: object, hint: object, said: Key, values: Mapping[str, object]) 
         return False
     inside = all(_within(v, kind, said.low, high) for v in value)
     return inside and (said.point or value[0] <= value[1])
+
+
+def _is_of(value: object, plain: object) -> bool:
+    """Whether it is of its type, where that is one of the plain ones."""
+    if plain is bool or plain is str:
+        return isinstance(value, bool if plain is bool else str)
+    if _many(plain) and get_args(plain)[0] is str:
+        return isinstance(value, tuple) and all(isinstance(one, str) for one in value)
+    return True
 
 
 def _most(high: Of, values: Mapping[str, object]) -> float:

@@ -43,25 +43,25 @@ def kruskal_wallis(groups: Sequence[Array], rng: Generator) -> KruskalWallis:
     n = len(values)
     level = levels(values, slack(values[:, None]))
     count = np.bincount(level)
-    rank = (np.cumsum(count) - (count - 1) / 2)[level]
+    # from their mean, in halves, exact: what is the same for two orders comes out (almost) the same
+    away = (np.cumsum(count) - (count - 1) / 2)[level] - (n + 1) / 2
     if len(count) < 2:
         gone = Undefined("all values are equal")
         return KruskalWallis(n, gone, gone, gone, "")
     ends = np.cumsum([0, *sizes])
-    sums = np.add.reduceat(rank, ends[:-1])
-    spread = float(np.sum((rank - (n + 1) / 2) ** 2)) / (n - 1)
-    between = float(np.sum(sums**2 / sizes) - n * (n + 1) ** 2 / 4)
-    h = between / spread
+    sums = np.add.reduceat(away, ends[:-1])
+    between = float(np.sum(sums**2 / sizes))
+    h = between * (n - 1) / float(np.sum(away**2))
     if len(groups) == 2 and n <= MOST_EXACT:
-        exact, method = _enumerate(rank, sizes[0], float(sums[0])), "exact"
+        exact, method = _enumerate(away, sizes[0], float(sums[0])), "exact"
     else:
-        exact, method = _drawn(rank, ends, between, rng)
+        exact, method = _drawn(away, ends, between, rng)
     return KruskalWallis(n, h, chi2_tail(h, len(groups) - 1), exact, method)
 
 
-def _enumerate(rank: Array, first: int, observed: float) -> float:
-    """P of a rank sum of `first` people as far from its mean as the observed one."""
-    half = np.rint(2 * rank).astype(int)
+def _enumerate(away: Array, first: int, observed: float) -> float:
+    """P of a sum over `first` people as far from 0 as the observed one."""
+    half = np.rint(2 * (away - away.min())).astype(int)
     ways = np.zeros((first + 1, int(half.sum()) + 1))
     ways[0, 0] = 1.0
     for done, step in enumerate(half, start=1):
@@ -69,22 +69,21 @@ def _enumerate(rank: Array, first: int, observed: float) -> float:
             ways[size, step:] += ways[size - 1, : ways.shape[1] - step]
         ways /= ways.max()  # shares are all that counts: 200 people have 10⁵⁹ groups
     chances = ways[first]
-    mean = first * (len(rank) + 1) / 2
-    # sums are multiples of 1/2, exact as they stand
-    far = np.abs(np.arange(len(chances)) / 2 - mean) >= abs(observed - mean) - 1e-9
+    sums = np.arange(len(chances)) / 2 + first * away.min()
+    far = np.abs(sums) >= abs(observed)  # in halves, exact as they stand
     return float(1 / (1 + chances[~far].sum() / chances[far].sum()))
 
 
 def _drawn(
-    rank: Array, ends: NDArray[np.intp], between: float, rng: Generator
+    away: Array, ends: NDArray[np.intp], between: float, rng: Generator
 ) -> tuple[float, str]:
-    n = len(rank)
+    n = len(away)
     draws = max(1000, min(DRAWS, int(4e7 / n)))
     sizes = np.diff(ends)
     hits, step = 0, max(1, int(2e6 / n))
     for start in range(0, draws, step):
         order = rng.random((min(step, draws - start), n)).argsort(axis=1)
-        sums = np.add.reduceat(rank[order], ends[:-1], axis=1)
-        own = np.sum(sums**2 / sizes, axis=1) - n * (n + 1) ** 2 / 4
-        hits += int(np.sum(own >= between - 1e-9 * max(1.0, abs(between))))
+        sums = np.add.reduceat(away[order], ends[:-1], axis=1)
+        own = np.sum(sums**2 / sizes, axis=1)
+        hits += int(np.sum(own >= between * (1 - 1e-9)))  # equal up to rounding is as far
     return (hits + 1) / (draws + 1), f"{draws} permutations"

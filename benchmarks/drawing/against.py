@@ -16,7 +16,7 @@ import sys
 import tarfile
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
@@ -32,11 +32,12 @@ if TYPE_CHECKING:
     from seethrough.renderer.techniques.base import Parameters
 
 PACKAGES = ("seethrough", "renderer", "tasks", "experiment", "analysis", "benchmarks")
-BEFORE = {  # where modules lay when the rooms had no common name (decisions/0013)
-    "renderer.techniques.dynamic.dynamic_transparency": "renderer.techniques.dynamic",
-    "tasks.worlds.abstract.abstract_scene": "tasks.abstract_scene",
-    "tasks.kit.controls": "tasks.controls",
-}
+# Where modules lie, and where they lay before, the latest place first.
+DYNAMIC = ("renderer.techniques.dynamic.dynamic_transparency", "renderer.techniques.dynamic")
+STANDARD = ("renderer.techniques.standard.opaque", "renderer.techniques.standard")
+ABSTRACT = ("tasks.worlds.abstract.abstract_scene", "tasks.abstract_scene")
+CONTROLS = ("tasks.kit.controls", "tasks.controls")
+VIEWED = ("benchmarks.drawing.scenes", "benchmarks.scenes")
 SIZE, VIEWS, TURNS, DRAWN_AGAIN = (800, 600), 6, 24, 2000
 SCENES, SEEDS = ("abstract", "walkthrough", "jeep"), range(1, 9)
 
@@ -71,14 +72,12 @@ class Tree:
     def draws(self, context: Context) -> dict[str, list[Callable[[], None]]]:
         """What draws each view of each scene and technique with this folder's code."""
         with self.active():
-            made = self._get("benchmarks.scenes", "SCENES")
-            dynamic = self._get(
-                "renderer.techniques.dynamic.dynamic_transparency", "DynamicTransparency"
-            )
-            abstract_scene = self._get("tasks.worlds.abstract.abstract_scene", "abstract_scene")
-            orbit = self._get("tasks.kit.controls", "orbit")
-            parameters = self._get("tasks.worlds.abstract.abstract_scene", "AbstractParameters")()
-            renderer = self._get("renderer.gpu.renderer", "Renderer")(
+            made = self._get(VIEWED, "SCENES")
+            dynamic = self._get(DYNAMIC, "DynamicTransparency")
+            abstract_scene = self._get(ABSTRACT, "abstract_scene")
+            orbit = self._get(CONTROLS, "orbit")
+            parameters = self._get(ABSTRACT, "AbstractParameters")()
+            renderer = self._get(("renderer.gpu.renderer",), "Renderer")(
                 context, SIZE, without=frozenset({"still"})
             )
             views: dict[str, list[tuple[object, object]]] = {}
@@ -93,6 +92,7 @@ class Tree:
                 for seed in SEEDS
             ]
             techniques = {
+                "standard": self._get(STANDARD, "Standard")(),
                 "default": dynamic(),
                 "exact": dynamic(exact=True),
             }
@@ -102,9 +102,15 @@ class Tree:
             for way, technique in techniques.items()
         }
 
-    def _get(self, module: str, name: str) -> Any:
-        module = f"seethrough.{module}" if self._package else BEFORE.get(module, module)
-        return getattr(import_module(module), name)
+    def _get(self, modules: Sequence[str], name: str) -> Any:
+        """A name of a module, where it lies in this folder's commit."""
+        for module in modules:
+            path = f"seethrough.{module}" if self._package else module
+            try:
+                return getattr(import_module(path), name)
+            except (ModuleNotFoundError, AttributeError) as error:
+                missing = error
+        raise missing
 
     def _draw(
         self, renderer: Any, scene: object, camera: object, technique: Parameters

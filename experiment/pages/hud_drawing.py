@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from imgui_bundle import imgui
@@ -168,6 +169,10 @@ def draw_plan(
     lines.add_rect_filled(at(r.x, r.y), at(r.x + r.width, r.y + r.height), rgba(*PAPER))
     for start, end in plan.walls:
         lines.add_line(at(*start), at(*end), rgba(*INK), 2.0)
+    if plan.start is not None:
+        draw_start(lines, at(*plan.start), 0.018 * scale)
+    if plan.here is not None:
+        draw_walker(lines, at(*plan.here[0]), at(*plan.here[1]), 0.018 * scale)
     if plan.mark is not None and plan.place is not None:
         lines.add_line(at(*plan.mark), at(*plan.place), rgba(*GREY), 2.0)
     if plan.place is not None:
@@ -185,6 +190,30 @@ def draw_mark(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> N
 def draw_place(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> None:
     """Where the thing stands: a diamond, so that the two differ by more than their colour."""
     lines.add_ngon_filled(center, 1.25 * radius, rgba(*PLACE), 4)
+
+
+def draw_start(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> None:
+    """Where the participant began: an empty square."""
+    low, high = (imgui.ImVec2(center.x + s * radius, center.y + s * radius) for s in (-0.8, 0.8))
+    lines.add_rect(low, high, rgba(*INK), 0.0, thickness=2.0)
+
+
+def draw_here(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> None:
+    """Where the participant was, where the direction does not matter: pointing up."""
+    draw_walker(lines, center, imgui.ImVec2(center.x, center.y - 1.0), radius)
+
+
+def draw_walker(
+    lines: imgui.ImDrawList, center: imgui.ImVec2, ahead: imgui.ImVec2, radius: float
+) -> None:
+    """A wedge that points to where somebody looks."""
+    dx, dy = ahead.x - center.x, ahead.y - center.y
+    length = math.hypot(dx, dy) or 1.0
+    dx, dy = dx / length * radius, dy / length * radius
+    tip = imgui.ImVec2(center.x + 1.3 * dx, center.y + 1.3 * dy)
+    left = imgui.ImVec2(center.x - dx - 0.8 * dy, center.y - dy + 0.8 * dx)
+    right = imgui.ImVec2(center.x - dx + 0.8 * dy, center.y - dy - 0.8 * dx)
+    lines.add_triangle_filled(tip, left, right, rgba(*ACCENT))
 
 
 def draw_progress(size: tuple[int, int], done: float, pilot: bool) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from math import floor, log10
 
 from imgui_bundle import imgui
@@ -13,9 +13,11 @@ from seethrough.experiment.pages.hud_drawing import (
     ACCENT,
     INK,
     PAPER,
+    draw_here,
     draw_mark,
     draw_place,
     draw_plan,
+    draw_start,
     rgba,
 )
 from seethrough.experiment.pages.interface import Interface
@@ -32,7 +34,7 @@ from seethrough.experiment.pages.pages import (
     TextField,
 )
 from seethrough.experiment.pages.texts import Texts
-from seethrough.tasks.kit.hud import Inset
+from seethrough.tasks.kit.hud import FloorPlan, Inset
 
 MOST_RADIOS = 10  # a scale of more steps is a slider
 COLORS = {
@@ -119,8 +121,8 @@ class Blocks:
         """A scale's steps between its ends; the ends above it where all do not fit in a line."""
         low, high = self.texts.get(scale.low), self.texts.get(scale.high)
         gap = imgui.get_style().item_spacing.x
-        step = imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x + gap
-        wide = scale.steps * (step + imgui.calc_text_size("9").x)
+        names = [str(scale.first + number) for number in range(scale.steps)]
+        wide = sum(_radio_width(name) + gap for name in names)
         ends = imgui.calc_text_size(low).x + imgui.calc_text_size(high).x + 2 * gap
         beside = wide + ends <= imgui.get_content_region_avail().x
         if beside:
@@ -128,11 +130,11 @@ class Blocks:
             imgui.text_disabled(low)
         else:
             _disabled_wrapped(_ends(scale, low, high))
-        for number in range(scale.steps):
+        for number, name in enumerate(names):
             if number or beside:
-                imgui.same_line()
+                _beside(_radio_width(name))
             chosen = form.answers.get(scale.name) == str(number)
-            if imgui.radio_button(f"{scale.first + number}##{scale.name}", chosen):
+            if imgui.radio_button(f"{name}##{scale.name}", chosen):
                 form.answers[scale.name] = str(number)
         if beside:
             imgui.same_line()
@@ -177,31 +179,36 @@ class Blocks:
             if number and beside:
                 imgui.same_line(0, 2 * imgui.get_style().item_spacing.x)
             chosen = form.answers.get(choice.name) == str(number)
-            if _option(self.texts.get(option), f"{choice.name}{number}", chosen):
+            if _option(
+                imgui.radio_button, self.texts.get(option), f"{choice.name}{number}", chosen
+            ):
                 form.answers[choice.name] = str(number)
 
     def _several(self, asked: Several, form: Form) -> None:
         """Boxes to tick, one below the other."""
         ticked = {int(n) for n in form.answers.get(asked.name, "").split(",") if n}
         for number, option in enumerate(asked.options):
-            name = f"{self.texts.get(option)}##{asked.name}{number}"
-            changed, _ = imgui.checkbox(name, number in ticked)
-            ticked ^= {number} if changed else set()
+            name, chosen = f"{asked.name}{number}", number in ticked
+            if _option(_checkbox, self.texts.get(option), name, chosen):
+                ticked ^= {number}
         form.answers[asked.name] = ",".join(map(str, sorted(ticked)))
 
     def _ranking(self, asked: Ranking, form: Form) -> None:
         """A line of ranks for each option; who takes another's rank gives it the one it had."""
         count = len(asked.options)
         ranks = form.answers.get(asked.name, "," * (count - 1)).split(",")
-        gap = imgui.get_style().item_spacing.x
+        gap, room = imgui.get_style().item_spacing.x, imgui.get_content_region_avail().x
         for number, option in enumerate(asked.options):
             for rank in map(str, range(1, count + 1)):
+                if rank != "1":
+                    _beside(_radio_width(rank))
                 if imgui.radio_button(f"{rank}##{asked.name}{number}", ranks[number] == rank):
                     other = ranks.index(rank) if rank in ranks else number
                     ranks[other], ranks[number] = ranks[number], rank
-                imgui.same_line(0, gap)
+            text = self.texts.get(option)
+            _beside(min(imgui.calc_text_size(text).x, 0.4 * room) + gap)
             imgui.align_text_to_frame_padding()
-            imgui.text_wrapped(self.texts.get(option))
+            imgui.text_wrapped(text)
         form.answers[asked.name] = ",".join(ranks)
 
     def _text_field(self, field_: TextField, form: Form, unit: float, measured: bool) -> None:
@@ -255,13 +262,23 @@ class Blocks:
         imgui.same_line()
         imgui.begin_group()
         radius, high = 0.018 * scale, imgui.get_text_line_height()
-        for text, draw_sign in (("plan.place", draw_place), ("plan.mark", draw_mark)):
+        for text, draw_sign in _signs(picture.plan):
             at = imgui.get_cursor_screen_pos()
             draw_sign(lines, imgui.ImVec2(at.x + 1.5 * radius, at.y + high / 2), radius)
             imgui.dummy(imgui.ImVec2(3 * radius, high))
             imgui.same_line()
             imgui.text_wrapped(self.texts.get(text))
         imgui.end_group()
+
+
+def _signs(plan: FloorPlan) -> Iterator[tuple[str, Callable[..., None]]]:
+    """What each sign on a plan means, and what draws it."""
+    yield "plan.place", draw_place
+    yield "plan.mark", draw_mark
+    if plan.start is not None:
+        yield "plan.start", draw_start
+    if plan.here is not None:
+        yield "plan.here", draw_here
 
 
 def _stepped(field_: TextField, text: str) -> str:
@@ -290,13 +307,29 @@ def _stepped(field_: TextField, text: str) -> str:
     return text
 
 
-def _option(text: str, name: str, chosen: bool) -> bool:
-    """A circle and its words, which are wrapped where they are too long for a line."""
+def _beside(width: float) -> None:
+    """What comes next stands beside what came last where it fits, else below."""
+    imgui.same_line()
+    if imgui.get_content_region_avail().x < width:
+        imgui.new_line()
+
+
+def _radio_width(text: str) -> float:
+    inner = imgui.get_style().item_inner_spacing.x
+    return float(imgui.get_frame_height() + inner + imgui.calc_text_size(text).x)
+
+
+def _checkbox(name: str, chosen: bool) -> bool:
+    return bool(imgui.checkbox(name, chosen)[0])
+
+
+def _option(draw: Callable[[str, bool], bool], text: str, name: str, chosen: bool) -> bool:
+    """A circle or box and its words, which are wrapped where they are too long for a line."""
     gap = imgui.get_style().item_inner_spacing.x
     room = imgui.get_content_region_avail().x - imgui.get_frame_height() - gap
     if imgui.calc_text_size(text).x <= room:
-        return bool(imgui.radio_button(f"{text}##{name}", chosen))
-    pressed = imgui.radio_button(f"##{name}", chosen)
+        return draw(f"{text}##{name}", chosen)
+    pressed = draw(f"##{name}", chosen)
     imgui.same_line(0, gap)
     imgui.align_text_to_frame_padding()
     imgui.text_wrapped(text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Generic, Protocol, runtime_checkable
+from typing import Generic, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.random import Generator
@@ -132,6 +132,22 @@ class Weighs(Protocol):
 
     def behind(self, p: object) -> tuple[str, ...]:
         """The names of these items."""
+
+
+class Possible(NamedTuple):
+    """What an answer may be: one of the texts, or a number from `low` to `high`."""
+
+    low: float
+    high: float
+    texts: frozenset[str] = frozenset()
+
+
+@runtime_checkable
+class Foreseen(Protocol):
+    """A kind that knows what its answers may be: a study may not wait for any other."""
+
+    def possible(self, p: object, item: str) -> Possible | None:
+        """What an item's answer may be; None where that depends on what is compared."""
 
 
 class OnOnePage(Generic[P]):

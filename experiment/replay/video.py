@@ -15,13 +15,18 @@ RATE = 30
 
 
 def write_video(recorded: Recorded, path: Path) -> None:
-    """Encode the trial as H.264. Raises InputError where the encoder is not installed."""
+    """Encode the trial as H.264. Raises InputError where the encoder is not installed, or cannot
+    write."""
     try:
         import imageio_ffmpeg
     except ImportError:
         raise InputError(
             "--video: needs the package imageio-ffmpeg; install the extra `video`"
         ) from None
+    try:
+        path.open("xb").close()  # the encoder would say it later, in many lines
+    except OSError as error:
+        raise InputError(f"--video = {path}: cannot be written: {error.strerror}") from None
     context = open_context()
     stage = Stage(context, recorded.size, recorded.texts)
     texture = context.texture(recorded.size, 4)
@@ -30,7 +35,7 @@ def write_video(recorded: Recorded, path: Path) -> None:
     # The codec wants even sizes: an odd last row or column is left out.
     even = (width - width % 2, height - height % 2)
     writer = imageio_ffmpeg.write_frames(
-        str(path), even, fps=RATE, macro_block_size=2, ffmpeg_log_level="error"
+        str(path), even, fps=RATE, macro_block_size=2, ffmpeg_log_level="quiet"
     )
     writer.send(None)
     try:
@@ -46,5 +51,7 @@ def write_video(recorded: Recorded, path: Path) -> None:
             for _ in range(wanted - sent):
                 writer.send(np.ascontiguousarray(picture))
             sent = wanted
+    except OSError:  # the encoder ended before its input
+        raise InputError(f"--video = {path}: cannot be written to its end") from None
     finally:
         writer.close()

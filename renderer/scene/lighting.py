@@ -15,7 +15,8 @@ GROUND = 0.16
 SKY = 0.38
 KEY = 0.46
 HEAD = 0.14
-KEY_DIRECTION = np.array([-0.42, 0.72, 0.55]) / np.linalg.norm([-0.42, 0.72, 0.55])
+_FROM_THE_UPPER_LEFT = np.array([-0.42, 0.72, 0.55])
+KEY_DIRECTION = _FROM_THE_UPPER_LEFT / np.linalg.norm(_FROM_THE_UPPER_LEFT)
 
 
 def shade(normals: NDArray[np.float64], to_eye: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,7 +2,8 @@
 // it is removed. A template: `rule` is the technique's own GLSL. With PEELED, only the nearest
 // surface behind the layer before, and the colour comes times its opacity, which is the alpha. With
 // GHOSTS, what is removed instead, without any colour: lines go along its edges. With BLENDED, the
-// colour comes times its opacity as well, to go over what is there already.
+// colour comes times its opacity as well, to go over what is there already. With LISTED, each kept
+// surface goes into its pixel's list: the next one, depth, colour times opacity, opacity, object.
 in vec3 offset;
 in vec3 normal;
 in vec3 color;
@@ -14,7 +15,16 @@ uniform vec3 up;
 uniform vec3 forward;
 uniform vec2 size;     // of the picture, in pixels
 uniform float lens;    // pixels for a slope of 1
+uniform bool upright;  // whether the first row of pictures is the top one
 
+#ifdef LISTED
+layout(early_fragment_tests) in;
+layout(std430, binding = 0) writeonly buffer Lists { uint lists[]; };
+layout(std430, binding = 1) buffer Heads { uint heads[]; };
+layout(std430, binding = 2) buffer Count { uint count; };
+uniform int width;  // of the picture, in pixels
+uniform uint room;  // for surfaces in `lists`
+#endif
 layout(location = 0) out vec4 picture;
 #ifdef PEELED
 layout(location = 1) out vec4 place;  // the buffer's depth, the object's number + 1, the normal
@@ -45,6 +55,15 @@ uniform sampler2D below;    // of what is opaque
 uniform sampler2D covered;  // colour and opacity of all layers before
 #endif
 
+#if defined(PEELED) || defined(LINED)
+// A direction in two numbers.
+vec2 folded(vec3 normal) {
+    vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+    vec2 turned = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    return n.z >= 0.0 ? n.xy : turned;
+}
+#endif
+
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
 #ifdef PEELED
@@ -59,7 +78,7 @@ void main() {
     s.depth = dot(offset, forward);
     s.slope = (gl_FragCoord.xy - 0.5 * size) / lens;
     s.place = vec2(gl_FragCoord.x, size.y - gl_FragCoord.y);
-    s.texel = texel;
+    s.texel = ivec2(texel.x, upright ? int(size.y) - 1 - texel.y : texel.y);
     s.front = gl_FrontFacing;
     s.number = channel;
     float shown = opacity(s);
@@ -71,13 +90,24 @@ void main() {
 #endif
     vec3 shown_color = lit(color, s.front ? normal : -normal, offset);
     shown_color = hazed(mix(shown_color, tinted.rgb, tinted.a), offset);
-#ifdef BLENDED
+#ifdef LISTED
+    uint at = atomicAdd(count, 1u);
+    if (at >= room) discard;
+    uint k = at * WORDS;
+    lists[k] = atomicExchange(heads[texel.y * width + texel.x], at + 1u);
+    lists[k + 1u] = floatBitsToUint(gl_FragCoord.z);
+    lists[k + 2u] = packHalf2x16(shown_color.rg * shown);
+    lists[k + 3u] = packHalf2x16(vec2(shown_color.b * shown, shown));
+    lists[k + 4u] = uint(object);
+#ifdef LINED
+    lists[k + 5u] = packSnorm2x16(folded(normal));
+#endif
+    picture = vec4(0.0);
+#elif defined(BLENDED)
     picture = vec4(shown_color * shown, shown);
 #elif defined(PEELED)
     picture = vec4(shown_color * shown, shown);
-    vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));
-    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    place = vec4(gl_FragCoord.z, float(object + 1), n.z >= 0.0 ? n.xy : folded);
+    place = vec4(gl_FragCoord.z, float(object + 1), folded(normal));
 #else
     picture = vec4(shown_color, 1.0);
 #endif

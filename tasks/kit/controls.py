@@ -135,15 +135,18 @@ class Orbit:
         )
 
 
-def orbit(parameters: Orbiting, aspect: float, yaw: float = 0.0) -> Orbit:
-    """An orbit from which the whole cube lies in the view, whichever way it is turned.
-
-    The sphere about the cube fits the narrower angle of the frustum.
+def orbit(
+    parameters: Orbiting, aspect: float, yaw: float = 0.0, reach: float | None = None
+) -> Orbit:
+    """An orbit from which the whole cube lies in the view, whichever way it is turned: the sphere
+    about the cube fits the narrower angle of the frustum. With a `reach`, the sphere of that radius
+    touches the smaller side of the view instead.
     """
     p = parameters
-    reach = p.side / 2 * 3**0.5
+    margin = MARGIN if reach is None else 1.0
+    reach = p.side / 2 * 3**0.5 if reach is None else reach
     half = min(p.fov_y / 2, atan(tan(p.fov_y / 2) * aspect))
-    distance = MARGIN * reach / sin(half)
+    distance = margin * reach / sin(half)
     return Orbit(yaw, p.start_pitch, distance, reach, p.fov_y, p.drag_gain, p.key_rate)
 
 

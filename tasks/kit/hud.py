@@ -80,8 +80,9 @@ class Inset:
 
 @dataclass(frozen=True)
 class FloorPlan:
-    """Walls seen from above as ((x0, y0), (x1, y1)) lines, the participant's mark, if set, and
-    where the thing really stands, once that may be known.
+    """Walls seen from above as ((x0, y0), (x1, y1)) lines, the participant's mark, if set, where
+    the thing really stands, once that may be known, and where one began (`start`) and is (`here`:
+    the place, and a point in the direction of view), where a study shows that.
 
     All in view units, within `rect`.
     """
@@ -90,6 +91,8 @@ class FloorPlan:
     walls: tuple[tuple[Point, Point], ...]
     mark: Point | None = None
     place: Point | None = None
+    start: Point | None = None
+    here: tuple[Point, Point] | None = None
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+from seethrough.renderer.declared import check, key
 from seethrough.renderer.events import Event, KeyPress
-from seethrough.tasks.kit.base import Example, NoParameters, Outcome, Setting, View
-from seethrough.tasks.kit.hud import FloorPlan, Label
+from seethrough.tasks.kit.base import Example, Outcome, Setting, View
+from seethrough.tasks.kit.hud import FloorPlan, Label, Point
 from seethrough.tasks.kit.measure import CORRECT, DISTANCE, Measure
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts, keys
@@ -25,12 +27,29 @@ from seethrough.tasks.worlds.building.visit import Visit, before, visit
 SEARCH = Label("unique.search", (0.26, 0.02))
 
 
+@dataclass(frozen=True)
+class UniqueParameters:
+    """What a study may say of the task; the paper's plan shows neither."""
+
+    start_mark: bool = key(False, "whether the floor plan shows where one began")
+    you_were_here: bool = key(
+        False, "whether the floor plan shows where one was when the search ended"
+    )
+
+    def __post_init__(self) -> None:
+        check(self)
+
+
+UniqueSetting: TypeAlias = Setting[BuildingParameters, UniqueParameters]
+
+
 @dataclass(frozen=True, eq=False)
 class UniqueState:
     """A trial between two events; `found` once the participant has ended the search."""
 
     visit: Visit
     plan: PlanMark
+    own: UniqueParameters
     found: bool = False
 
     @property
@@ -45,22 +64,23 @@ class Unique:
     name, code, version = "unique", "T3", "1"
     source = "Elmqvist2009 §VI"
     worlds = ("building",)
-    Parameters = NoParameters
+    Parameters = UniqueParameters
     measures: tuple[Measure, ...] = (DISTANCE, CORRECT)
     title, instruction = "unique.title", "unique.instruction"
     takes = keys(("space", "enter"))
     texts: Texts = OwnTexts("seethrough.tasks.unique")
     simulate = STRATEGY
 
-    def make_scene(self, rng: Generator, setting: Setting[BuildingParameters]) -> Building:
+    def make_scene(self, rng: Generator, setting: UniqueSetting) -> Building:
         """One of the study's buildings: the same for everybody, so from the study's seed."""
         return unique_building(rng, setting.place)
 
-    def begin(
-        self, made: Building, setting: Setting[BuildingParameters], aspect: float
-    ) -> UniqueState:
+    def begin(self, made: Building, setting: UniqueSetting, aspect: float) -> UniqueState:
         """The first state of a trial."""
-        return UniqueState(visit(made, setting.place), PlanMark(aspect, setting.place.side))
+        begun = visit(made, setting.place)
+        start = (begun.walk.x, begun.walk.z) if setting.task.start_mark else None
+        plan = PlanMark(aspect, setting.place.side, start=start)
+        return UniqueState(begun, plan, setting.task)
 
     def on_event(self, state: UniqueState, event: Event) -> UniqueState:
         """The state after `event`."""
@@ -70,7 +90,10 @@ class Unique:
         moved = state.visit.on_event(event)
         if moved is state.visit and not found:
             return state
-        return UniqueState(moved, state.plan, found)
+        plan = state.plan
+        if found and state.own.you_were_here:
+            plan = replace(plan, here=_here(moved))
+        return replace(state, visit=moved, plan=plan, found=found)
 
     def view(self, state: UniqueState) -> View:
         """What to show for `state`: the building, then its plan over it."""
@@ -104,6 +127,14 @@ class Unique:
     def example(self, state: UniqueState, aspect: float) -> Example:
         """The thing itself."""
         return Example(tuple(state.building.asked_objects), before(state.visit))
+
+
+def _here(visit: Visit) -> tuple[Point, Point]:
+    """Where the walker is (x, z), and the point one unit ahead."""
+    camera = visit.walk.camera()
+    x, _, z = camera.eye.tolist()
+    ahead, _, away = camera.forward.tolist()
+    return (x, z), (x + ahead, z + away)
 
 
 def _place(building: Building) -> NDArray[np.float64]:

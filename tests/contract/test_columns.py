@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
-from seethrough.experiment.record.columns import TABLES, Column
+from seethrough.experiment.record.columns import TABLES, Column, versions
 from seethrough.experiment.record.dictionary import BEGIN, END, dictionary, with_dictionary
 
 EVERY = [(table, column) for table, columns in TABLES.items() for column in columns]
@@ -63,3 +64,19 @@ def test_a_readme_without_marks_is_left_alone() -> None:
         with_dictionary(f"by hand {END} {BEGIN}")
     assert with_dictionary(f"a{BEGIN}old{END}b").startswith(f"a{BEGIN}")
     assert with_dictionary(f"a{BEGIN}old{END}b").endswith(f"{END}b")
+
+
+CAME_LATER = {  # as earlier versions of the program wrote their tables: what each version brought
+    "trials": [{"time_within", "early"}, {"world"}, set()],
+    "questionnaire": [set(), set(), {"after_trial", "after_task"}],
+}
+
+
+@pytest.mark.parametrize("table", CAME_LATER)
+def test_an_earlier_version_s_table_lacks_what_came_later_and_nothing_else(table: str) -> None:
+    """A column's version is history: changing it makes data that are there unreadable."""
+    names = [{column.name for column in columns} for columns in versions(TABLES[table])]
+    brought = CAME_LATER[table][: len(names) - 1]
+    assert not set().union(*CAME_LATER[table][len(names) - 1 :])
+    assert [after - before for before, after in pairwise(names)] == brought
+    assert all(before <= after for before, after in pairwise(names))

@@ -197,3 +197,20 @@ def test_light_modules_stay_light(module: str, root: Path) -> None:
     loaded = set(printed.partition("LOADED ")[2].split())
     assert module in loaded
     assert not loaded & set(LIGHT[module])
+
+
+def test_what_is_compared_with_older_commits_is_where_the_benchmark_looks() -> None:
+    """Its modules are asked for by name, the latest place first: a move breaks it silently."""
+    from importlib import import_module
+
+    from seethrough.benchmarks.drawing import against
+
+    wanted = (
+        (against.DYNAMIC, "DynamicTransparency"),
+        (against.STANDARD, "Standard"),
+        (against.ABSTRACT, "abstract_scene"),
+        (against.CONTROLS, "orbit"),
+        (against.VIEWED, "SCENES"),
+    )
+    for modules, name in wanted:
+        assert hasattr(import_module(f"seethrough.{modules[0]}"), name)

@@ -16,14 +16,22 @@ from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages import page_blocks, page_drawing
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import HudDrawing
-from seethrough.experiment.pages.pages import Choice, Page, Paragraph, Scale, TextField
+from seethrough.experiment.pages.pages import (
+    Choice,
+    Page,
+    Paragraph,
+    Ranking,
+    Scale,
+    Several,
+    TextField,
+)
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.study.tables.ready import one_page
 
 SIZES = [(800, 600), (1024, 768), (1920, 1080), (2560, 1080)]
 LANGUAGES = ["en", "de"]
 WIDGETS = {
-    "text_wrapped", "text_disabled", "radio_button", "slider_int", "input_text",
+    "text_wrapped", "text_disabled", "radio_button", "checkbox", "slider_int", "input_text",
     "input_text_multiline", "button", "image", "dummy",
 }  # fmt: skip
 LINE = 0.994  # the progress line lies below that part of the window
@@ -180,18 +188,33 @@ CROWDED = [
         Choice("c", "sus.item4", tuple(f"sus.item{n}" for n in range(1, 8))),
         TextField("t", "sus.item7", lines=1, most=9, wrong="demographics.wrong")),
         ("menu.on", "menu.repeat", "menu.leave")),
+    Page("c", "tlx.mental", (
+        Several("m", "sus.item4", ("sus.item1", "tlx.mental", "demographics.wrong", "wait.scene")),
+        Scale("s", "sus.item4", "1", "2", steps=10, first=99_991))),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("size", [*SIZES, (600, 800)])
-@pytest.mark.parametrize("page", CROWDED, ids=["scales", "choices"])
+@pytest.mark.parametrize("page", CROWDED, ids=["scales", "choices", "boxes"])
 def test_pages_with_long_words_at_their_ends_fit_as_well(
     stage_of, monkeypatch, size, language, page
 ):
     stage, target = stage_of(size, language)
     form = Form(page, insisted=True)
     assert faults(laid_out(monkeypatch, stage, target, form), *size) == []
+
+
+@pytest.mark.parametrize("size", [*SIZES, (600, 800)])
+def test_all_ranks_of_many_options_can_be_reached(stage_of, monkeypatch, size):
+    """Below each other where they do not fit beside each other; the page scrolls down alone."""
+    options = tuple(f"sus.item{n}" for n in (*range(1, 11), 1, 2, 3, 4))
+    stage, target = stage_of(size, "en")
+    form = Form(Page("r", "tlx.mental", (Ranking("r", "sus.item4", options),)))
+    boxes = laid_out(monkeypatch, stage, target, form)
+    assert sum(what.startswith("radio_button") for what, *_ in boxes) == 14 * 14
+    tall = (size[0], 100 * size[1])
+    assert faults(boxes, *tall) == []
 
 
 def test_a_page_that_is_too_long_says_so_below_it_and_nothing_lies_there(stage_of, monkeypatch):

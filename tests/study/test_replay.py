@@ -122,6 +122,14 @@ def test_a_video_has_the_trial_s_length_and_size(data, tmp_path):
     assert about["duration"] == pytest.approx(frames[-1].time - frames[0].time, abs=2 / 30)
 
 
+def test_a_video_that_cannot_be_written_is_one_line(data, capfd):
+    """Before the encoder says it in many; no file can be made in /proc."""
+    words = ["replay", str(data), "--participant", "P01", "--trial", "1"]
+    assert cli.main([*words, "--video", "/proc/a.mp4"]) == 2
+    said = "seethrough: --video = /proc/a.mp4: cannot be written: No such file or directory\n"
+    assert capfd.readouterr().err == said
+
+
 def test_replay_changes_nothing(data):
     before = {p: p.read_bytes() for p in data.rglob("*") if p.is_file()}
     words = ["replay", str(data), "--participant", "P01", "--trial", "2", "--verify"]

@@ -1,372 +1,302 @@
 r"""Changes the code in one place at a time and asks whether a test notices.
 
-    python tests/support/mutations.py --sites 120 --seed 1 --coverage FILE [--out FILE]
+    .venv/bin/python tests/support/mutations.py --sites 120 --seed 1 [--since COMMIT] [--out FILE]
 
-Sites are drawn evenly from all places in the rooms where an operator applies (a comparison turned
-or made strict, a sign, a constant, a condition, a call left out). FILE is the database of a run of
-the whole suite in which coverage.py noted which test passes each line:
+Sites are drawn from all places in the rooms where an operator applies (a comparison turned or made
+strict, arithmetic or a sign exchanged, a constant moved, a condition negated or taken away, a call
+left out, arguments exchanged, a return without its value), as many in each room; `--listed FILE`
+tries changes made by hand instead (mutation_sites.py, `listed`). Each is tried in a copy of the
+checkout, on the files of tests nearest to it by who imports whom, `--near` of them; if they pass,
+on the next `--wide`. The first failure ends it. A test that takes over LIMIT hangs, which is a
+failure; when `--budget` seconds are over, what has not failed has survived.
 
-    python -m pytest -n2 --dist loadscope -p forgetful --cov-context=test --cov-report= \
-      --cov=analysis --cov=experiment --cov=renderer --cov=tasks && mv .coverage FILE
-
-A site is tried in a copy of the checkout, on the tests that pass its line, then on the others of
-their files, which may look at what the first of them made. Kernels are compiled, so
-coverage.py cannot see their lines, and what is run while a module is imported belongs to no test:
-for those, on all tests that pass any line of the files that use them, first of all those in files
-that name the module. A test that fails catches nothing unless it passes in an unchanged copy.
-Prints a line a site, then the share caught; exit status 0.
+Every site has a process of its own, split off one that holds the libraries (importing them takes
+longest). Kernels are compiled anew where the changed file is in them, and only there; others are
+taken from the checkout, so run its tests of pictures before. A test that fails catches nothing
+unless it passes in an unchanged copy. Prints a line a site, then what was
+caught in each room and what survived; exit status 0.
 """
 
 from __future__ import annotations
 
 import argparse
-import ast
 import json
+import multiprocessing
 import os
-import re
 import shutil
-import sqlite3
+import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import Queue
 
-import numpy as np
-from coverage.numbits import numbits_to_nums
+import pytest
+from mutation_sites import ROOMS, Site, drawn, listed
+from nearest_tests import Imports
 
 ROOT = Path(__file__).resolve().parents[2]
-ROOMS = ("analysis", "experiment", "renderer", "tasks")
-MOST_TESTS = 400  # tried for a site of a kind; more only repeat each other
-LIMIT = 900  # s for the tests of a site: a change that never ends is caught
-
-COMPARISONS = {
-    ast.Lt: "<=",
-    ast.LtE: "<",
-    ast.Gt: ">=",
-    ast.GtE: ">",
-    ast.Eq: "!=",
-    ast.NotEq: "==",
-    ast.Is: "is not",
-    ast.IsNot: "is",
-    ast.In: "not in",
-    ast.NotIn: "in",
-}
-ARITHMETIC = {
-    ast.Add: "-",
-    ast.Sub: "+",
-    ast.Mult: "/",
-    ast.Div: "*",
-    ast.FloorDiv: "/",
-    ast.Mod: "*",
-    ast.Pow: "*",
-    ast.BitAnd: "|",
-    ast.BitOr: "&",
-    ast.LShift: ">>",
-    ast.RShift: "<<",
-}
+LIMIT = 90  # s for one test, with what its module makes first; none takes a third of it alone
+LIBRARIES = ["numpy", "scipy.stats", "pandas", "numba", "moderngl", "matplotlib.pyplot"]
+SAID = "said.txt"  # what the tests of a copy print
+FORK = multiprocessing.get_context("forkserver")
 
 
-@dataclass(frozen=True)
-class Site:
-    """A place in a file (characters start to end), what to put there, and its line."""
+class Told:
+    """A plugin of pytest that tells another process which test runs and which fails."""
 
-    path: str
-    line: int
-    start: int
-    end: int
-    text: str
-    compiled: bool
+    def __init__(self, to: Connection) -> None:
+        self.to = to
 
-    def applied(self, source: str) -> str:
-        """The file with the change."""
-        return source[: self.start] + self.text + source[self.end :]
+    def pytest_configure(self) -> None:
+        """A first failure will do: hypothesis looks minutes for the simplest."""
+        from hypothesis import Phase, settings
 
+        once = (Phase.explicit, Phase.generate)
+        settings.register_profile("once", phases=once, database=None)
+        settings.load_profile("once")
 
-def sites(path: Path, root: Path) -> Iterator[Site]:
-    """Every place of a file where an operator applies."""
-    source = path.read_text("utf-8")
-    starts = np.cumsum([0, *(len(line) for line in source.splitlines(keepends=True))])
-    lines = source.splitlines(keepends=True)
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
+        """A test begins."""
+        self.to.send(("runs", nodeid))
 
-    def at(line: int, column: int) -> int:
-        """Position in characters: ast counts bytes of UTF-8."""
-        return int(starts[line - 1]) + len(lines[line - 1].encode()[:column].decode())
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """A test, its setup or its teardown ended."""
+        if report.failed:
+            self.to.send(("failed", report.nodeid))
 
-    def made(node: ast.AST, text: str, compiled: bool) -> Site:
-        start, end = at(node.lineno, node.col_offset), at(node.end_lineno, node.end_col_offset)
-        return Site(str(path.relative_to(root)), node.lineno, start, end, text, compiled)
-
-    def visit(node: ast.AST, compiled: bool) -> Iterator[Site]:
-        if isinstance(node, ast.FunctionDef):
-            compiled |= any("njit" in ast.unparse(d) for d in node.decorator_list)
-        if isinstance(node, ast.AnnAssign):  # annotations are not run
-            children = [child for child in (node.target, node.value) if child is not None]
-        elif isinstance(node, ast.FunctionDef | ast.arguments):
-            parts = [*getattr(node, "body", []), getattr(node, "args", None)]
-            children = [p for p in parts if isinstance(p, ast.AST)]
-            if isinstance(node, ast.arguments):
-                children = [d for d in (*node.defaults, *node.kw_defaults) if d is not None]
-        else:
-            children = list(ast.iter_child_nodes(node))
-        yield from ((made(node, text, compiled)) for text in _changed(node, source))
-        for child in children:
-            yield from visit(child, compiled)
-
-    yield from visit(ast.parse(source), False)
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        """A file was imported."""
+        if report.failed:
+            self.to.send(("failed", report.nodeid))
 
 
-def _changed(node: ast.AST, source: str) -> list[str]:
-    """What may stand in a node's place, as source."""
-
-    def text(part: ast.AST) -> str:
-        return ast.get_source_segment(source, part) or ""
-
-    match node:
-        case ast.Compare(left=left, ops=[op], comparators=[right]) if type(op) in COMPARISONS:
-            return [f"({text(left)} {COMPARISONS[type(op)]} {text(right)})"]
-        case ast.BinOp(left=left, op=op, right=right) if type(op) in ARITHMETIC:
-            if isinstance(left, ast.Constant) and isinstance(left.value, str):
-                return []
-            return [f"({text(left)} {ARITHMETIC[type(op)]} {text(right)})"]
-        case ast.UnaryOp(op=ast.Not() | ast.USub(), operand=operand):
-            return [f"({text(operand)})"]
-        case ast.BoolOp(op=op, values=[first, second]):
-            return [f"({text(first)} {'or' if isinstance(op, ast.And) else 'and'} {text(second)})"]
-        case ast.Constant(value=bool(value)):
-            return [str(not value)]
-        case ast.Constant(value=int(value)):
-            return [f"({value} + 1)"]
-        case ast.Constant(value=float(value)) if value != 0:
-            return [f"({value!r} * 1.5)"]
-        case ast.Call(func=ast.Name(id="min" | "max" as name)):
-            return [("max" if name == "min" else "min") + text(node)[3:]]
-        case ast.Expr(value=ast.Call()):
-            return ["pass"]
-    return []
-
-
-def drawn(number: int, seed: int, root: Path = ROOT) -> list[Site]:
-    """Sites of all rooms, each file's as likely as its number of them; in the order in which they
-    were drawn, so that the first of them are a sample as well."""
-    every = [
-        site
-        for room in ROOMS
-        for path in sorted((root / room).rglob("*.py"))
-        for site in sites(path, root)
-    ]
-    chosen = np.random.default_rng(seed).choice(len(every), min(number, len(every)), replace=False)
-    print(f"{len(every)} sites, {len(chosen)} drawn with seed {seed}", flush=True)
-    return [every[k] for k in chosen]
-
-
-class Passed:
-    """Which tests pass which lines, from coverage.py's database."""
-
-    def __init__(self, database: Path, root: Path = ROOT) -> None:
-        self.root = root
-        self.known: dict[str, dict[int, set[str]]] = {}
-        self.size: dict[str, int] = {}  # lines that a test passes: those of few are quick
-        rows = sqlite3.connect(f"file:{database}?mode=ro", uri=True).execute(
-            "SELECT f.path, c.context, l.numbits FROM line_bits l "
-            "JOIN file f ON f.id = l.file_id JOIN context c ON c.id = l.context_id"
-        )
-        for path, context, bits in rows:
-            if not context:  # passed while a module was imported
-                continue
-            lines = self.known.setdefault(Path(path).relative_to(root).as_posix(), {})
-            test, numbers = context.partition("|")[0], numbits_to_nums(bits)
-            self.size[test] = self.size.get(test, 0) + len(numbers)
-            for line in numbers:
-                lines.setdefault(line, set()).add(test)
-
-    def tests(self, site: Site) -> list[str]:
-        """The tests to try, quick kinds first."""
-        found = set(self.known.get(site.path, {}).get(site.line, ()))
-        first = found
-        if not found or site.compiled:
-            module = Path(site.path).with_suffix("").as_posix().replace("/", ".")
-            for user in (site.path, *self._users(module)):
-                found |= set().union(*self.known.get(user, {}).values(), set())
-            first = {test for test in found if self._names(test.partition("::")[0], module)}
-        else:  # what one test made for all of its file, the others look at
-            files = {test.partition("::")[0] for test in found}
-            found = found | {test for test in self.size if test.partition("::")[0] in files}
-        kinds = ("tests/unit", "tests/hard", "tests/images", "tests/contract", "tests/study")
-        rank = {kind: k for k, kind in enumerate(kinds)}
-        ordered = sorted(
-            found,
-            key=lambda t: (t not in first, rank["/".join(t.split("/")[:2])], self.size[t], t),
-        )
-        return _fewer(ordered[: len(first)]) + _fewer(ordered[len(first) :])
-
-    def in_kernels(self, site: Site) -> bool:
-        """Whether compiled code may hold the place: its own file's, or a constant's users'."""
-        if site.compiled or site.line in self.known.get(site.path, {}):
-            return site.compiled
-        module = Path(site.path).with_suffix("").as_posix().replace("/", ".")
-        users = (site.path, *self._users(module))
-        return any("njit" in (self.root / user).read_text("utf-8") for user in users)
-
-    def _names(self, test: str, module: str) -> bool:
-        """Whether a file of tests imports the module."""
-        package, _, name = module.rpartition(".")
-        words = rf"{re.escape(module)}\b|{re.escape(package)} import [^\n]*\b{re.escape(name)}\b"
-        return bool(re.search(words, (self.root / test).read_text("utf-8")))
-
-    def _users(self, module: str) -> list[str]:
-        """Files that import the module."""
-        package, _, name = module.rpartition(".")
-        words = (module, f"{package} import")
-        return [
-            path
-            for path in self.known
-            if any(w in (text := (self.root / path).read_text("utf-8")) for w in words)
-            and (module in text or name in text)
-        ]
-
-
-def _fewer(tests: list[str]) -> list[str]:
-    """At most MOST_TESTS of them, spread evenly."""
-    step = max(1.0, len(tests) / MOST_TESTS)
-    return [tests[int(k * step)] for k in range(min(len(tests), MOST_TESTS))]
-
-
-def caught(site: Site, tests: list[str], copy: Path, fresh: bool) -> tuple[bool | None, str]:
-    """Whether a test fails with the change, and which; None if there is no test to try. `fresh`:
-    kernels are compiled anew, for the change may be in them."""
-    if not tests:
-        return None, ""
-    file = copy / site.path
-    source = file.read_text("utf-8")
-    file.write_text(site.applied(source), "utf-8")
-    cache = tempfile.mkdtemp(prefix="numba-") if fresh else None
-    try:
-        status, failed = _run(tests, copy, ["-x"], {"NUMBA_CACHE_DIR": cache} if cache else {})
-        return status != 0, failed[0] if failed else ""
-    finally:
-        file.write_text(source, "utf-8")
-        if cache:
-            shutil.rmtree(cache)
-
-
-def _run(
-    tests: list[str], copy: Path, options: list[str], more: dict[str, str]
-) -> tuple[int, list[str]]:
-    """pytest's exit status in a copy, and which failed: of `tests`, or files that are no more
-    imported."""
-    (copy / "chosen.txt").write_text("\n".join(tests), "utf-8")
-    options = [*options, "-q", "-n0", "-p", "no:cacheprovider", "--no-header", "--tb=no"]
-    command = [sys.executable, "-m", "pytest", *options, f"@{copy / 'chosen.txt'}"]
-    environment = {**_environment(copy), **more}
-    try:
-        run = subprocess.run(
-            command, cwd=copy, env=environment, capture_output=True, timeout=LIMIT, check=False
-        )
-    except subprocess.TimeoutExpired:
-        return 1, []
-    told = re.findall(r"^(?:FAILED|ERROR) (.+)$", run.stdout.decode(errors="replace"), re.M)
-    names = {*tests, *(test.partition("::")[0] for test in tests)}
-    found = [[n for n in names if t == n or t.startswith(f"{n} - ")] for t in told]
-    return run.returncode, [max(each, key=len) for each in found if each]
-
-
-def _environment(copy: Path) -> dict[str, str]:
-    """In which Python imports the copy's code: the folder it is started in comes in no case first,
-    for its `seethrough` has no rooms, and those of the checkout would be taken."""
-    more = {"PYTHONPATH": _path(copy), "PYTHONSAFEPATH": "1", "PYTHONDONTWRITEBYTECODE": "1"}
-    return {**os.environ, **more}
-
-
-def _is_imported(copy: Path) -> bool:
-    """Whether the copy's code is what its tests test."""
-    command = [sys.executable, "-c", "import seethrough.renderer as r; print(r.__file__)"]
-    run = subprocess.run(
-        command, cwd=copy, env=_environment(copy), capture_output=True, text=True, check=True
+def _test(to: Connection, copy: Path, words: list[str], cache: str) -> None:
+    """Run pytest on a copy of the checkout, in a process of its own."""
+    os.setsid()
+    os.chdir(copy)
+    said = os.open(copy / SAID, os.O_RDWR | os.O_CREAT | os.O_TRUNC)
+    for number in (0, 1, 2):
+        os.dup2(said, number)
+    # the folder one is in comes in no case first: its `seethrough` has no rooms, and the finder of
+    # the checkout's would take them from there
+    linked = str(copy / "linked")
+    os.environ.update(
+        PYTHONPATH=linked, PYTHONSAFEPATH="1", PYTHONDONTWRITEBYTECODE="1", NUMBA_CACHE_DIR=cache
     )
-    return Path(run.stdout.strip()).resolve().is_relative_to(copy.resolve())
+    sys.dont_write_bytecode = True
+    sys.path[:] = [linked, *(p for p in sys.path if Path(p).resolve() != ROOT / "tests/support")]
+    import numba
+
+    numba.config.CACHE_DIR = cache  # read when numba was imported, before there was this one
+    import seethrough.renderer
+
+    assert Path(seethrough.renderer.__file__).is_relative_to(copy)
+    options = ["-x", "-q", "-n0", "-p", "no:cacheprovider", "--no-header", "--tb=no"]
+    to.send(("ended", int(pytest.main([*options, *words], plugins=[Told(to)]))))
 
 
-def _path(copy: Path) -> str:
-    """Where Python finds the copy's code: its rooms lie in `seethrough` if it has that folder."""
-    if not (copy / "seethrough").is_dir():
-        return str(copy)
-    linked = copy / "linked" / "seethrough"
-    if not linked.exists():
-        linked.mkdir(parents=True)
-        for source in (copy / "seethrough").glob("*.py"):
-            (linked / source.name).symlink_to(source)
-        for room in (p for p in copy.iterdir() if (p / "__init__.py").exists()):
-            if room.name not in ("seethrough", "tests"):
-                (linked / room.name).symlink_to(room, target_is_directory=True)
-    return str(linked.parent)
+def failed(copy: Path, words: list[str], cache: str, budget: float) -> tuple[str, str]:
+    """What the first failure was (`failed`, `hangs`, `died`), or `passed` or `late`; and whose.
+
+    Raises RuntimeError where the process ends before any test begins.
+    """
+    mine, its = FORK.Pipe(duplex=False)
+    process = FORK.Process(target=_test, args=(its, copy, words, cache))
+    process.start()
+    its.close()
+    until, since, test = time.monotonic() + budget, time.monotonic(), ""
+    try:
+        while True:
+            left = min(until, since + LIMIT) - time.monotonic()
+            if left <= 0 or not mine.poll(left):
+                return ("late" if until < since + LIMIT else "hangs"), test
+            try:
+                what, value = mine.recv()
+            except EOFError:
+                if not test:
+                    said = (copy / SAID).read_text("utf-8", "replace")
+                    raise RuntimeError(f"no test began: {said[-2000:]}") from None
+                return "died", test
+            if what == "failed":
+                return "failed", value
+            if what == "ended":  # all passed, nothing was collected, or it could not even begin
+                return ("passed", "") if value in (0, 5) else ("failed", words[0])
+            test, since = value, time.monotonic()
+    finally:
+        try:
+            os.killpg(process.pid, signal.SIGKILL)  # and what the tests started
+        except ProcessLookupError:  # it has ended, or has not made its group yet
+            process.kill()
+        process.join()
 
 
-def _copies(number: int, folder: Path) -> Queue[Path]:
-    copies: Queue[Path] = Queue()
-    leave = shutil.ignore_patterns(".git", ".venv", "out", ".hypothesis", "*.egg-info", "linked")
-    for k in range(number):
-        shutil.copytree(ROOT, folder / str(k), ignore=leave)
-        assert _is_imported(folder / str(k))
-        copies.put(folder / str(k))
-    return copies
+def copied(to: Path) -> None:
+    """A copy of the checkout as it is now, with what it compiled, whose rooms lie in
+    `linked/seethrough` for Python."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    names = subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout
+    for name in filter(None, names.decode().split("\0")):
+        if (ROOT / name).is_file():
+            (to / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, to / name)
+    linked = to / "linked" / "seethrough"
+    linked.mkdir(parents=True)
+    for source in (to / "seethrough").glob("*.py"):
+        (linked / source.name).symlink_to(source)
+    for room in (p for p in to.iterdir() if (p / "__init__.py").exists()):
+        if room.name not in ("seethrough", "tests"):
+            (linked / room.name).symlink_to(room, target_is_directory=True)
+    kernels_of(to).mkdir()
+    for kernel in ROOT.glob("renderer/**/__pycache__/*.nb[ci]"):
+        its = kernel.parent.parent.relative_to(ROOT) / "any.py"
+        (kernels_of(to) / _place(to, str(its))).mkdir(exist_ok=True)
+        shutil.copy2(kernel, kernels_of(to) / _place(to, str(its)))
+
+
+@dataclass
+class Trials:
+    """What is needed to try sites: who imports whom, how many files of tests to try and for how
+    long, where compiled kernels are kept, and which tests fail without any change."""
+
+    imports: Imports
+    near: int
+    wide: int
+    budget: float
+    useless: set[str]
+
+    def row(self, site: Site, copy: Path) -> dict[str, str]:
+        """Try a site: its line, what became of it, and by which test."""
+        tests = self.imports.nearest(site.path)
+        file = copy / site.path
+        source = file.read_text("utf-8")
+        stages = [tests[: self.near], tests[self.near : self.near + self.wide]]
+        verdict, by = "NO TEST", ""
+        began = time.monotonic()
+        with tempfile.TemporaryDirectory(prefix="numba-") as folder:
+            cache = self._cache(site, copy, Path(folder) / "cache")
+            try:
+                file.write_text(site.applied(source), "utf-8")
+                for stage in filter(None, stages):
+                    left = self.budget - (time.monotonic() - began)
+                    words = stage + [f"--deselect={test}" for test in sorted(self.useless)]
+                    how, by = failed(copy, words, cache, left)
+                    verdict = "SURVIVED" if how in ("passed", "late") else "caught"
+                    if verdict == "caught" or how == "late":
+                        break
+            finally:
+                file.write_text(source, "utf-8")
+        told, took = site.told(ROOT), time.monotonic() - began
+        print(f"{verdict:9}{took:4.0f} s {told}  [{how if tests else ''} {by}]", flush=True)
+        return {"room": site.room, "site": told, "verdict": verdict, "by": by, "how": how}
+
+    def _cache(self, site: Site, copy: Path, folder: Path) -> str:
+        """Where kernels lie while a site is tried.
+
+        numba compiles a kernel anew if its own file changed, but not if one did whose kernels or
+        constants it took in. So where kernels can hold the change, they lie in a folder of their
+        own, with links to all there are but those of the files that come to use the changed one.
+        """
+        warm = kernels_of(copy)
+        users, todo = {site.path}, [site.path]
+        while todo:
+            for user in self.imports.users.get(todo.pop(), ()):
+                if user not in users and not user.startswith("tests/"):
+                    users.add(user)
+                    todo.append(user)
+        changed = [user for user in users if "njit" in self.imports.text[user]]
+        if not changed or not site.compiled:
+            return str(warm)
+        shutil.copytree(warm, folder, copy_function=os.link)
+        for user in changed:
+            own = folder / _place(copy, user)
+            for kernel in own.glob(f"{Path(user).stem}.*"):
+                kernel.unlink()
+        return str(folder)
+
+
+def kernels_of(copy: Path) -> Path:
+    """Where a copy's compiled kernels lie."""
+    return copy.parent / f"{copy.name}-kernels"
+
+
+def _place(copy: Path, path: str) -> str:
+    """The folder, in a cache of numba's, of a copy's file."""
+    from numba.core.caching import _CacheLocator
+
+    return str(_CacheLocator.get_suitable_cache_subpath(str(copy / "linked/seethrough" / path)))
 
 
 def main() -> None:
     """The command of the module's text."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--sites", type=int, default=120)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--coverage", type=Path, required=True)
-    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--since", default="", help="a commit: draw from lines newer than it")
+    parser.add_argument("--listed", type=Path, help="a file of changes made by hand")
+    parser.add_argument("--first", type=int, default=0, help="go on with this one of them, from 0")
+    parser.add_argument("--near", type=int, default=4)
+    parser.add_argument("--wide", type=int, default=12)
+    parser.add_argument("--budget", type=float, default=240.0)
+    parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--out", type=Path)
     args = parser.parse_args()
-    passed, chosen = Passed(args.coverage), drawn(args.sites, args.seed)
-    with tempfile.TemporaryDirectory() as folder:
-        copies = _copies(args.workers, Path(folder))
+    print(f"seed {args.seed}" if args.listed is None else args.listed, flush=True)
+    chosen = (
+        drawn(args.sites, args.seed, ROOT, args.since)
+        if args.listed is None
+        else listed(args.listed, ROOT)
+    )
+    chosen = chosen[args.first :]
+    FORK.set_forkserver_preload(LIBRARIES)
+    trials = Trials(Imports(ROOT), args.near, args.wide, args.budget, set())
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(args.workers) as pool:
+        copies: Queue[Path] = Queue()
+        for k in range(args.workers):
+            copied(Path(folder) / str(k))
+            copies.put(Path(folder) / str(k))
 
-        def one(site: Site, useless: frozenset[str] = frozenset()) -> dict[str, object]:
-            tests = [test for test in passed.tests(site) if test not in useless]
+        def one(site: Site) -> dict[str, str]:
             copy = copies.get()
             try:
-                found, by = caught(site, tests, copy, passed.in_kernels(site))
+                return trials.row(site, copy)
             finally:
                 copies.put(copy)
-            source = (ROOT / site.path).read_text("utf-8")
-            was = " ".join(source[site.start : site.end].split())
-            verdict = {True: "caught", False: "SURVIVED", None: "NO TEST"}[found]
-            row = {
-                "site": f"{site.path}:{site.line}",
-                "was": was,
-                "is": " ".join(site.text.split()),
-            }
-            print(f"{verdict:9}{row['site']}: {was[:60]} -> {row['is'][:60]}", flush=True)
-            return {**row, "verdict": verdict, "tests": len(tests), "by": by}
 
-        with ThreadPoolExecutor(args.workers) as pool:
-            rows = list(pool.map(one, chosen))
-        useless: frozenset[str] = frozenset()
-        while True:  # what catches a change passes without it
-            by = sorted({str(row["by"]) for row in rows if "::" in str(row["by"])})
-            copy = copies.get()
-            failed = {
-                t for k in range(0, len(by), 20) for t in _run(by[k : k + 20], copy, [], {})[1]
-            }
-            copies.put(copy)
-            if not failed:
-                break
-            useless |= failed
-            print("fail unchanged, too:", *sorted(failed), sep="\n  ", flush=True)
-            again = [k for k, row in enumerate(rows) if row["by"] in failed]
-            for k in again:
-                rows[k] = one(chosen[k], useless)
+        rows = list(pool.map(one, chosen))
+        _doubt(rows, chosen, trials, Path(folder) / "0")
+    for room in ROOMS:
+        its = [row["verdict"] for row in rows if row["room"] == room]
+        if its:
+            print(f"{room}: {its.count('caught')} of {len(its)} caught")
     number = sum(row["verdict"] == "caught" for row in rows)
-    print(f"{number} of {len(rows)} caught: {number / len(rows):.1%}")
+    print(f"{number} of {len(rows)} caught: {number / len(rows):.1%}; others:")
+    print(*(row["site"] for row in rows if row["verdict"] != "caught"), sep="\n")
     if args.out:
         args.out.write_text(json.dumps(rows, indent=1), "utf-8")
+
+
+def _doubt(rows: list[dict[str, str]], chosen: list[Site], trials: Trials, copy: Path) -> None:
+    """Try again, without them, what was caught by tests that fail without the change as well."""
+    good: set[str] = set()
+    while todo := sorted({r["by"] for r in rows if r["verdict"] == "caught"} - good):
+        while todo:
+            how, by = failed(copy, todo, str(kernels_of(copy)), 3600.0)
+            if how == "passed":
+                break
+            if by not in todo:
+                raise RuntimeError(f"{how} in an unchanged copy: {by or todo}")
+            print(f"{how} unchanged, too: {by}", flush=True)
+            trials.useless.add(by)
+            todo.remove(by)
+        good |= set(todo)
+        for k, row in enumerate(rows):
+            if row["by"] in trials.useless:
+                rows[k] = trials.row(chosen[k], copy)
 
 
 if __name__ == "__main__":

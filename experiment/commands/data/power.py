@@ -38,6 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Work out the curves, print the sizes that are enough, write the page."""
+    if arguments.out.suffix.lower() != ".html":  # it is written over: no study file, by a slip
+        raise InputError(f"--out = {arguments.out}: expected a name that ends in .html")
     study = load(arguments.study)
     sizes = _sizes(arguments.participants)
     if not 10 <= arguments.replications <= 1_000_000:

@@ -14,6 +14,7 @@ import numpy as np
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.outputs import check_output
 from seethrough.renderer.look.dressed import dressed
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import SHORTCUTS
@@ -193,8 +194,5 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def _writable(out: Path) -> Path:
-    if out.suffix.lower() != ".png":
-        raise InputError(f"--out = {out}: expected a name that ends in .png")
-    if not out.parent.is_dir():
-        raise InputError(f"--out = {out}: expected an existing folder, there is no {out.parent}")
+    check_output("--out", out, ".png")
     return out

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.outputs import check_output
 from seethrough.experiment.replay.replay_check import Pictures, differences, has_pictures
 from seethrough.experiment.replay.replayer import Frame, Recorded, find_trial, replay
 
@@ -32,6 +33,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Replay; 0, or 1 where --verify found another picture than was shown."""
+    check_output("--video", arguments.video, ".mp4")
+    check_output("--visibility", arguments.visibility)
     for path in (arguments.video, arguments.visibility):
         if path is not None and path.exists():
             raise InputError(f"{path}: exists already; expected a new file")

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.outputs import check_output
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.levels import of_blocks
 from seethrough.experiment.study.beside.own_model_files import models_of
@@ -73,6 +74,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what was checked; 0 if the study may run here, 1 if not."""
+    check_output("--certificate", arguments.certificate)
+    check_output("--models", arguments.models, ".png")
+    check_output("--scenes", arguments.scenes, ".png")
     if arguments.certificate is not None and arguments.certificate.exists():
         raise InputError(f"{arguments.certificate}: exists already; expected a new file")
     study = load(arguments.study)

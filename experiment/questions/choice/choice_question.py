@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seethrough.experiment.pages.pages import Answers, Choice, Several
-from seethrough.experiment.questions.kit import Asking, OnOnePage, Row, row
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Possible, Row, row
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.world import NO_TEXTS, Texts
 
@@ -36,6 +36,8 @@ class ChoiceParameters:
             raise ValueError(f"options = {list(self.options)!r}, expected {expected}")
         if self.names and len(self.names) != len(self.options):
             raise ValueError(f"names = {list(self.names)!r}, expected one for each option")
+        if len(set(self.names)) < len(self.names):
+            raise ValueError(f"names = {list(self.names)!r}, expected each once")
         if self.right and self.right not in (self.names or self.options):
             raise ValueError(f"right = {self.right!r}, expected the name of an option")
 
@@ -95,6 +97,15 @@ class ChoiceQuestion(OnOnePage[ChoiceParameters]):
         """The last row."""
         count = len(p.options or asking.of)
         return (f"{asking.name}_{count}",) if p.several else (asking.name,)
+
+    def possible(self, p: ChoiceParameters, item: str) -> Possible | None:
+        """The place of an option, or whether it was chosen; or its name."""
+        names = frozenset(p.names or p.options)
+        if not names:
+            return None
+        if p.several or p.right:
+            return Possible(0, 1, names)
+        return Possible(1, len(names), names) if p.numbered else Possible(1, 0, names)
 
     def items(self, p: ChoiceParameters, name: str) -> dict[str, str]:
         """The choice."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from seethrough.experiment.pages.pages import Answers, Page, Scale
-from seethrough.experiment.questions.kit import Asking, Respondent, Row, page, row
+from seethrough.experiment.questions.kit import Asking, Possible, Respondent, Row, page, row
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.world import NO_TEXTS, Texts
 
@@ -50,6 +50,8 @@ class LikertParameters:
             raise ValueError(f"text = {self.text!r}, expected a text, or `items` instead of it")
         if self.names and len(self.names) != max(1, len(self.items)):
             raise ValueError(f"names = {list(self.names)!r}, expected one for each item")
+        if len(set(self.names)) < len(self.names):
+            raise ValueError(f"names = {list(self.names)!r}, expected each once")
         if self.names and not set(self.reverse) <= set(self.names):
             raise ValueError(f"reverse = {list(self.reverse)!r}, expected some of `names`")
         if self.score and not self.required:
@@ -82,6 +84,10 @@ class LikertQuestion:
     def simulate(self, p: LikertParameters, page: Page, person: Respondent) -> Answers:
         """By what the page is made of."""
         return person.by_blocks(page)
+
+    def possible(self, p: LikertParameters, item: str) -> Possible | None:
+        """A point of the scale; the sum is not foreseen."""
+        return None if item == p.score else Possible(p.first, p.first + p.points - 1)
 
     def _scales(self, p: LikertParameters, asking: Asking) -> list[Scale]:
         """In the order of this participant."""

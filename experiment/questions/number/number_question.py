@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil, floor
 
 from seethrough.experiment.pages.pages import Answers, Page, TextField
-from seethrough.experiment.questions.kit import Asking, OnOnePage, Respondent, Row, row
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Possible, Respondent, Row, row
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts
@@ -30,6 +31,9 @@ class NumberParameters:
         check(self)
         if self.high <= self.low:
             raise ValueError(f"high = {self.high}, expected more than `low` ({self.low})")
+        if self.whole and ceil(self.low) > floor(self.high):
+            expected = f"a whole number from `low` ({self.low}) on"
+            raise ValueError(f"high = {self.high}, expected {expected}, or whole = false")
 
 
 class NumberQuestion(OnOnePage[NumberParameters]):
@@ -59,6 +63,10 @@ class NumberQuestion(OnOnePage[NumberParameters]):
         """The number, with a point; none where it was left open."""
         text = answers.get(asking.name, "").strip().replace(",", ".")
         return [row(asking.name, text)] if text else []
+
+    def possible(self, p: NumberParameters, item: str) -> Possible:
+        """Any number between the limits."""
+        return Possible(p.low, p.high)
 
     def items(self, p: NumberParameters, name: str) -> dict[str, str]:
         """The number."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seethrough.experiment.pages.pages import Answers, Ranking
-from seethrough.experiment.questions.kit import Asking, OnOnePage, Row, row
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Possible, Row, row
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.world import NO_TEXTS, Texts
 
@@ -72,6 +72,12 @@ class RankingQuestion(OnOnePage[RankingParameters]):
     def last(self, p: RankingParameters, asking: Asking, number: int) -> tuple[str, ...]:
         """The last option."""
         return (f"{asking.name}_{len(p.options or asking.of)}",)
+
+    def possible(self, p: RankingParameters, item: str) -> Possible | None:
+        """A rank, or the option's name."""
+        if not p.options:
+            return None
+        return Possible(1, len(p.options), frozenset(p.options))
 
     def items(self, p: RankingParameters, name: str) -> dict[str, str]:
         """Each option's rank."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seethrough.experiment.pages.pages import Answers, Scale
-from seethrough.experiment.questions.kit import Asking, OnOnePage, Row, row
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Possible, Row, row
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.world import NO_TEXTS, Texts
 
@@ -54,6 +54,10 @@ class SliderQuestion(OnOnePage[SliderParameters]):
         if asking.name not in answers:
             return []
         return [row(asking.name, str(p.low + int(answers[asking.name])))]
+
+    def possible(self, p: SliderParameters, item: str) -> Possible:
+        """Any value between the ends."""
+        return Possible(p.low, p.high)
 
     def items(self, p: SliderParameters, name: str) -> dict[str, str]:
         """The value."""

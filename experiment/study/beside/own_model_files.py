@@ -138,4 +138,8 @@ def kept(parameters: WorldParameters, data: Path) -> WorldParameters:
     for model in found:
         if not kept_as(model).is_file():
             raise InputError(f"{kept_as(model)}: expected the model {model.name!r} as it was shown")
+        try:
+            mesh_of(model)
+        except ValueError as error:
+            raise InputError(str(error)) from None
     return replace(parameters, models=tuple(found))

@@ -49,6 +49,8 @@ NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 NAMED = "a name of 1 to 32 lower-case letters, digits and _, a letter first"
 LEVEL = re.compile(r"-?[A-Za-z0-9][A-Za-z0-9_.-]{0,30}")
 LEVELLED = "a level's name of 1 to 32 letters, digits, _, . and -"
+LONGEST_LABEL = 100
+LABELLED = f"text of 1 to {LONGEST_LABEL} printable characters"
 ORDERS = (*SQUARES, MIXED)
 BARE = "a bare dotted key, as in technique.use = …: in quotes it is one name with dots"
 
@@ -233,11 +235,18 @@ class _Reader:
         if not isinstance(said, Mapping) or not all(isinstance(t, str) for t in said.values()):
             self.wrong("labels", said, 'texts of levels, as { plain = "the plain view" }')
             return tuple(levels)
-        for name in said:
+        taken = {name: name for name in names if name not in said}
+        for name, label in said.items():
+            where = f"{self.where}.labels.{name}"
             if name not in names:
-                self.faults.append(
-                    Fault(f"{self.where}.labels.{name}", said[name], known=(*names,))
-                )
+                self.faults.append(Fault(where, label, known=(*names,)))
+            elif not 1 <= len(label) <= LONGEST_LABEL or not label.isprintable():
+                self.faults.append(Fault(where, label, LABELLED))
+            elif label in taken:
+                said_twice = f"another text than that of {taken[label]}"
+                self.faults.append(Fault(where, label, said_twice))
+            else:
+                taken[label] = name
         return tuple(
             Level(lv.name, lv.part, said.get(lv.name, lv.label), lv.number) for lv in levels
         )

@@ -7,6 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from seethrough.experiment.study.design.factors import WITHIN, Cell, Factor
 from seethrough.experiment.study.tables.cells import Part
 from seethrough.experiment.study.tables.parameter_tables import Fault
+from seethrough.experiment.study.tables.question_items import (
+    unfit_names,
+    unfit_parameters,
+    unmet,
+)
 from seethrough.experiment.study.tables.question_table import MOMENTS
 from seethrough.experiment.study.tables.reading import Question
 
@@ -26,6 +31,11 @@ def unfit_questions(
 
 def _unfit(factors: Sequence[Factor], questions: Questions) -> Iterator[Fault]:
     names = tuple(f.name for f in factors)
+    asked = {n: q for n, q in questions.items() if not q.table.off}
+    items = {n: items_of(factors, n, q) for n, q in asked.items()}
+    yield from unfit_names(factors, items)
+    for name, question in asked.items():
+        yield from unfit_parameters(name, question, items[name])
     for name, question in questions.items():
         table, where = question.table, f"questions.{name}"
         said = {"each": table.each or (), "only": table.only, "of": (table.of,) * bool(table.of)}
@@ -73,6 +83,8 @@ def _given(factors: Sequence[Factor], name: str, questions: Questions) -> Iterat
         elif own.table.order and any(_together(n, name, questions) for n in asks):
             said = f"no question that is shuffled with {asks[0]}, on which it depends"
             yield Fault(f"{key}.{item}", own.table.given[item], said)
+        else:
+            yield from unmet(name, item, own.table.given[item], {n: questions[n] for n in asks})
 
 
 def _together(one: str, other: str, questions: Questions) -> bool:

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
+import moderngl
+
+from seethrough.renderer.gpu.rules.lined_painter import LinedPainter
+from seethrough.renderer.gpu.rules.list_painter import ListPainter
+from seethrough.renderer.gpu.rules.lists import NEEDED
 from seethrough.renderer.gpu.rules.order_painter import OrderPainter
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
@@ -13,13 +18,30 @@ from seethrough.renderer.techniques.base import PEELS, REMOVAL, Parameters
 GHOSTS = "ghosts"  # lines of what was removed, over what is left
 ORDERED = "ordered"  # polygon by polygon, in the order of a method
 
-Painter = PeelPainter | RemovalPainter | OrderPainter
+LISTS = "lists"  # surfaces that show through one another
+LINED = "lined"  # and with lines along their edges
+
+Painter = PeelPainter | RemovalPainter | OrderPainter | ListPainter | LinedPainter
+
+
+def _where_able(
+    made: type[ListPainter | LinedPainter],
+) -> Callable[[moderngl.Context, Sequence[str]], Painter]:
+    """In one pass where the context can, else layer by layer."""
+
+    def make(context: moderngl.Context, defines: Sequence[str]) -> Painter:
+        able = context.version_code >= NEEDED
+        return made(context, defines) if able else PeelPainter(context, defines)
+
+    return make
+
 
 PAINTERS: Mapping[str, Callable[..., Painter]] = {
-    PEELS: PeelPainter,
     REMOVAL: RemovalPainter,
     GHOSTS: partial(PeelPainter, ghosts=True),
     ORDERED: OrderPainter,
+    LISTS: _where_able(ListPainter),
+    LINED: _where_able(LinedPainter),
 }
 
 
@@ -30,4 +52,6 @@ def of(technique: Parameters) -> tuple[str, ...]:
         return (ORDERED,)
     if rules.painter == REMOVAL and rules.edges(technique):
         return (REMOVAL, GHOSTS)
+    if rules.painter == PEELS:
+        return (LINED if rules.edges(technique) else LISTS,)
     return (rules.painter,)

@@ -16,7 +16,7 @@ from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms, draw, numbers
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.gpu.rules.scope import scope_of
 from seethrough.renderer.scene.visibility import Drawn
 
 # Texture units, beyond those of a rule's pictures.
@@ -100,7 +100,7 @@ class PeelPainter:
             self._buffers = _Buffers(context, size, self._ids, bool(lines))
         buffers = self._buffers
         context.copy_framebuffer(buffers.opaque, target.framebuffer)
-        scope = _scope(frame, size)
+        scope = scope_of(frame, size)
         for framebuffer in (*buffers.layers, buffers.total, buffers.lines, target.framebuffer):
             framebuffer.scissor = scope
         shader = self._programs.ready(ruled)
@@ -157,14 +157,6 @@ class PeelPainter:
         self._context.enable_only(moderngl.BLEND)
         pipeline.blend(self._context, how)
         self._screen.render(moderngl.TRIANGLES, 3)
-
-
-def _scope(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]:
-    """What the ruled objects can cover, as OpenGL's x, y (up), width, height."""
-    boxes = frame.boxes.extents[frame.ruled]
-    left, top = np.clip(np.floor(boxes[:, :2].min(axis=0)) - 1, 0, size).astype(int).tolist()
-    right, bottom = np.clip(np.ceil(boxes[:, 2:].max(axis=0)) + 1, 0, size).astype(int).tolist()
-    return (left, size[1] - bottom, max(right - left, 1), max(bottom - top, 1))
 
 
 def _drawn(

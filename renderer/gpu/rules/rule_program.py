@@ -10,12 +10,14 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.gpu.device.context import REQUIRED
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.techniques.base import Parameters, Shot
+from seethrough.renderer.scene.projection import screen_boxes
+from seethrough.renderer.techniques.base import Parameters, Plain, Shot
 
 PICTURES = 5  # the first texture unit of a rule's pictures
 
@@ -36,8 +38,10 @@ class Ruled:
 class RulePrograms:
     """The programs of all techniques that were drawn, and their pictures."""
 
-    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
-        self._context, self._defines = context, list(defines)
+    def __init__(
+        self, context: moderngl.Context, defines: Sequence[str], version: int = REQUIRED
+    ) -> None:
+        self._context, self._defines, self._version = context, list(defines), version
         self._programs: dict[str, Shader] = {}
         self._pictures: dict[str, moderngl.Texture] = {}
         self._depth = program(context, "object.vert", "view_depth.frag")
@@ -48,11 +52,15 @@ class RulePrograms:
         the technique needs to know the targets' depth."""
         technique, state, shot, table = ruled.technique, ruled.state, ruled.shot, ruled.table
         rules = technique.technique
-        needed = self.needed(table, technique, shot, ruled.matrix)
+        # What a rule needs as it is drawn stays on the GPU; what it makes pictures of comes down.
+        direct = rules.needs and getattr(type(rules), "pictures", None) is Plain.pictures
+        needed = {} if direct else self.needed(table, technique, shot, ruled.matrix)
+        if direct:
+            self._draw_target_depth(table, shot, ruled.matrix)
         if rules.glsl not in self._programs:
             values = {"rule": rules.glsl}
             self._programs[rules.glsl] = program(
-                self._context, "object.vert", "rule.frag", self._defines, values=values
+                self._context, "object.vert", "rule.frag", self._defines, self._version, values
             )
         shader = self._programs[rules.glsl]
         use(shader, shot.camera, ruled.matrix)
@@ -62,6 +70,13 @@ class RulePrograms:
             if name in shader.members:
                 member: Any = shader[name]
                 member.value = value
+        shader.set(upright=not direct)
+        if direct:
+            depths = self._framebuffers[shot.size].color_attachments[0]
+            assert isinstance(depths, moderngl.Texture)
+            depths.use(PICTURES)
+            shader.set(target_depth=PICTURES)
+            return shader
         pictures = rules.pictures(technique, state, shot, needed)
         for unit, (name, picture) in enumerate(sorted(pictures.items()), PICTURES):
             if name in shader.members:
@@ -84,29 +99,37 @@ class RulePrograms:
             texture = kept(self._context.texture(size, 1, dtype="f4"))
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
             self._pictures[name] = texture
-        rows = np.ascontiguousarray(picture[::-1], dtype="f4")
-        self._pictures[name].write(rows)
+        self._pictures[name].write(np.ascontiguousarray(picture, dtype="f4"))
         return self._pictures[name]
 
     def _target_depth(self, table: SceneTable, shot: Shot, matrix: bytes) -> NDArray[np.float32]:
         """(h, w) view depth of the farthest front-facing surface of a target; 0 where there is
         none."""
+        framebuffer = self._draw_target_depth(table, shot, matrix)
+        data = framebuffer.read(components=1, dtype="f4", alignment=1)
+        return np.frombuffer(data, "f4").reshape(shot.size[1], shot.size[0])[::-1]
+
+    def _draw_target_depth(
+        self, table: SceneTable, shot: Shot, matrix: bytes
+    ) -> moderngl.Framebuffer:
         if shot.size not in self._framebuffers:
             for old in self._framebuffers.values():
                 old.release()
             texture = self._context.texture(shot.size, 1, dtype="f4")
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
             depth = self._context.depth_renderbuffer(shot.size)
             self._framebuffers = {shot.size: self._context.framebuffer([texture], depth)}
         framebuffer = self._framebuffers[shot.size]
         framebuffer.clear(depth=0.0)
         framebuffer.use()
-        targets = np.nonzero(shot.scene.targets)[0]
+        scene = shot.scene
+        inside = screen_boxes(scene.corners, shot.camera, shot.size).inside
+        targets = np.nonzero(scene.targets & inside)[0]
         sequence, runs = table.sequence([targets], shot.camera)
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = ">"
         draw(self._context, self._depth, table, sequence, runs[0], shot.camera, matrix)
-        data = framebuffer.read(components=1, dtype="f4", alignment=1)
-        return np.frombuffer(data, "f4").reshape(shot.size[1], shot.size[0])[::-1]
+        return framebuffer
 
 
 def use(shader: Shader, camera: Camera, matrix: bytes) -> None:

@@ -8,11 +8,9 @@ in them. Nothing gradual is about a target: its neighbourhood stays as it is.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
@@ -81,16 +79,6 @@ float opacity_of(Surface s) {{
         """How sparse."""
         style = {"least": p.least, "door": p.style == "screen door"}
         return {**super().uniforms(p, state, shot), **style}
-
-    def pictures(
-        self,
-        p: ImportanceParameters,
-        state: None,
-        shot: Shot,
-        needed: Mapping[str, NDArray[np.float32]],
-    ) -> Mapping[str, NDArray[np.float32]]:
-        """The targets' depth."""
-        return needed
 
 
 TECHNIQUE = Importance()

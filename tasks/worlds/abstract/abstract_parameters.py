@@ -14,6 +14,7 @@ from seethrough.tasks.kit.tags import KindTag
 from seethrough.tasks.kit.world import scenes
 
 SHAPES = ("sphere", "cone", "box", "torus")
+FILLS = ("cube", "things")
 PALETTES = ("published", "colour-blind-safe")
 
 
@@ -53,6 +54,10 @@ class AbstractParameters:
     start_pitch: float = key(
         0.35, "how far from above the first view looks down", "radians", low=-pi / 2, high=pi / 2
     )
+    fills: str = key(
+        "cube", "what the first view holds: the cube, or the sphere about the things, which "
+        "touches the smaller side of the window", choices=FILLS,
+    )  # fmt: skip
     drag_gain: float = key(
         pi, "turn for a drag over the height of the view", "radians", low=0.1, high=20
     )

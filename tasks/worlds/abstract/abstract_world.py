@@ -33,7 +33,11 @@ class Abstract:
 
     def viewer(self, place: Cloud, parameters: AbstractParameters, aspect: float) -> Orbit:
         """Far enough away to see all of it."""
-        return orbit(parameters, aspect)
+        scene = place.scene
+        if parameters.fills == "cube" or not scene.objects:
+            return orbit(parameters, aspect)
+        reach = np.linalg.norm(scene.centers, axis=1) + scene.radii
+        return orbit(parameters, aspect, reach=float(reach.max()))
 
     def views(self, parameters: AbstractParameters, first: Camera) -> list[Camera]:
         """From around the world at the orbit's distance: level, above and below in turn."""

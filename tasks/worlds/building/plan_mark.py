@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from seethrough.renderer.events import Event, KeyPress, PointerPress
-from seethrough.tasks.kit.hud import Button, Element, FloorPlan, Point, Rect
+from seethrough.tasks.kit.hud import Button, Element, FloorPlan, Label, Point, Rect
 from seethrough.tasks.worlds.building.building import Building
 
 SIZE, TOP = 0.78, 0.1
 BUTTON = (0.22, 0.07)
+BESIDE, WORDS = 0.035, 0.026  # from a sign to its words, and their height
 STEPS = 32  # arrow keys move the mark by one part in so many of the building's side
 
 
@@ -17,7 +18,8 @@ STEPS = 32  # arrow keys move the mark by one part in so many of the building's 
 class PlanMark:
     """A mark in world units (x, z), or none yet, and whether it has been confirmed.
 
-    `hint` says why the last click or key did nothing.
+    `hint` says why the last click or key did nothing. `start` (x, z) and `here`, a place and a
+    point before it, are shown on the plan if they are there.
     """
 
     aspect: float
@@ -25,6 +27,8 @@ class PlanMark:
     mark: Point | None = None
     confirmed: bool = False
     hint: str = ""
+    start: Point | None = None
+    here: tuple[Point, Point] | None = None
 
     @property
     def rect(self) -> Rect:
@@ -81,14 +85,25 @@ class PlanMark:
         return (rect.x + (x + self.side / 2) * scale, rect.y + (z + self.side / 2) * scale)
 
     def elements(self, building: Building) -> tuple[Element, ...]:
-        """The plan with its mark, all in view units, and the button."""
-        return (self.plan(building), Button("button.confirm", self.button))
+        """The plan with its mark, all in view units, the button, and words beside where one began
+        and is."""
+        words: list[Label] = []
+        if self.start is not None:
+            x, y = self.on_view(*self.start)
+            words.append(Label("plan.start", (x + BESIDE, y - WORDS / 2), WORDS))
+        if self.here is not None:  # on the other side: one may be where one began
+            x, y = self.on_view(*self.here[0])
+            words.append(Label("plan.here", (x - BESIDE, y - WORDS / 2), WORDS, "right"))
+        return (self.plan(building), Button("button.confirm", self.button), *words)
 
     def plan(self, building: Building, place: Point | None = None) -> FloorPlan:
         """The plan with its mark; where the answer is shown, with the true `place` (x, z) too."""
         lines = tuple((self.on_view(*a), self.on_view(*b)) for a, b in wall_lines(building))
         mark = None if self.mark is None else self.on_view(*self.mark)
-        return FloorPlan(self.rect, lines, mark, None if place is None else self.on_view(*place))
+        true = None if place is None else self.on_view(*place)
+        start = None if self.start is None else self.on_view(*self.start)
+        here = self.here and (self.on_view(*self.here[0]), self.on_view(*self.here[1]))
+        return FloorPlan(self.rect, lines, mark, true, start, here)
 
 
 def wall_lines(building: Building) -> list[tuple[Point, Point]]:

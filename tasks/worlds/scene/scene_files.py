@@ -31,6 +31,7 @@ def named(p: SceneParameters) -> dict[str, str]:
 def found(p: SceneParameters, folder: Path) -> SceneParameters:
     """The parameters with their files, which lie in the folder, read and hashed; all that they say
     of the files is checked. Raises FileFaults, all that is wrong."""
+    pinned = p.sha256
     p = replace(p, folder=str(folder), sha256=(), reader=READER)
     hashes, faults = [], []
     for number, file in enumerate(p.files):
@@ -38,6 +39,7 @@ def found(p: SceneParameters, folder: Path) -> SceneParameters:
             hashes.append(read(p, file).digest)
         except (ValueError, OSError) as error:
             faults.append(_of_file(p, number, error))
+    faults += [] if faults else _another(p, pinned, hashes)
     if faults:
         raise FileFaults(faults)
     p = replace(p, sha256=tuple(hashes))
@@ -64,6 +66,18 @@ def _of_file(p: SceneParameters, number: int, error: Exception) -> FileFault:
     return FileFault(f"files[{number}]", p.files[number], said)
 
 
+def _another(p: SceneParameters, said: Sequence[str], hashes: Sequence[str]) -> Iterator[FileFault]:
+    """Files that are not those that the study says, or one file by two names."""
+    for number, (expected, own) in enumerate(zip(said, hashes, strict=False)):
+        if expected != own:
+            yield FileFault(f"sha256[{number}]", expected, f"expected {own}, which the file has")
+    paths = [path_of(p, file).resolve() for file in p.files]
+    for number, path in enumerate(paths):
+        if path in paths[:number]:
+            first = p.files[paths.index(path)]
+            yield FileFault(f"files[{number}]", p.files[number], f"expected another file: {first}")
+
+
 def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileFault]:
     """What is said of things and cameras that there are not."""
     names = list(dict.fromkeys(name for place in places for name in place.names))
@@ -75,6 +89,11 @@ def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileF
             yield _no_camera("start", p.start, place)
     by_file = {place.file: place for place in places}
     for number, item in enumerate(p.items):
+        if item in p.items[:number]:
+            first = p.items.index(item)
+            yield FileFault(
+                f"items[{number}].ask", item.ask, f"expected another than items[{first}]"
+            )
         own = by_file.get(item.file) if item.file or len(places) > 1 else places[0]
         if own is None:
             said = f"expected one of {', '.join(p.files)[:100]}"
@@ -119,6 +138,11 @@ def kept_in(p: SceneParameters, folder: Path) -> SceneParameters:
         if not path.is_file():
             said = f"expected the scene as it was shown, in {path}"
             faults.append(FileFault(f"files[{number}]", file, said))
+            continue
+        try:
+            read(p, file)
+        except (ValueError, OSError) as error:
+            faults.append(FileFault(f"files[{number}]", file, f"expected what was kept: {error}"))
     if faults:
         raise FileFaults(faults)
     return p

@@ -8,7 +8,8 @@ from made_data import Made, make_folder
 from scipy import stats
 
 from seethrough.analysis.comparison import Pair, compare, compare_logs
-from seethrough.analysis.equivalence import Margin, equivalence, log_equivalence
+from seethrough.analysis.design import Measured
+from seethrough.analysis.equivalence import Margin, equivalence, log_equivalence, margin_of
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load.plan import make_plan
 from seethrough.analysis.load.study import load_study
@@ -166,3 +167,17 @@ def test_a_plan_that_makes_no_sense_is_one_line(tmp_path, analysis, line):
     folder = make_folder(tmp_path / "d", Made(participants=2, trials=1, config=config))
     with pytest.raises(DataError, match=line.replace("'", ".").replace("(", ".")):
         make_report(folder, Options())
+
+
+@pytest.mark.parametrize(
+    ("more", "margin"),
+    [
+        ({}, None),
+        ({"margin": 2.0}, Margin(2.0)),
+        ({"margin": 1.2, "ratio": True}, Margin(1.2, ratio=True)),
+        ({"margin": 1.2, "log": True}, Margin(1.2, ratio=True)),
+        ({"margin": 2.0, "direction": "more"}, Margin(2.0, more=True)),
+    ],
+)
+def test_a_margin_is_a_ratio_where_the_study_says_so_or_logarithms_are_compared(more, margin):
+    assert margin_of(Measured("time", "time", **more)) == margin

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from made_designs import DESIGNS, OFF, TIME, Design, factor, make_design
 
+from seethrough.analysis.design import Design as Varied
+from seethrough.analysis.design import Factor, Measured, Prediction, Task
 from seethrough.analysis.page.blocks import Table, walk
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.report import Options, make_report
+from seethrough.analysis.sections.summary import _words
 
 VIEW = factor("view", "plain", "cut", "lens")
 
@@ -52,6 +57,7 @@ def test_a_prediction_of_times(tmp_path, prediction, verdict):
     row = tables["predictions"].row("H1")
     assert row["verdict"] == verdict
     assert f": {verdict}" in first.replace("\\", "") and "> H1, " in first
+    assert not re.search(r"\bp (= [<>\\]|[.\d])", first)  # "p = .03" and "p < .001" alone
 
 
 def test_all_is_decided_by_the_largest_p_and_any_by_holm(tmp_path):
@@ -93,3 +99,25 @@ def test_groups_are_judged_by_welch(tmp_path):
     row = tables["contrasts_log_time"].row("find/training=criterion")
     assert tables["predictions"].row("H1")["p"] == row["p"]
     assert "H1: fourteen came" in tables["predictions"].note
+
+
+TRANSPARENCY = Factor("transparency", "within", ("standard", "dynamic", "half"), "standard")
+COUNT = Task("count", "T1", (Measured("time", "time"), Measured("off", "error", label="error")))
+
+
+@pytest.mark.parametrize(
+    ("expect", "more", "said"),
+    [
+        ("less", {}, "time less with dynamic or half than standard (transparency)"),
+        ("more", {"level": "half"}, "time more with half than standard (transparency)"),
+        ("not worse", {"level": "half"}, "time not worse with half than standard (transparency)"),
+        ("different", {"level": "half"}, "time different with half and standard (transparency)"),
+        ("at least", {"contrast": "", "value": 0.9}, "time at least 0.9"),
+        ("less", {"measures": ("error", "gone_by"), "level": "half"},
+         "error, gone by less with half than standard (transparency)"),
+    ],
+)  # fmt: skip
+def test_a_prediction_without_a_text_says_what_it_expects_of_which_levels(expect, more, said):
+    values = {"measures": ("time",), "contrast": "transparency", **more}
+    prediction = Prediction("P1", "", expect=expect, **values)
+    assert _words(SimpleNamespace(design=Varied((TRANSPARENCY,), (COUNT,))), prediction) == said

@@ -10,6 +10,7 @@ import pytest
 from scipy import stats
 
 from seethrough.analysis.stats.ranks import (
+    SignedRank,
     friedman,
     post_hoc,
     ranks,
@@ -126,3 +127,14 @@ def test_the_studentised_range_agrees_with_scipy(q, k):
 
     expected = stats.studentized_range.sf(q, k, np.inf)
     assert studentized_range_tail(q, k) == pytest.approx(expected, abs=1e-9)  # scipy's own error
+
+
+def test_where_no_two_levels_differ_there_is_no_signed_rank_and_nothing_to_correct():
+    gone = Undefined("all differences are zero")
+    assert signed_rank(np.zeros(5)) == SignedRank(0, gone, gone, "")
+    y = np.random.default_rng(2).standard_normal((12, 3))
+    y[:, 1] = y[:, 0]
+    same, *others = post_hoc(y)
+    assert same.signed == SignedRank(0, gone, gone, "") and same.holm_p == gone
+    assert others[0].signed.p == others[1].signed.p  # both are column 0 − column 2
+    assert [p.holm_p for p in others] == [min(1.0, 2 * others[0].signed.p)] * 2

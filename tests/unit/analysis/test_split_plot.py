@@ -5,9 +5,12 @@ References: afex 1.2.1, base R 4.2.2 and exactRankTests, by tests/data/statistic
 
 from __future__ import annotations
 
+from math import comb, prod
+
 import numpy as np
 import oracles
 import pytest
+from scipy import stats
 
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.contrasts import estimate, trend, within_margin
@@ -143,8 +146,30 @@ def test_ranks_of_groups_are_kruskal_and_walliss(data):
     level = y.reshape(len(y), -1).mean(axis=1)
     found = kruskal_wallis([level[codes[:, 0] == g] for g in range(3)], np.random.default_rng(1))
     assert (found.h, found.p) == pytest.approx((R["kruskal h"], R["kruskal p"]), rel=1e-9)
-    # the permutation p is near χ² at this size, and drawn: four Monte-Carlo errors of 20,000
+    # the permutation p is near χ² at this size, within .015, and drawn: four errors of 20,000
     assert found.exact == pytest.approx(found.p, abs=0.03) and "permutations" in found.method
+
+
+@pytest.mark.parametrize("ones", [(4, 1, 0), (3, 2, 0), (2, 2, 1)])
+@pytest.mark.parametrize("sizes", [(7, 7, 7), (90, 110, 100)])
+def test_three_groups_of_yes_and_no_have_the_p_of_all_ways_to_deal_the_yes(ones, sizes):
+    """Of 5 yes among n: each way (a, b, c) has Π C(size, own) / C(n, 5); as far as the observed one
+    or farther by Σ own² / size, in whole numbers, for that alone varies in H."""
+    groups = [np.repeat([1.0, 0.0], [k, n - k]) for k, n in zip(ones, sizes, strict=True)]
+    found = kruskal_wallis(groups, np.random.default_rng(3))
+
+    def far(ways):
+        return sum(k * k * prod(sizes) // n for k, n in zip(ways, sizes, strict=True))
+
+    every = [(a, b, 5 - a - b) for a in range(6) for b in range(6 - a)]
+    chance = {ways: prod(map(comb, sizes, ways)) / comb(sum(sizes), 5) for ways in every}
+    p = min(1.0, sum(c for ways, c in chance.items() if far(ways) >= far(ones)))
+    error = np.sqrt(p * (1 - p) / 20_000)  # of the drawn share; one is added above and below
+    counts = [[k, n - k] for k, n in zip(ones, sizes, strict=True)]
+    pearson = stats.chi2_contingency(counts, correction=False).statistic
+    assert found.h == pytest.approx(pearson * (sum(sizes) - 1) / sum(sizes), rel=1e-9)
+    assert found.method == "20000 permutations"
+    assert found.exact == pytest.approx(p, abs=4 * error + 1 / 20_000)
 
 
 def test_two_groups_with_ties_are_enumerated():
@@ -174,3 +199,13 @@ def test_welch_keeps_its_size_where_the_pooled_error_does_not():
     error = np.sqrt(0.05 * 0.95 / runs)
     assert ours < 0.06 + 3 * error  # definitions of this analysis: .05 to .06 for groups of four
     assert pooled > 0.15
+
+
+@pytest.mark.parametrize(
+    ("x", "quadratic"),
+    [((0, 1, 2), (1, -2, 1)), ((0, 2, 1), (1, 1, -2)), ((3, 1, 2), (1, 1, -2)),
+     ((1, 2, 3, 4), (1, -1, -1, 1)), ((2, 1, 4, 3), (-1, 1, 1, -1))],
+)  # fmt: skip
+def test_a_quadratic_trend_opens_upwards_whatever_the_order_of_the_levels(x, quadratic):
+    w = np.array(quadratic, float)
+    assert trend(x, 2) == pytest.approx(w / np.sqrt((w**2).sum()), abs=1e-12)

@@ -8,16 +8,9 @@ from designs import designs, played
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from seethrough.experiment.study.design.balance import counted, cycle, repeated
-from seethrough.experiment.study.design.design import (
-    CellPlan,
-    Design,
-    conditions,
-    design,
-    items,
-    session_for,
-    squares,
-)
+from seethrough.experiment.study.design import conditions, design, items, squares
+from seethrough.experiment.study.design.balance import Met, counted, cycle, repeated
+from seethrough.experiment.study.design.design import CellPlan, Design, session_for
 from seethrough.experiment.study.design.factors import Factor, Level
 
 MOST_SLOTS = 400  # of a complete cycle that is played
@@ -149,3 +142,9 @@ def test_a_broken_generator_is_noticed(monkeypatch, request, where, name, broken
     squares.square.cache_clear()
     request.addfinalizer(squares.square.cache_clear)
     assert any(c.what == what and c.uneven for c in counted(made, played(made, slots)))
+
+
+def test_who_meets_an_item_twice_is_named_and_nobody_else():
+    met = [Met(slot, 1, {}, "count", scene) for slot, scene in
+           ((1, "A"), (2, "A"), (2, "B"), (3, "B"), (2, "A"))]  # fmt: skip
+    assert repeated(None, met) == ["slot 2: A 2 times"]

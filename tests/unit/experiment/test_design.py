@@ -2,6 +2,7 @@
 
 import hashlib
 from collections import Counter
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -10,9 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design.design import generator, session_for
+from seethrough.experiment.study.design.design import CellPlan, Design, generator, session_for
+from seethrough.experiment.study.design.factors import BETWEEN, Factor, Level, every_cell
 from seethrough.experiment.study.design.items import letters, rotation
-from seethrough.experiment.study.design.squares import latin_rows, square, williams_rows
+from seethrough.experiment.study.design.squares import MIXED, latin_rows, square, williams_rows
 
 PUBLISHED = load("published").plan
 BEFORE = "7bff85ab6bbae8c07520eb60501753e1a68649f0351a8d05459d9d66455dffca"
@@ -149,3 +151,93 @@ def test_a_stream_gives_the_same_numbers_again_and_neighbours_differ():
 def test_slots_start_at_one():
     with pytest.raises(ValueError, match="slot = 0, expected at least 1"):
         session_for(0, PUBLISHED)
+
+
+def plain_levels(*names):
+    return tuple(Level(name) for name in names)
+
+
+def of_factors(*factors, practice=0, people=8, shared=False, trials=2):
+    plan = CellPlan("abstract", ("count",), trials, practice, shared)
+    return Design(factors, dict.fromkeys(every_cell(factors), plan), "williams", people)
+
+
+def test_places_fill_in_step_with_what_each_group_still_needs():
+    """Two wanted of one group, six of the other: one person in four goes to the first."""
+    group = Factor("group", plain_levels("few", "many"), BETWEEN, people=(2, 6))
+    design = of_factors(group)
+    # (group, number): slot 1 + group + 2 (number − 1); a tie is the first group's
+    assert design.slots(8) == [1, 2, 4, 6, 3, 8, 10, 12]
+
+
+def test_practice_meets_the_mixed_cells_in_turn():
+    mixed = Factor("size", plain_levels("small", "large"), order=MIXED)
+    (task_set,) = session_for(1, of_factors(mixed, practice=5))
+    met = [t.levels["size"] for t in task_set.training]
+    assert sorted(Counter(met).values()) == [2, 3]
+    assert all(a != b for a, b in pairwise(met))
+    assert len({(t.stream, t.levels["size"]) for t in task_set.training}) == 5
+    whole = [t.levels["size"] for t in task_set.trials]
+    assert Counter(whole) == {"small": 2, "large": 2}
+
+
+def test_a_scene_is_drawn_again_as_often_as_it_is_named():
+    """Each time from another stream: its last word counts how often."""
+    plain = of_factors(Factor("size", plain_levels("a", "b")), shared=True)
+
+    def streams(*redraw):
+        sets = session_for(1, replace(plain, redraw=redraw))
+        return {t.scene: t.stream for s in sets for t in s.trials}
+
+    scene, *others = before = streams()
+    for times in (1, 2, 3):
+        after = streams(*[scene] * times)
+        assert after[scene] == (*before[scene], times)
+        assert [after[name] for name in others] == [before[name] for name in others]
+
+
+@pytest.mark.parametrize(("outer", "inner"), [(2, 2), (2, 4), (4, 2)])
+def test_orders_that_nest_cross_each_row_of_one_with_each_of_the_other(outer, inner):
+    a = Factor("a", plain_levels(*"stuv"[:outer]), order="williams")
+    b = Factor("b", plain_levels(*"wxyz"[:inner]), order="latin")
+    met = Counter()
+    for slot in range(1, outer * inner + 1):
+        blocks = [s.trials[0].levels for s in session_for(slot, of_factors(a, b))]
+        of_a = tuple(dict.fromkeys(levels["a"] for levels in blocks))
+        of_b = {tuple(at["b"] for at in blocks if at["a"] == one) for one in of_a}
+        assert len(of_b) == 1  # the same within each level of the outer factor
+        met[of_a, of_b.pop()] += 1
+    assert len(met) == outer * inner and set(met.values()) == {1}
+
+
+def test_branches_of_unequal_size_begin_again_together():
+    """Two levels within one, three within the other: 2 outer rows × lcm(2, 3) slots."""
+    a, b = (
+        Factor("a", plain_levels("s", "t")),
+        Factor("b", plain_levels("x", "y", "z"), order="latin"),
+    )
+    gone = ({"a": "s", "b": "z"},)
+    plan = CellPlan("abstract", ("count",), 1, 0)
+    design = Design((a, b), dict.fromkeys(every_cell((a, b), gone), plan), "williams", 12, 0, gone)
+    assert design.rows(0) == 12
+    met = {"s": Counter(), "t": Counter()}
+    for slot in range(1, 13):
+        blocks = [s.trials[0].levels for s in session_for(slot, design)]
+        first = blocks[0]["a"]
+        for one, counts in met.items():
+            counts[first, tuple(at["b"] for at in blocks if at["a"] == one)] += 1
+    assert sorted(met["s"].values()) == [3] * 4 and sorted(met["t"].values()) == [2] * 6
+
+
+def test_random_orders_within_levels_are_drawn_for_each_level_anew():
+    """The same in all three only by chance: in 1 of 36 slots, so not in a third of 60."""
+    a = Factor("a", plain_levels("s", "t", "u"))
+    b = Factor("b", plain_levels("x", "y", "z"), order="random")
+    alike, orders = 0, Counter()
+    for slot in range(1, 61):
+        blocks = [s.trials[0].levels for s in session_for(slot, of_factors(a, b))]
+        within = [tuple(at["b"] for at in blocks if at["a"] == one) for one in "stu"]
+        alike += len(set(within)) == 1
+        orders.update(within)
+    assert alike < 20
+    assert len(orders) == 6  # of 180 draws each of the six orders: missing one has 6 (5/6)^180

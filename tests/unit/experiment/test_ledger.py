@@ -421,3 +421,13 @@ def test_a_station_waits_as_impatiently_at_the_end_as_at_the_beginning(tmp_path,
         assert at.exec_driver_sql("PRAGMA busy_timeout").scalar_one() == 100
     first.dispose()
     second.dispose()
+
+
+def test_beyond_its_quota_a_group_has_places_only_once_every_group_has_all():
+    groups = [Places(1, 1, {"age": age}, {"age": age}) for age in ("young", "old")]
+    young = {"age": "young"}
+    assert next_slot((), (), groups, young) == 1
+    assert next_slot((), {1}, groups, young) is None  # nobody old has come yet
+    assert next_slot({2}, {1}, groups, young) is None  # nor gone through with it
+    assert next_slot((), {1, 2}, groups, young) == 3
+    assert next_slot((), {1}, groups, {"age": "old"}) == 2

@@ -27,8 +27,9 @@ WORLDS = {
 
 
 @pytest.mark.parametrize("task", WORLDS)
-def test_no_scene_is_one_line_for_every_command(task, tmp_path, capsys):
+def test_no_scene_is_one_line_for_every_command(task, tmp_path, capsys, monkeypatch):
     """`check` and `render` beforehand, people that are drawn, and those of data mode."""
+    monkeypatch.chdir(tmp_path)  # where `check` puts its sheet
     world, message = WORLDS[task]
     head, _, rest = SMALL.partition("[world.abstract]")
     rest = rest[rest.index("[practice]") :]

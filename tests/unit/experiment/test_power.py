@@ -18,7 +18,7 @@ from seethrough.experiment.power import effects
 from seethrough.experiment.power.closed import interval_of, needed, signed_power
 from seethrough.experiment.power.decisions import Part, Planned, Results, Test, decide, run
 from seethrough.experiment.power.planned import plans_of
-from seethrough.experiment.power.power import curve
+from seethrough.experiment.power.power import Point, curve, enough
 from seethrough.experiment.power.sources import Normal, Sampled, sizes
 from seethrough.experiment.study.config import load
 
@@ -255,3 +255,42 @@ def test_bad_effects_are_refused_in_a_line(effect, more, message):
 def test_printed_numbers_are_for_the_published_study_alone():
     with pytest.raises(InputError, match="--effect = published: expected the published study's"):
         effects.effect_of(load("clutter"), "published", None, None)
+
+
+@pytest.mark.parametrize(
+    ("more", "value", "said"),
+    [
+        ({"log": True}, log(2), "ratio 0.5"),  # twice as long with the baseline
+        ({"unit": "s"}, 2.0, "-2 s"),  # scores are baseline − level, and it says level − baseline
+        ({}, 0.0, "+0"),
+        ({"single": True}, 2.0, "2"),  # no difference: its own value
+    ],
+)
+def test_a_true_estimate_is_said_as_the_report_does(more, value, said):
+    assert effects._said(Test("of a measure", 0, **more), value) == said
+
+
+@pytest.mark.parametrize(
+    ("powers", "least"),
+    [
+        ({5: 0.85, 10: 0.79, 20: 0.8, 40: 0.9}, 20),  # 5 was luck: with 10 it fell again
+        ({40: 0.9, 5: 0.3, 20: 0.8}, 20),  # whatever the order that they stand in
+        ({5: 0.9, 10: 0.79}, None),
+        ({5: 0.8}, 5),
+    ],
+)
+def test_people_are_enough_from_where_power_stays_at_80_percent(powers, least):
+    points = [Point("P1", n, power, 0, 1, 0) for n, power in powers.items()]
+    assert enough([*points, Point("P2", 5, 0.1, 0, 1, 0)]) == {"P1": least, "P2": None}
+
+
+def test_one_test_that_is_significant_the_other_way_is_against():
+    """Three studies: one test of two against, both, neither significant."""
+    size, there = np.ones(3), np.ones(3, bool)
+    first = Results(np.array([0.01, 0.01, 0.5]), size, np.array([-1, -1, -1]), there)
+    second = Results(np.array([0.5, 0.01, 0.5]), size, np.array([1, -1, -1]), there)
+    for any_ in (False, True):
+        planned = Planned("P1", "", (Test("a", 0), Test("b", 1)), any_)
+        found = decide(planned, [first, second], 0.05)
+        assert found.against.tolist() == [True, True, False]
+        assert not found.supported.any()

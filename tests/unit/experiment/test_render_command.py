@@ -37,6 +37,11 @@ def test_a_picture_is_written_and_explained(tmp_path, capsys):
         (["--seed", "-1"], "--seed = -1: expected a number ≥ 0"),
         (["--samples", "99"], "--samples = 99: expected a number from 0 to 16"),
         (["--set", "mask=square"], "mask = 'square', expected one of"),
+        (["--set", "mask=[['a']]"], "mask = [['a']], expected one of"),
+        (["--set", "exact=yes"], "exact = 'yes', expected true or false"),
+        (["--set", "exact=1"], "exact = 1, expected true or false"),
+        (["--technique", "see_through", "--set", "kinds=3"], "kinds = 3, expected an array of tex"),
+        (["--technique", "see_through", "--set", "kinds=[3]"], "kinds = [3], expected an array of"),
         (["--look", "fog=-3"], "look: fog = -3, expected a number from 0 to 1000000"),
         (
             ["--look", "mist=3"],

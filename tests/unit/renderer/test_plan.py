@@ -10,7 +10,15 @@ from sample_scenes import SHAPES, before_column, column, room
 
 from seethrough.renderer.plan.blending import merged_parts
 from seethrough.renderer.plan.explain import explain
-from seethrough.renderer.plan.planner import BLENDED, HARD, OUTSIDE, impenetrable, plan
+from seethrough.renderer.plan.planner import (
+    BLENDED,
+    HARD,
+    OUTSIDE,
+    _counted,
+    impenetrable,
+    order,
+    plan,
+)
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
@@ -122,3 +130,23 @@ def test_parts_are_merged_until_none_overlap():
         assert any((p[:2] <= box[:2]).all() and (p[2:] >= box[2:]).all() for p in parts)
     whole = merged_parts(np.array([[0, 0, 90, 90.0]]), (100, 100))
     assert whole.tolist() == [[0, 0, 100, 100]]
+
+
+@pytest.mark.parametrize(
+    ("tau", "alpha", "counted"),
+    [
+        (0.3, 0.5, [2]),  # log .3 / log .5 = 1.7: one may keep its opacity
+        (0.25, 0.5, []),  # exactly two may
+        (0.3, 1.0, [1, 2]),  # none may
+        (0.3, 0.0, []),  # any number may
+        (0.0, 0.5, []),  # nothing is promised
+    ],
+)
+def test_targets_with_more_in_front_than_leave_enough_light_are_counted(tau, alpha, counted):
+    """0, 1 and 2 things in front of three targets, 3 in front of what is no target."""
+    relation = np.zeros((4, 4), np.int8)
+    for target, number in enumerate(range(4)):
+        relation[:number, target] = order.IN_FRONT
+    masked = np.array([True, True, True, False])
+    technique = DynamicTransparency(alpha_target=alpha, min_transmittance=tau)
+    assert _counted(relation, masked, technique).tolist() == counted

@@ -6,10 +6,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from seethrough.renderer.scene.scene import Object
 from seethrough.tasks.kit.enclosure import bounding_radius, enclosing_pairs
 from seethrough.tasks.kit.letters import LETTERS, grid_reach, letter_points
 from seethrough.tasks.worlds.abstract.abstract_parameters import SHAPES, AbstractParameters
-from seethrough.tasks.worlds.abstract.abstract_scene import RED, abstract_scene, unit_mesh
+from seethrough.tasks.worlds.abstract.abstract_scene import (
+    RED,
+    _disclosed,
+    abstract_scene,
+    placed,
+    unit_mesh,
+)
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -124,8 +131,11 @@ def test_parameters_are_refused_by_name(changes, message):
 
 
 def test_a_letter_that_does_not_fit_is_refused():
-    with pytest.raises(ValueError, match=r"objects = 50, expected enough of them: the letter"):
-        scene_of(1, "R", objects=50)
+    said = r"objects = 50, expected enough of them: the letter takes \d+ red cones, "
+    with pytest.raises(ValueError, match=said + r"target_share allows 10$"):
+        scene_of(1, "R", objects=50, target_share=(0.1, 0.2))
+    with pytest.raises(ValueError, match=said + r"targets allow 5$"):
+        scene_of(1, "R", objects=50, targets=(1, 5))
     with pytest.raises(ValueError, match=r"expected another than the pattern's cones"):
         scene_of(1, "Y", shapes=("cone",))
 
@@ -181,3 +191,23 @@ def test_more_targets_than_objects_are_refused():
     with pytest.raises(ValueError, match=r"targets = \[100, 250\], expected at most `objects`"):
         AbstractParameters(targets=(100, 250))
     assert AbstractParameters(targets=(100, 250), distractors=0).target_range == (100, 250)
+
+
+@pytest.mark.parametrize(
+    ("radii", "fixed", "stay"),
+    [
+        ((2, 4), 0, 1),  # what is enclosed is drawn again: it would never be seen
+        ((2, 4), 1, 0),  # but what keeps its place does, whichever of them it is
+        ((4, 2), 1, 0),
+        ((4, 2), 0, 0),
+    ],
+)
+def test_of_two_balls_in_one_place_the_inner_is_drawn_again_unless_it_is_fixed(radii, fixed, stay):
+    """`radii`: index 0 is the first object; `fixed` of them keep their place."""
+    p = AbstractParameters()
+    ball = unit_mesh("sphere")
+    made = [Object(ball, placed(np.zeros(3), scale=float(r)), RED, kind="sphere")
+            for r in radii]  # fmt: skip
+    found = _disclosed(np.random.default_rng(1), p, list(made), fixed)
+    assert [a is b for a, b in zip(found, made, strict=True)] == [k == stay for k in (0, 1)]
+    assert enclosing_pairs(found) == []

@@ -15,6 +15,7 @@ from seethrough.tasks.locate.locate_task import LocateParameters
 from seethrough.tasks.select.select_task import MARKED, SelectParameters
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+from seethrough.tasks.worlds.scene import scene_place
 from seethrough.tasks.worlds.scene.scene_parameters import Item, SceneParameters
 from seethrough.tasks.worlds.scene.scene_place import opened
 
@@ -127,6 +128,13 @@ def test_what_a_data_folder_keeps_is_the_scene(folder, tmp_path):
         assert (a.target, a.kind, a.group) == (b.target, b.kind, b.group)
     with pytest.raises(FileFaults, match="expected the scene as it was shown"):
         SCENE.kept_in(replace(p, detail=7), kept)
+    (file,) = kept.iterdir()
+    whole = file.read_bytes()
+    for broken in (b"", whole[:100], whole[: len(whole) // 2], b"PK" + bytes(500)):
+        file.write_bytes(broken)
+        scene_place._unpacked.cache_clear()
+        with pytest.raises(FileFaults, match=rf"expected what was kept: .*{file.name}: not a kept"):
+            SCENE.kept_in(p, kept)
 
 
 def test_items_are_every_target_of_every_file_or_those_that_the_study_lists(folder):
@@ -294,3 +302,24 @@ def test_a_scene_of_no_size_that_can_be_drawn_is_refused(tmp_path, unit, at):
     with pytest.raises(FileFaults) as caught:
         read(tmp_path, unit=unit)
     assert "m large: expected from 1e-06 to 1e+09 m; is `unit` right?" in str(caught.value)
+
+
+def test_files_that_a_study_pins_are_held_to_their_hash(folder):
+    own = read(folder).sha256
+    assert read(folder, sha256=own).sha256 == own
+    with pytest.raises(FileFaults) as caught:
+        read(folder, sha256=("0" * 64,))
+    said = f"sha256[0] = {'0' * 64}: expected {own[0]}, which the file has"
+    assert str(caught.value) == said
+
+
+def test_nobody_meets_one_thing_twice_by_two_names(folder):
+    """One file written two ways; one item written twice. From another camera it is another item."""
+    with pytest.raises(FileFaults) as caught:
+        SCENE.found(SceneParameters(("engine.glb", "./engine.glb")), folder)
+    assert str(caught.value) == "files[1] = ./engine.glb: expected another file: engine.glb"
+    twice = (Item("pump.001"), Item("pump.001", start="stand"), Item("pump.001"))
+    with pytest.raises(FileFaults) as caught:
+        read(folder, items=twice)
+    assert str(caught.value) == "items[2].ask = pump.001: expected another than items[0]"
+    assert len(SCENE.items(read(folder, items=twice[:2]))) == 2

@@ -1,0 +1,29 @@
+"""What of the picture the objects of a rule can cover."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seethrough.renderer.errors import CannotDraw
+from seethrough.renderer.plan.planner import FramePlan
+
+Scope = tuple[int, int, int, int]  # as OpenGL has it: x, y (up), width, height
+
+
+def scope_of(frame: FramePlan, size: tuple[int, int]) -> Scope:
+    """The rectangle about the plan's ruled objects, in pixels, at least one of them."""
+    boxes = frame.boxes.extents[frame.ruled]
+    left, top = np.clip(np.floor(boxes[:, :2].min(axis=0)) - 1, 0, size).astype(int).tolist()
+    right, bottom = np.clip(np.ceil(boxes[:, 2:].max(axis=0)) + 1, 0, size).astype(int).tolist()
+    return (left, size[1] - bottom, max(right - left, 1), max(bottom - top, 1))
+
+
+def halves(scope: Scope) -> list[Scope]:
+    """A rectangle in two, one over the other; beside each other where it is one pixel high. Raises
+    CannotDraw for a single pixel."""
+    x, y, width, height = scope
+    if height > 1:
+        return [(x, y, width, height // 2), (x, y + height // 2, width, height - height // 2)]
+    if width > 1:
+        return [(x, y, width // 2, 1), (x + width // 2, y, width - width // 2, 1)]
+    raise CannotDraw("more surfaces at one pixel than a buffer of the driver holds")
