@@ -37,6 +37,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--only", metavar="PART,…", help="some parts of its table alone, where it has parts"
     )
+    parser.add_argument(
+        "--full", action="store_true", help="what takes long as well, where there is such a part"
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table to a file")
     parser.add_argument(
         "--markdown", type=Path, metavar="FILE", help="put the table into a page, as Markdown"
@@ -63,6 +66,8 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(f"bench {args.bench}: {error}; expected it to be installed") from error
     if args.figure is not None and not hasattr(module, "chart"):
         raise InputError(f"--figure = {args.figure}: bench {args.bench} draws none")
+    if args.full and not hasattr(module, "thorough"):
+        raise InputError(f"--full: bench {args.bench} has nothing that takes longer: expected none")
     tables = (
         importlib.import_module("seethrough.benchmarks.tables")
         if args.markdown is not None
@@ -74,7 +79,8 @@ def run(args: argparse.Namespace) -> int:
         except ValueError as error:
             raise InputError(str(error)) from None
     rows = []
-    for row in module.figures(*_only(args.only, module)):
+    measure = module.thorough if args.full else module.figures
+    for row in measure(*_only(args.only, module)):
         rows.append(row)
         print(line(row), flush=True)
     if hasattr(module, "summary"):

@@ -134,8 +134,8 @@ class Ledger:
         with store.exclusive(self._engine) as at:
             if slot is not None and slot < 1:
                 raise InputError(f"--slot = {slot}: expected at least 1")
-            now = self._now(at, now)
             held = self._held(at)
+            now = self._now(at, now, held)
             name = participant or self._free_name(at, taken)
             mine = self._find(at, check_participant(name))
             if mine is not None:
@@ -184,7 +184,7 @@ class Ledger:
         """The slot that the next new participant would get; None if all are live or complete."""
         with store.exclusive(self._engine) as at:
             held = self._held(at)
-            return self._next(held, self._now(at, now))
+            return self._next(held, self._now(at, now, held))
 
     def stale(self, now: datetime) -> tuple[Entry, ...]:
         """Live entries whose slots would be given out again."""
@@ -207,11 +207,11 @@ class Ledger:
         rows = at.execute(query.where(c.status.in_((LIVE, COMPLETE)))).all()
         return Held(*zip(*rows, strict=True)) if rows else Held((), (), ())
 
-    def _now(self, at: Connection, now: datetime) -> datetime:
+    def _now(self, at: Connection, now: datetime, held: Held | None = None) -> datetime:
         """Now as most of the ledger has it; what is live and stamped far ahead was heard of now."""
         c = store.ENTRIES.c
         begun = sql.select(store.STUDIES.c.begun).where(store.STUDIES.c.name == self.plan.study)
-        held = self._held(at)
+        held = self._held(at) if held is None else held
         now = judged(now, [at.execute(begun).scalar_one(), *held.changed])
         ahead = stamp(now + timedelta(seconds=self.plan.stale_after))
         if self.plan.stale_after and held.changed and max(held.changed) > ahead:

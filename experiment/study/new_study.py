@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import sys
+import tomllib
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError
-from seethrough.experiment.study.config import load
+from seethrough.experiment.study.config import parse
+from seethrough.tasks.kit.world import ANYWHERE
 
+LONGEST_TITLE = 200
+Answer = TypeVar("Answer")
 WORKFLOW = """name: study
 on: [push, pull_request]
 jobs:
@@ -19,8 +26,9 @@ jobs:
       - uses: actions/checkout@v4
       - uses: actions/setup-python@v5
         with: {{ python-version: "3.12" }}
-      - run: pip install seethrough
-      - run: sudo apt-get install -y libgl1-mesa-dri libegl1
+      # From where you have seethrough: a repository (git+https://…), or a wheel beside the study.
+      - run: pip install ${{{{ vars.SEETHROUGH || 'seethrough' }}}}
+      - run: sudo apt-get update && sudo apt-get install -y libgl1-mesa-dri libegl1
       - run: seethrough check {name}.toml --balance
       - run: seethrough simulate {name}.toml --participants 4 --out data
       - run: seethrough report data --out report
@@ -33,8 +41,8 @@ STUDY = """# {title}
 
 [study]
 name = "{plain}"
-title = "{title}"
-description = "{title}: a study of how people see past what is in the way."
+title = {quoted}
+description = "A study of how people see past what is in the way." # yours: what it is about
 participants = {people}
 seed = 1 # makes every random choice of scenes and orders; any number will do
 
@@ -75,35 +83,31 @@ Ask = Callable[[str, str], str]
 
 
 def new_study(name: str, folder: Path, yes: bool, ask: Ask | None = None) -> int:
-    """Ask, write the study and its workflow, check what was written. Raises InputError."""
-    said = _proposed if yes or not sys.stdin.isatty() else (ask or _asked)
-    task = _one_of(said, "What do people do?", registry.known("task"), "count")
-    world = registry.get("task", task).worlds[0]
-    known = registry.known("technique")
-    views = said(
-        f"Which techniques, with spaces between? Of {', '.join(known)}", "standard dynamic"
-    )
-    chosen = views.replace(",", " ").split()
-    if len(chosen) < 2 or len(set(chosen)) < len(chosen) or not set(chosen) <= set(known):
-        raise InputError(f"techniques = {views}: expected two or more of {', '.join(known)}")
-    people = said("How many people?", str(4 * len(chosen)))
-    if not (people.isascii() and people.isdecimal() and 1 <= int(people) <= 10_000):
-        raise InputError(f"people = {people}: expected a whole number from 1 to 10000")
-    title = said("What is it called?", f"{', '.join(chosen)} compared").replace('"', "'")
-    levels = "\n".join(f'levels.{view} = {{ technique.use = "{view}" }}' for view in chosen)
-    words = {"name": name, "plain": name.replace("_", ""), "title": title, "people": people,
-             "levels": levels, "world": world, "task": task}  # fmt: skip
+    """Ask, write the study and its workflow, once what is written can be read. An answer that
+    cannot be taken is asked for again. Raises InputError."""
     study, workflow = folder / f"{name}.toml", folder / ".github" / "workflows" / "study.yml"
     for path in (study, workflow):
         if path.exists():
             raise InputError(f"{path}: exists already; expected a new file")
+    said = _proposed if yes or not sys.stdin.isatty() else (ask or _asked)
+    task = _until(said, "What do people do?" + _of(registry.known("task")), "count", _task)
+    techniques = registry.known("technique")
+    question = f"Which techniques, with spaces between?{_of(techniques)}"
+    chosen = _until(said, question, "standard dynamic", partial(_techniques, techniques))
+    people = _until(said, "How many people?", str(4 * len(chosen)), _people)
+    title = _until(said, "What is it called?", f"{', '.join(chosen)} compared", _title)
+    levels = "\n".join(f'levels.{view} = {{ technique.use = "{view}" }}' for view in chosen)
+    words = {"name": name, "plain": name.replace("_", ""), "title": title, "people": people,
+             "quoted": json.dumps(title, ensure_ascii=False), "levels": levels,
+             "world": _world(task), "task": task}  # fmt: skip
+    text = STUDY.format(**words)
+    parse(tomllib.loads(text), str(study))
     try:
         workflow.parent.mkdir(parents=True, exist_ok=True)
-        study.write_text(STUDY.format(**words), "utf-8")
-        workflow.write_text(WORKFLOW.format(name=name), "utf-8")
+        study.write_text(text, "utf-8")
+        workflow.write_text(WORKFLOW.format(**words), "utf-8")
     except OSError as error:
         raise InputError(f"{folder}: {error.strerror}, expected a folder to write to") from None
-    load(str(study))
     print(f"{study}\n{workflow}\nnext: seethrough design {study}")
     return 0
 
@@ -113,11 +117,57 @@ def _proposed(question: str, proposal: str) -> str:
 
 
 def _asked(question: str, proposal: str) -> str:
-    return input(f"{question} [{proposal}] ").strip() or proposal
+    try:
+        return input(f"{question} [{proposal}] ").strip() or proposal
+    except EOFError:
+        raise InputError("new study: no answer, nothing was written: expected one") from None
 
 
-def _one_of(ask: Ask, question: str, known: tuple[str, ...], proposal: str) -> str:
-    said = ask(f"{question} One of {', '.join(known)}", proposal)
+def _until(ask: Ask, question: str, proposal: str, read: Callable[[str], Answer]) -> Answer:
+    """Ask until there is an answer that can be read."""
+    while True:
+        said = ask(question, proposal)
+        try:
+            return read(said)
+        except InputError as error:
+            if ask is _proposed:
+                raise
+            print(error)
+
+
+def _of(known: tuple[str, ...]) -> str:
+    return f" Of {', '.join(known)}"
+
+
+def _task(said: str) -> str:
+    known = registry.known("task")
     if said not in known:
-        raise InputError(f"{said}: expected one of {', '.join(known)}")
+        raise InputError(f"task = {said}: expected one of {', '.join(known)}")
+    return said
+
+
+def _world(task: str) -> str:
+    """The first world that the task can be done in."""
+    worlds = registry.get("task", task).worlds
+    return registry.known("world")[0] if worlds == ANYWHERE else worlds[0]
+
+
+def _techniques(known: tuple[str, ...], said: str) -> list[str]:
+    chosen = said.replace(",", " ").split()
+    if len(chosen) < 2 or len(set(chosen)) < len(chosen) or not set(chosen) <= set(known):
+        raise InputError(f"techniques = {said}: expected two or more of {', '.join(known)}")
+    return chosen
+
+
+def _people(said: str) -> str:
+    if not (said.isascii() and said.isdecimal() and 1 <= int(said[:6]) <= 10_000):
+        raise InputError(f"people = {said}: expected a whole number from 1 to 10000")
+    return said
+
+
+def _title(said: str) -> str:
+    if not said.isprintable() or len(said) > LONGEST_TITLE:
+        raise InputError(
+            f"title = {said[:LONGEST_TITLE]!r}: expected at most {LONGEST_TITLE} letters on a line"
+        )
     return said

@@ -56,6 +56,15 @@ def test_what_vanishes_is_a_share_of_what_one_would_see(warner):
     assert warner.judged(failure.scene, [CAMERA], named("adaptive_cutaway"))[1] == 0.0
 
 
+def test_what_a_technique_adds_is_no_thing_of_the_scene(warner):
+    """A balloon's rods lead back to where things were; what is pushed aside is still there."""
+    failure = failures()["balloon"]
+    count = len(failure.scene.objects)
+    moved = warner._seen(failure.scene, CAMERA, failure.parameters)
+    assert [len(pixels) for pixels in moved] == [count, count]
+    warner.judged(failure.scene, [CAMERA], failure.parameters)
+
+
 def test_an_open_mesh_is_named_where_it_is_cut(warner):
     """And not where nothing is capped, or nothing stands before a target."""
     failure = failures()["cutaway"]

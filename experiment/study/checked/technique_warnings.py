@@ -172,7 +172,8 @@ class Warner:
         if not len(scene.objects):
             return np.zeros(0)
         area = self._renderer.look(scene, camera, p, self._size, state).area
-        return area * self._size[0] * self._size[1]
+        own = area[: len(scene.objects)]  # what a technique adds (a balloon's rods) stands behind
+        return own * self._size[0] * self._size[1]
 
 
 def open_kinds(scene: Scene, touched: Bools) -> set[str]:

@@ -71,7 +71,10 @@ def _group(study: Study, which: int) -> list[str]:
     name = "/".join(group.levels.values())
     session = session_for(plan.slot_of(which, 1), plan)
     trials = [t for s in session for t in s.trials]
-    practice = sum(len(s.training) for s in session)
+    training = [t for s in session for t in s.training]
+    practice = len(training)
+    least = "up to " if any(study.part(t.levels).practice.until for t in training) else ""
+    amount = f"{len(trials)} trials and {least}{practice} to practise"
     orders = dict.fromkeys(
         " → ".join(conditions_of(study, session_for(plan.slot_of(which, n), plan)))
         for n in range(1, min(plan.rows(which), MOST + 1) + 1)
@@ -82,8 +85,7 @@ def _group(study: Study, which: int) -> list[str]:
         f"group      {name or 'everybody'}: {group.people} people, {said}; all that is promised "
         f"is even after {cycle(plan, which)} people",
         *_short(list(orders)),
-        f"           {len(session)} task sets, {len(trials)} trials and {practice} to practise: "
-        f"{', '.join(tasks)}",
+        f"           {len(session)} task sets, {amount}: {', '.join(tasks)}",
         f"items      {_items(trials)}",
         f"minutes    about {minutes(len(trials), practice):.0f} a session, if a trial takes "
         f"{PACE:g} s; the limit is {study.session.limit / 60:.0f}",

@@ -225,7 +225,8 @@ class _Reader:
             return None
         total = sum(each.values())
         if self.people is not None and total != self.people:
-            self.wrong("people", said, f"{self.people} together, as study.participants ({total})")
+            sums = f"(all levels together make {total})"
+            self.wrong("people", said, f"{self.people} in all, as study.participants has it {sums}")
         return tuple(each[name] for name in names)
 
     def _labelled(self, levels: Sequence[Level]) -> tuple[Level, ...]:

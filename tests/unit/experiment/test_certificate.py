@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from seethrough.experiment import cli
+from seethrough.experiment.commands.studies import check as check_command
 from seethrough.experiment.commands.studies.check import smooth
 from seethrough.experiment.session import machine
 from seethrough.experiment.session.machine import FrameTimes
@@ -18,8 +19,9 @@ from seethrough.experiment.study.checked.certificate import (
     matches,
     worst,
 )
-from seethrough.experiment.study.config import parse
+from seethrough.experiment.study.config import load, parse
 from seethrough.experiment.study.design.design import Trial, session_for
+from seethrough.experiment.verdicts import Verdicts
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.camera import look_at
@@ -220,6 +222,33 @@ def test_check_fails_names_the_trial_finds_redraws_and_they_match(
     with open(out, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 4 and all(0 < float(r["visible"]) <= 1 for r in rows)
+
+
+@pytest.mark.parametrize(("seed", "verdict"), [(2008, "WARNING"), (2009, "FAILS")])
+def test_sets_that_differ_fail_but_for_the_published_study_whose_making_they_are(
+    seed, verdict, capsys
+):
+    """That one relied on counterbalancing alone; what it means is said of every study."""
+    study = load("published")
+    study = replace(study, study=study.study.model_copy(update={"seed": seed}))
+    measured = [
+        replace(
+            difficulty("unique", level, 0.5, f"building-{which}-unique-1", path=path),
+            trial=Trial(
+                1, 1, 1, 1, {"transparency": level, "scenario": "walkthrough"}, "unique",
+                f"building-{which}-unique-1", (1,), world="building",
+            ),
+        )
+        for level in ("standard", "dynamic")
+        for which, path in (("A", 38.0), ("B", 110.0))
+    ]  # fmt: skip
+    said = Verdicts()
+    check_command._difficulty(study, measured, standalone(), False, said)
+    line = next(s for s in capsys.readouterr().out.splitlines() if "not matched" in s)
+    assert line.startswith("difficulty  unique, sets: path 38 / 110, apart 97 %")
+    assert verdict_of(line) == verdict and said.found[verdict] == 1
+    assert "each level meets every set equally often over a whole cycle" in line
+    assert ("as in the published study" in line) == (verdict == "WARNING")
 
 
 def test_a_scene_drawn_again_comes_from_another_stream():

@@ -1,10 +1,12 @@
 """design, migrate, prereg, new study, render and check --balance, as their user runs them."""
 
 import csv
+import io
 import re
 
 import pytest
 
+from seethrough import registry
 from seethrough.experiment import cli
 from seethrough.experiment.session import balance_check
 from seethrough.experiment.session.answering import played
@@ -12,6 +14,7 @@ from seethrough.experiment.session.balance_check import refilled, table_of, verd
 from seethrough.experiment.study.config import load, shipped
 from seethrough.experiment.study.design import design, items
 from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.new_study import new_study
 from seethrough.experiment.study.shown.design_page import color
 
 FACTORIAL = ["clutter", "expertise", "livingston2003", "opacity", "published", "training"]
@@ -135,6 +138,31 @@ def test_a_new_study_is_one_that_can_be_checked(tmp_path, capsys):
     assert "seethrough check my_views.toml --balance" in workflow
     assert cli.main(["new", "study", "my_views", str(tmp_path), "--yes"]) == 2
     assert "exists already" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("task", registry.known("task"))
+def test_a_new_study_of_any_task_can_be_checked(task, tmp_path, monkeypatch):
+    """What cannot be taken is asked for again, and nothing is written before the last answer."""
+    monkeypatch.setattr("sys.stdin.isatty", lambda: True)
+    title = 'C:\\ "quoted" é'
+    answers = iter(["x", task, "plain", "standard", "standard, lens", "0", "9" * 30, "12",
+                    "a\x1b[2J", title])  # fmt: skip
+
+    def answer(question, proposal):
+        assert not list(tmp_path.iterdir())
+        return next(answers)
+
+    assert new_study("mine", tmp_path, False, answer) == 0
+    study = load(str(tmp_path / "mine.toml"))
+    assert next(answers, None) is None and study.study.title == title
+    assert (study.study.participants, study.design.tasks) == (12, (task,))
+
+
+def test_a_new_study_nobody_answers_for_is_not_written(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("sys.stdin", io.StringIO(""))
+    monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
+    assert cli.main(["new", "study", "mine", str(tmp_path / "mine")]) == 2
+    assert "nothing was written" in capsys.readouterr().err and not list(tmp_path.iterdir())
 
 
 def test_every_cell_of_a_study_has_a_plate(tmp_path, capsys):

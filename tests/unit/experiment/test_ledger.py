@@ -338,3 +338,26 @@ def test_a_station_that_begins_at_the_same_moment_notes_the_same_address(
     else:
         with pytest.raises(InputError, match=r"--ledger = .*h/b: expected postgresql://a@h/c"):
             ledger_place.settle(tmp_path, url, None)
+
+
+def test_a_station_waits_as_impatiently_at_the_end_as_at_the_beginning(tmp_path, monkeypatch):
+    """Whoever waited longer and longer between tries would starve beside who asks anew."""
+    first, second = (
+        ledger_store.connect(ledger_store.sqlite_url(tmp_path / "l.sqlite")) for _ in range(2)
+    )
+    pauses = []
+    monkeypatch.setattr(ledger_store, "WAIT", 0.1)
+    monkeypatch.setattr(ledger_store.time, "sleep", pauses.append)
+    with (
+        ledger_store.exclusive(first),
+        pytest.raises(InputError, match="locked"),
+        ledger_store.exclusive(second),
+    ):
+        pass
+    assert (
+        set(pauses) == {ledger_store.PAUSE} and len(pauses) == round(0.1 / ledger_store.PAUSE) - 1
+    )
+    with ledger_store.exclusive(second) as at:  # and the wait of everything else is what it was
+        assert at.exec_driver_sql("PRAGMA busy_timeout").scalar_one() == 100
+    first.dispose()
+    second.dispose()
