@@ -51,7 +51,11 @@ def bars_and_differences(
         "height": HEIGHT,
         "layer": _differences(measures, tests),
     }
-    return Figure(key, title, alt, {"hconcat": [left, right]})
+    caption = (
+        f"{title}: means with 95 % within-participant intervals; beside them each participant's "
+        "difference, and their mean with its 95 % interval"
+    )
+    return Figure(key, caption, alt, {"hconcat": [left, right]})
 
 
 def _bars(measures: Sequence[Pair], halves: Sequence[Number], axis: str, words: str) -> Spec:

@@ -55,6 +55,8 @@ def level_means(key: str, title: str, axis: str, cells: Cells, context: Context)
     drawn = [_panel(name, rows, axis, domain, names, factors) for name, rows in panels]
     within = any(len(known) > 1 for f, known in cells.factors.items() if f != TASK)
     words = "within-participant intervals" if within else "intervals of the mean"
+    if within and groups:
+        words += ", which compare levels and not groups"
     alt = f"Points with 95 % {words}. {'; '.join(told)}."
     wide = len(groups) if 1 < len(groups) <= WIDE else WIDE  # a task's groups side by side
     return Figure(key, f"{title} (95 % {words})", alt, in_rows(drawn, wide))

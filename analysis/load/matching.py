@@ -66,7 +66,8 @@ def balance(trials: pd.DataFrame, design: Design) -> list[Balance]:
         known = trials.dropna(subset=[quantity])
         if not len(known):
             continue
-        cells = means(known, quantity, levels_of(known, factors, design.task_names))
+        within = design.crossed if design.excluded else factors
+        cells = means(known, quantity, levels_of(known, within, design.task_names))
         for task in cells.factors["task"]:
             for contrast in contrasts:
                 key = f"{quantity}_{task}" + (f"/{contrast.key}" if len(contrasts) > 1 else "")
@@ -75,9 +76,20 @@ def balance(trials: pd.DataFrame, design: Design) -> list[Balance]:
                 if pair is None or (quantity == "path" and not _any(pair)):
                     continue
                 same = known["participant"].astype("str").isin(pair.participants)
-                own = known[same & (known["task"] == task)]
+                own = _shared(known[same & (known["task"] == task)], design, contrast)
                 found.append(Balance(task, quantity, pair, _smd(own, quantity, contrast)))
     return found
+
+
+def _shared(trials: pd.DataFrame, design: Design, contrast: Contrast) -> pd.DataFrame:
+    """The trials of those cells of the other factors that both levels have: a cell that the study
+    leaves out would else look like scenes that are not matched."""
+    others = [f.name for f in design.crossed if f.name != contrast.factor]
+    if not design.excluded or not others:
+        return trials
+    own = trials[trials[contrast.factor].isin([contrast.baseline, contrast.level])]
+    met = own.groupby(others, observed=True)[contrast.factor].transform("nunique")
+    return own[met == 2]
 
 
 def _any(pair: Pair) -> bool:

@@ -24,6 +24,7 @@ COLUMNS = (
     Column("measure", "measure"),
     Column("task", "task"),
     Column("quantity", "quantity"),
+    Column("contrast", "levels"),
     Column("n", "n", "int"),
     Column("mean_baseline", "M baseline", "sig3"),
     Column("mean_level", "M level", "sig3"),
@@ -33,7 +34,7 @@ COLUMNS = (
     Column("smd", "in SD of scenes", "fixed2", "level − baseline"),
     Column("p", "p", "p"),
 )
-SHOWN = tuple("task quantity n mean_baseline mean_level difference smd p".split())
+SHOWN = tuple("task quantity contrast n mean_baseline mean_level difference smd p".split())
 
 
 def difficulty_blocks(context: Context) -> list[Block]:
@@ -45,7 +46,7 @@ def difficulty_blocks(context: Context) -> list[Block]:
         "visible fraction of the targets in view; targets hidden in every view; distractors that "
         "hide part of a target; objects in view; path past every target."
         if certificate is not None
-        else "The data hold no difficulty certificate, so only the number of targets is compared; "
+        else "The data hold no difficulty certificate: only what the trials recorded is compared; "
         "`seethrough check STUDY --certificate DATA/certificate.csv` adds visible fraction, "
         "occluders, clutter and path."
     )
@@ -66,6 +67,7 @@ def _table(context: Context, found: Sequence[Balance], note: str) -> Table:
                 **{c.name: own[c.name] for c in COLUMNS if c.name in own},
                 "task": context.design.task_said(b.task),
                 "quantity": QUANTITIES[b.quantity],
+                "contrast": f"{b.pair.names[0]} → {b.pair.names[1]}",
                 "low": own["difference_low"],
                 "high": own["difference_high"],
                 "smd": b.smd,

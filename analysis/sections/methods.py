@@ -119,7 +119,8 @@ def _analysis(context: Context) -> Prose:
     stated = {0: "no prediction", 1: "1 prediction"}.get(number, f"{number} predictions")
     frozen = "was frozen in the study" if plan.frozen is not None else "is the default"
     named = f" (hash of the study as it ran: {', '.join(hashes)})" if hashes else ""
-    out = f"{len(context.excluded)} trials do not count"
+    gone = len(context.excluded)
+    out = f"{gone or 'no'} {'trial was' if gone == 1 else 'trials were'} excluded"
     return say(
         f"Analysis: the plan {frozen}{named}: α = {plan.alpha:g}, {rules}, {stated}; {out}. Type "
         "III analysis of variance with Greenhouse and Geisser's correction; contrasts with their "

@@ -270,7 +270,8 @@ def reach_sentence(found: Table) -> Prose:
     if number_in(found.row(key), "n") >= FEW:
         return say(
             "With {} participants a paired test finds a difference of d_z = {} in a share of {} of "
-            "studies, and smaller ones less often: no difference shown is not none.",
+            "studies, before Holm's correction, and smaller ones less often: no difference shown "
+            "is not none.",
             *cited,
         )
     return say(

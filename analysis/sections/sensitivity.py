@@ -142,6 +142,9 @@ def _reduced(fit: MixedEffect) -> str:
     return said
 
 
+WEAK = "The fit is singular, so that it does not count as agreement."
+
+
 def _same(context: Context, fit: MixedEffect, logs: Table | None, several: bool) -> str:
     """Whether the contrast scores' conclusion on log times is the same; of a singular fit nothing
     is said to agree."""
@@ -149,11 +152,11 @@ def _same(context: Context, fit: MixedEffect, logs: Table | None, several: bool)
     key = next((str(r["measure"]) for r in logs.rows if str(r["measure"]).endswith(
         f"_overall{ending}")), None) if logs is not None else None  # fmt: skip
     if logs is None or key is None or not is_defined(logs.row(key)["p"]) or not is_defined(fit.p):
-        return ""
+        return WEAK if fit.singular else ""
     alpha = context.plan.alpha
     same = (number_in(logs.row(key), "p") < alpha) == (fit.p < alpha)
     if same and fit.singular:
-        return "The fit is singular, so that it does not count as agreement."
+        return WEAK
     return (
         "The conclusion is that of the contrast scores."
         if same

@@ -152,8 +152,8 @@ def _sentence(table: Table, found: Sequence[Change], alpha: float) -> Prose:
     verdict = (
         ", and ".join(verdicts)
         if verdicts
-        else "in no task did most of the faster make more errors, nor those who gained more time "
-        "lose more accuracy, so there is no sign that speed was bought with errors"
+        else "nowhere is it shown that more of the faster made more errors than fewer, nor that "
+        "those who gained more time lost more accuracy"
     )
     said = say(f"Faster and with more errors under {_under(found)} were {{}}; {verdict}.", runs)
     return said if gained else Prose((*said.runs, *_allowed(table, found)))
@@ -165,16 +165,18 @@ def _under(found: Sequence[Change]) -> str:
     return said.pop() if len(said) == 1 else "the level than under the baseline"
 
 
+NO_PROOF = " That is no proof that nobody bought speed with errors"
+
+
 def _allowed(table: Table, found: Sequence[Change]) -> list[str | Cited]:
     """No sign is no proof: how strong a trade-off the intervals leave possible."""
     known = {c.key: low for c in found if is_defined(low := table.row(c.key)["r_low"])}
     said = {c.key: c.said for c in found}
     if not known:
-        return [" That is no proof that nobody did: no correlation has an interval here."]
+        return [f"{NO_PROOF}: no correlation has an interval here."]
     task = min(known, key=lambda name: known[name])
     return [
-        f" That is no proof that nobody did: in {said[task]} the interval still allows a "
-        "correlation of ",
+        f"{NO_PROOF}: in {said[task]} the interval still allows a correlation of ",
         table.cite(task, "r_low"),
         ".",
     ]

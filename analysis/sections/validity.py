@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -216,17 +217,40 @@ def _faults(context: Context) -> list[Block]:
         title=f"{'Lost' if simulated else 'Missed frames, lost'} focus and time-outs by condition",
         shown=FAULTS_SHOWN,
     )
-    return [*notes, *(_fault(table, m, plan) for m in faults), table]
+    return [
+        *notes,
+        *_none_apart(table, faults),
+        *(_fault(table, m, plan) for m in faults if _apart(m)),
+        table,
+    ]
+
+
+def _apart(m: Pair) -> bool:
+    return bool(difference_signs(m.first, m.second).any())
+
+
+def _none_apart(table: Table, faults: Sequence[Pair]) -> list[Prose]:
+    """What was the same for everybody, a sentence for each kind and not for each contrast."""
+    kinds: dict[str, list[Pair]] = {}
+    for m in faults:
+        kinds.setdefault(m.label.partition(":")[0], []).append(m)
+    said = []
+    for kind, own in kinds.items():
+        same = [m for m in own if not _apart(m)]
+        if not same:
+            continue
+        name = f"{kind[0].upper()}{kind[1:]}"
+        where = "every condition" if len(same) == len(own) > 1 else "both conditions"
+        if 0 < len(same) < len(own):
+            name += " (" + "; ".join(m.label.partition(": ")[2] for m in same) + ")"
+        said.append(say(f"{name}: the same for everybody under {where} (M = {{}}).",
+                        table.cite(same[0].key, "mean_baseline")))  # fmt: skip
+    return said
 
 
 def _fault(table: Table, m: Pair, plan: Plan) -> Prose:
     """One kind of fault: different, equivalent, or neither is shown."""
     name = f"{m.label[0].upper()}{m.label[1:]}"
-    if not difference_signs(m.first, m.second).any():
-        return say(
-            f"{name}: the same for everybody under both conditions (M = {{}}).",
-            table.cite(m.key, "mean_baseline"),
-        )
     start = say(
         f"{name}: M = {{}} {m.names[0]}, {{}} {m.names[1]}, {{}}.",
         table.cite(m.key, "mean_baseline"),

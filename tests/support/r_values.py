@@ -63,6 +63,7 @@ WITHOUT: Mapping[tuple[str, str], str] = {
     ("*", "third"): "part of the key",
     ("tradeoff", "error"): WORDS,
     ("difficulty", "quantity"): "the label of the key's quantity",
+    ("difficulty", "contrast"): WORDS,
     ("excluded", "why"): WORDS,
     ("files", "sha256"): "a hash, held by the tests of the chain",
     ("files", "chain"): "how far the chain was verified, held by the tests of the chain",

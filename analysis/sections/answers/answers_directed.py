@@ -38,8 +38,10 @@ def faster(
     unlike = depends(tables, contrast.factor, alpha)
     verdict = _verdict(row, tasks, bool(differ), alpha, prediction.expect)
     verdict = on_average(verdict, bool(unlike))
+    factor = context.design.factor(contrast.factor)
+    of = [factor.label(level) for level in (contrast.baseline, contrast.level)]
     said = say(
-        f"{start}{verdict}. The geometric mean of times with it is {{}} of that without, "
+        f"{start}{verdict}. The geometric mean of times with {of[1]} is {{}} of that with {of[0]}, "
         "95 % CI [{}, {}], {}.",
         logs.cite(key, "ratio"),
         logs.cite(key, "ratio_low"),

@@ -153,7 +153,7 @@ def cell_columns(factors: Sequence[str]) -> tuple[Column, ...]:
         *(Column(name, name) for name in factors),
         Column("n", "n", "int"),
         Column("trials", "trials", "int"),
-        Column("mean", "mean", "own", "95 % interval", "low", "high"),
+        Column("mean", "mean", "own", "95 % interval over participants", "low", "high"),
         Column("sd", "SD", "own"),
         Column("low", "from", "own", "95 % interval of the mean"),
         Column("high", "to", "own", "95 % interval of the mean"),

@@ -381,7 +381,11 @@ def _sentence(table: Table, row: Mapping[str, object], measure: Measured, log: b
     ratio = log and row["ratio"] is not None
     what = "ratio" if ratio else "estimate"
     ends = ("ratio_low", "ratio_high") if ratio else ("low", "high")
-    words: list[str | Cited] = [f"{row['label']} ({row['kind']}): {what} ", table.cite(key, what)]
+    label, kind = str(row["label"]), str(row["kind"])
+    named = label if label.endswith(kind) else f"{label} ({kind})"
+    words: list[str | Cited] = [f"{named}: {what} ", table.cite(key, what)]
+    if ratio and kind in TRENDS.values():
+        words.append(" from the first level to the last")
     if measure.unit and not log:
         words.append(f" {measure.unit}")
     words += [", 95 % CI [", table.cite(key, ends[0]), ", ", table.cite(key, ends[1]), "], t(",

@@ -153,7 +153,7 @@ def _pairs(
     """The sentences and tables of the contrasts; of a log measure those of logarithms decide."""
     tests = replace(
         compare(pairs), key=f"tests_{measure.name}", title=f"{_start(measure)}: contrasts",
-        note=_note(measure),
+        note=_note(measure) + _shared(context),
     )  # fmt: skip
     if not measure.log:
         said = in_short(
@@ -162,16 +162,29 @@ def _pairs(
         )  # fmt: skip
         return list(said), {"tests": tests}
     unit = f" in {measure.unit}" if measure.unit else ""
-    tests = replace(tests, title=f"{_start(measure)}{unit}, on the raw scale", note=RAW)
+    tests = replace(
+        tests, title=f"{_start(measure)}{unit}, on the raw scale", note=RAW + _shared(context)
+    )
     logs = replace(
         compare_logs(pairs), key=f"tests_log_{measure.name}",
         title=f"{_start(measure)} on the log scale",
     )  # fmt: skip
+    logs = replace(logs, note=logs.note + _shared(context))
     said = in_short(
         [(m, logs.row(m.key), _log_sentence(tests, logs, m, context)) for m in pairs],
         context, _start(measure),
     )  # fmt: skip
     return list(said), {"logs": logs, "tests": tests}
+
+
+def _shared(context: Context) -> str:
+    """Why a level's mean is not the same in all its contrasts."""
+    if not context.design.excluded:
+        return ""
+    return (
+        " The study leaves out cells: each contrast is over those that both its levels have, so "
+        "a level's mean may differ from contrast to contrast."
+    )
 
 
 def in_short(

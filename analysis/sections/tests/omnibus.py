@@ -100,6 +100,9 @@ def _title(factors: Sequence[str], measure: Measured) -> str:
     return f"{words[:1].upper()}{words[1:]}, {measure.said}"
 
 
+UNCORRECTED = "The p of these effects are not corrected for one another."
+
+
 def _table(context: Context, key: str, title: str, cells: Cells, note: str) -> Table | None:
     """The ANOVA of who has every cell; None where there is nothing to compare."""
     kept, gone = complete(context.design, cells)
@@ -121,7 +124,7 @@ def _table(context: Context, key: str, title: str, cells: Cells, note: str) -> T
     if not effects:
         return None
     few = any(e.few for e in effects.values())
-    notes = [note, gone, spread, "" if factors else BAYES_NOTE]
+    notes = [note, gone, spread, UNCORRECTED, "" if factors else BAYES_NOTE]
     if few:
         notes.insert(0, "Participants are too few to estimate ε: the lower bound decides.")
     shown = tuple(c for c in EFFECTS_SHOWN if not (factors and c == "bf10"))
@@ -197,11 +200,12 @@ def _sentences(
     """What the omnibus shows: whether effects differ between tasks; or every effect in turn."""
     alpha = context.plan.alpha
     scale = f" (a ratio of {measure.said}s)" if measure.log else ""
+    measured = [f.name for f in context.design.groups if f.kind == "measured"]
     if name == f"_{TASK}":
         return [
             effect_sentence(table, str(row["effect"]), (
-                f"The effect of {_factor(row)}{scale} differs between tasks",
-                f"The effect of {_factor(row)}{scale} does not demonstrably differ between tasks",
+                f"{_subject(row, measured)}{scale} differs between tasks",
+                f"{_subject(row, measured)}{scale} does not demonstrably differ between tasks",
             ), alpha)
             for row in table.rows
             if TASK in str(row["effect"]).split(" × ") and len(str(row["effect"]).split(" × ")) == 2
@@ -215,7 +219,9 @@ def _sentences(
     said = []
     for r in ordered:
         over = [" × ".join(sorted(x)) for x in inside if _parts(r) < x]
-        words = _shown(r) + (f" (but not alike: it depends, see {over[0]})" if over else "")
+        words = _shown(r, measured) + (
+            f" (but not alike: it depends, see {over[0]})" if over else ""
+        )
         said.append(effect_sentence(table, str(r["effect"]), (words, words), alpha))
     none = [str(r["effect"]) for r in table.rows if r not in found and is_defined(r["F"])]
     if none:
@@ -232,8 +238,19 @@ def _factor(row: Mapping[str, object]) -> str:
     return " × ".join(part for part in str(row["effect"]).split(" × ") if part != TASK)
 
 
-def _shown(row: Mapping[str, object]) -> str:
+def _subject(row: Mapping[str, object], measured: Sequence[str]) -> str:
+    """What may differ between tasks: an effect; a difference, where nobody assigned the factor."""
+    of = _factor(row)
+    return f"The difference over {of}" if of in measured else f"The effect of {of}"
+
+
+def _shown(row: Mapping[str, object], measured: Sequence[str]) -> str:
+    """An effect in words, none of them causal where one of its factors was not assigned."""
     effect = str(row["effect"])
-    if " × " in effect:
-        return f"The effect of {effect.replace(' × ', ' depends on ')}"
+    *first, last = effect.split(" × ")
+    if len(first) > 1:
+        return f"The interaction of {' and '.join(first)} depends on {last}"
+    if first:
+        what = "difference over" if {*first, last} & set(measured) else "effect of"
+        return f"The {what} {first[0]} depends on {last}"
     return f"Means differ over {effect}"
