@@ -86,12 +86,10 @@ class GltfFile:
             raise Refused(f"expected a {self._kind} file, it cannot be read: {reason}") from None
         if not isinstance(found, dict):
             raise Refused(f"expected a {self._kind} file, it cannot be read: no JSON object")
+        _demand_version(found)  # first: another version has another specification
         check_json(found)
         # What the file says has no type but as it is asked for: see gltf_json, gltf_check.
         self.json: dict[str, Any] = found
-        version = str(found.get("asset", {}).get("version", "none"))
-        if not version.startswith("2."):
-            raise Refused(f"glTF of version {version[:20]}: expected 2.0")
         self._buffers: dict[int, bytes] = {}
 
     def rows(self, kind: Kind[Row]) -> list[Row]:
@@ -277,3 +275,11 @@ def _inline(uri: str, what: str) -> bytes:
         return base64.b64decode("".join(unquote(body).split()), validate=True)
     except (binascii.Error, ValueError):
         raise Refused(f"{what}: expected base64 data, they cannot be read") from None
+
+
+def _demand_version(found: dict[str, Any]) -> None:
+    """Raises Refused for a file that says another version than 2, or none."""
+    asset = found.get("asset")
+    version = asset.get("version", "none") if isinstance(asset, dict) else "none"
+    if not str(version).startswith("2."):
+        raise Refused(f"glTF of version {str(version)[:20]}: expected 2.0")

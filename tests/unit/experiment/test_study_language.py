@@ -222,7 +222,7 @@ def test_two_factors_on_one_key_too_many_cells_and_too_few_people():
     }
     with pytest.raises(InputError, match=r"study\.participants = 1: expected at least one"):
         study(BASE.replace("participants = 8", "participants = 1"), factors=two)
-    with pytest.raises(InputError, match=r"factors\.view\.people = 3: expected 8 together"):
+    with pytest.raises(InputError, match=r"factors\.view\.people = 3: expected 8 in all"):
         study(factors={"view": {**two["view"], "people": 3}})
 
 
