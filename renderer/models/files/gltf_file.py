@@ -279,7 +279,7 @@ def _inline(uri: str, what: str) -> bytes:
 
 def _demand_version(found: dict[str, Any]) -> None:
     """Raises Refused for a file that says another version than 2, or none."""
-    asset = found.get("asset")
-    version = asset.get("version", "none") if isinstance(asset, dict) else "none"
-    if not str(version).startswith("2."):
-        raise Refused(f"glTF of version {str(version)[:20]}: expected 2.0")
+    asset = found.get("asset", {})
+    version = asset.get("version", "none") if isinstance(asset, dict) else "2."
+    if isinstance(version, str) and not version.startswith("2."):
+        raise Refused(f"glTF of version {version[:20]}: expected 2.0")
