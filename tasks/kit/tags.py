@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
+import glob
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cache
+from fnmatch import fnmatchcase
 
 from seethrough.renderer.declared import check, key
 from seethrough.renderer.scene.scene import Scene
@@ -59,15 +59,10 @@ OPPOSITE = {"target": "occluder", "occluder": "target"}
 """Of these two, what is said last holds."""
 
 
-@cache
-def _pattern(name: str) -> re.Pattern[str]:
-    return re.compile(".*".join(map(re.escape, re.split(r"\*+", name))), re.DOTALL)
-
-
 def fits(name: str, pattern: str) -> bool:
     """Whether a thing's name is of the pattern: * is any part of it, all else is itself, for names
     have brackets and question marks of their own."""
-    return _pattern(pattern).fullmatch(name) is not None
+    return fnmatchcase(name, "*".join(glob.escape(part) for part in pattern.split("*")))
 
 
 def tagged(name: str, extras: Mapping[str, object], tags: Iterable[Tag]) -> dict[str, object]:

@@ -9,7 +9,7 @@ from scene_files import file_of
 from seethrough.renderer.events import KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.catalog import TASKS, WORLDS, setting
 from seethrough.tasks.kit.hud import Inset, Mark, Sought
-from seethrough.tasks.kit.tags import KindTag, Tag
+from seethrough.tasks.kit.tags import KindTag, Tag, fits
 from seethrough.tasks.kit.world import FileFaults
 from seethrough.tasks.locate.locate_task import LocateParameters
 from seethrough.tasks.select.select_task import MARKED, SelectParameters
@@ -40,6 +40,28 @@ def folder(tmp_path):
 
 def read(folder, **more):
     return SCENE.found(SceneParameters(("engine.glb",), **more), folder)
+
+
+@pytest.mark.parametrize(
+    ("name", "pattern", "of_it"),
+    [
+        ("pump.001", "pump*", True),
+        ("pump.001", "*.00*", True),
+        ("Pump.001", "pump*", False),
+        ("pump", "pump*", True),
+        ("a pump", "pump*", False),
+        ("pump[1]", "pump[1]", True),
+        ("pump1", "pump[1]", False),
+        ("pump?", "pump?", True),
+        ("pumps", "pump?", False),
+        ("two\nlines", "two*lines", True),
+        ("pump", "", False),
+        ("pump", "***", True),
+        ("a" * 200 + "b", "*a" * 40 + "c", False),  # 10^40 ways to try it, for who goes back
+    ],
+)
+def test_a_pattern_is_a_name_with_stars(name, pattern, of_it):
+    assert fits(name, pattern) is of_it
 
 
 def test_tags_come_from_the_file_then_from_the_table_and_the_last_one_holds(folder):
