@@ -10,10 +10,7 @@ uniform int most;   // layers that are wanted, 4 or fewer
 layout(location = 0) out vec4 colors[4];   // times opacity, and opacity
 layout(location = 4) out uvec2 places[4];  // the object's number + 1, the normal; 0 where nothing is
 
-bool before(uvec3 a, uvec3 b) {
-    if (a.x != b.x) return a.x < b.x;
-    return a.y != b.y ? a.y > b.y : a.z < b.z;
-}
+{{ before }}
 
 uvec3 key(uint at) {
     uint k = (at - 1u) * WORDS;

@@ -12,12 +12,7 @@ layout(location = 0) out vec4 picture;
 
 const int SOME = 16;
 
-// Whether one surface lies before another: nearer, or at one depth of a later object, or there of
-// one object kept before.
-bool before(uvec3 a, uvec3 b) {
-    if (a.x != b.x) return a.x < b.x;
-    return a.y != b.y ? a.y > b.y : a.z < b.z;
-}
+{{ before }}
 
 void main() {
     int here = int(gl_FragCoord.y) * width + int(gl_FragCoord.x);

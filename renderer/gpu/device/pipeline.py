@@ -8,6 +8,11 @@ import moderngl
 
 Factors: TypeAlias = tuple[int, int] | tuple[int, int, int, int]
 
+# What is drawn is colour times opacity, and opacity. Over a picture without opacity of its own;
+# under what has been added up so far.
+OVER: Factors = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
+UNDER: Factors = (moderngl.ONE_MINUS_DST_ALPHA, moderngl.ONE)
+
 
 def within(target: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) -> None:
     """Draw only into a box (left, bottom, width, height) of a framebuffer; None: everywhere."""

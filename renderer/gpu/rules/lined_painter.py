@@ -12,9 +12,8 @@ import moderngl
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.rules.list_painter import OVER
-from seethrough.renderer.gpu.rules.lists import LINED_WORDS, NEEDED, Lists
-from seethrough.renderer.gpu.rules.peel_painter import UNDER, PeelPainter
+from seethrough.renderer.gpu.rules.lists import BEFORE, LINED_WORDS, NEEDED, Lists
+from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.rule_program import Ruled
 from seethrough.renderer.gpu.rules.scope import scope_of
 from seethrough.renderer.scene.visibility import Drawn
@@ -48,15 +47,18 @@ class _Layers:
 
 
 class LinedPainter:
-    """Keeps programs and buffers. Who looks has layers drawn one by one (PeelPainter), and so does
-    what one buffer cannot hold the lists of. `found` is what was looked at."""
+    """Keeps programs and buffers. What one buffer cannot hold the lists of is drawn layer by layer
+    (PeelPainter), and so is what is looked at: painters.py never makes this one with ids."""
+
+    found: Sequence[Drawn] = ()
 
     def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
-        self._context, self._ids = context, "WITH_IDS" in defines
+        self._context = context
         self._one_by_one = PeelPainter(context, defines)
         self._lists = Lists(context, defines, lined=True)
+        assert "WITH_IDS" not in defines
         own = [f"WORDS {LINED_WORDS}u"]
-        self._take = program(context, "present.vert", "list_layers.frag", own, NEEDED)
+        self._take = program(context, "present.vert", "list_layers.frag", own, NEEDED, BEFORE)
         self._add = program(context, "present.vert", "lined_layers.frag", (), NEEDED)
         self._put = program(context, "present.vert", "layer.frag")
         self._screens = {
@@ -66,16 +68,9 @@ class LinedPainter:
         self._layers: _Layers | None = None
         self._query = context.query(samples=True)
 
-    @property
-    def found(self) -> list[Drawn]:
-        """The layers of the last frame drawn with ids."""
-        return self._one_by_one.found
-
     def draw(self, ruled: Ruled, target: FrameTarget) -> int:
         """Draw the plan's ruled objects over those already in the target. Returns the draws."""
         scope = scope_of(ruled.frame, target.size)
-        if self._ids:
-            return self._one_by_one.draw(ruled, target)
         frame = self._lists.begin(ruled, target)
         count = self._lists.gather(frame, scope)
         if count > self._lists.limit:
@@ -92,7 +87,7 @@ class LinedPainter:
             left -= AT_ONCE
         self._taken(layers, 0)
         target.framebuffer.use()
-        self._show(self._put, OVER, layer=SUM)
+        self._show(self._put, pipeline.OVER, layer=SUM)
         pipeline.within(target.framebuffer, None)
         return len(frame.runs)
 
@@ -112,7 +107,7 @@ class LinedPainter:
             texture.use(k)
         units = tuple(range(SUM + 1, SUM + 1 + 2 * AT_ONCE))
         self._add.set(colors=units[:AT_ONCE], places=units[AT_ONCE:])
-        self._show(self._add, UNDER)
+        self._show(self._add, pipeline.UNDER)
         layers.sum.use(SUM)
 
     def _show(self, shader: Shader, factors: pipeline.Factors | None, **values: object) -> None:

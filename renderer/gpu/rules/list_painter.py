@@ -16,14 +16,13 @@ from numpy.typing import NDArray
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.rules.lists import NEEDED, WORDS, Lists
+from seethrough.renderer.gpu.rules.lists import BEFORE, NEEDED, WORDS, Lists
 from seethrough.renderer.gpu.rules.rule_program import Ruled
 from seethrough.renderer.gpu.rules.scope import Scope, halves, scope_of
 from seethrough.renderer.scene.visibility import Drawn
 
 MOST = 10_000  # layers that count, where a technique has no limit
 OPAQUE = 0.9999  # what lies behind so much opacity is not seen
-OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
 
 
 class ListPainter:
@@ -33,7 +32,7 @@ class ListPainter:
         self._context, self._ids = context, "WITH_IDS" in defines
         self._lists = Lists(context, defines)
         own = [f"WORDS {WORDS}u"]
-        self._sum = program(context, "present.vert", "lists.frag", own, NEEDED)
+        self._sum = program(context, "present.vert", "lists.frag", own, NEEDED, BEFORE)
         self._screen = context.vertex_array(self._sum.program, [])
         self.found: list[Drawn] = []
 
@@ -60,7 +59,7 @@ class ListPainter:
         target.framebuffer.use()
         self._sum.set(width=target.size[0], most=most, enough=OPAQUE)
         self._context.enable_only(moderngl.BLEND)
-        pipeline.blend(self._context, OVER)
+        pipeline.blend(self._context, pipeline.OVER)
         self._screen.render(moderngl.TRIANGLES, 3)
         pipeline.within(target.framebuffer, None)
 

@@ -27,6 +27,15 @@ WORDS, LINED_WORDS = 5, 6
 FIRST, GROWTH = 2**20, 1.25  # surfaces that there is room for at first, and room left when it grows
 LISTS, HEADS, COUNT = 0, 1, 2  # where the buffers are bound
 
+# Whether one surface (its depth, object, place in the lists) lies before another: nearer, or at one
+# depth of a later object, or there of one object kept before.
+BEFORE = {
+    "before": """bool before(uvec3 a, uvec3 b) {
+    if (a.x != b.x) return a.x < b.x;
+    return a.y != b.y ? a.y > b.y : a.z < b.z;
+}"""
+}
+
 
 @dataclass(frozen=True)
 class Gathering:

@@ -24,7 +24,6 @@ from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.visibility import Drawn
 
-OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
 MOST = 40_000  # triangles of a scene: a tree of as many takes seconds
 MOST_PIECES = 200_000  # that they may be cut into
 
@@ -71,7 +70,7 @@ class OrderPainter:
             moderngl.DEPTH_TEST | moderngl.BLEND | (0 if sides else moderngl.CULL_FACE)
         )
         context.depth_func = "<="
-        pipeline.blend(context, OVER)
+        pipeline.blend(context, pipeline.OVER)
         draw(context, shader, made.table, sequence, runs[0], shot.camera, asked.matrix)
         target.framebuffer.depth_mask = True
         target.framebuffer.use()

@@ -25,12 +25,12 @@ Painter = PeelPainter | RemovalPainter | OrderPainter | ListPainter | LinedPaint
 
 
 def _where_able(
-    made: type[ListPainter | LinedPainter],
+    made: type[ListPainter | LinedPainter], looked_at: bool
 ) -> Callable[[moderngl.Context, Sequence[str]], Painter]:
-    """In one pass where the context can, else layer by layer."""
+    """In one pass where the context can, else layer by layer; `looked_at`: with ids as well."""
 
     def make(context: moderngl.Context, defines: Sequence[str]) -> Painter:
-        able = context.version_code >= NEEDED
+        able = context.version_code >= NEEDED and (looked_at or "WITH_IDS" not in defines)
         return made(context, defines) if able else PeelPainter(context, defines)
 
     return make
@@ -40,8 +40,8 @@ PAINTERS: Mapping[str, Callable[..., Painter]] = {
     REMOVAL: RemovalPainter,
     GHOSTS: partial(PeelPainter, ghosts=True),
     ORDERED: OrderPainter,
-    LISTS: _where_able(ListPainter),
-    LINED: _where_able(LinedPainter),
+    LISTS: _where_able(ListPainter, looked_at=True),
+    LINED: _where_able(LinedPainter, looked_at=False),
 }
 
 

@@ -21,8 +21,6 @@ from seethrough.renderer.scene.visibility import Drawn
 
 # Texture units, beyond those of a rule's pictures.
 ABOVE, BELOW, COVERED, LAYER = 10, 11, 12, 13
-UNDER = (moderngl.ONE_MINUS_DST_ALPHA, moderngl.ONE)
-OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
 
 
 class _Buffers:
@@ -132,8 +130,8 @@ class PeelPainter:
                 color = buffers.ruled
             if self._ids:
                 self.found.append(_drawn(layer, buffers.lines if lines else layer, size))
-            self._compose(color, buffers.total, UNDER)
-        self._compose(buffers.sum, target.framebuffer, OVER)
+            self._compose(color, buffers.total, pipeline.UNDER)
+        self._compose(buffers.sum, target.framebuffer, pipeline.OVER)
         pipeline.within(target.framebuffer, None)
         return draws
 
