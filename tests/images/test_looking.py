@@ -63,3 +63,25 @@ def test_what_is_seen_does_not_depend_on_what_was_looked_at_before(context, name
     fresh = Renderer(context, (160, 120)).look(few, camera, p, (80, 60))
     for column in ("pixels", "weight", "position", "contrast", "area"):
         np.testing.assert_array_equal(getattr(seen, column), getattr(fresh, column))
+
+
+HIDING = Object(box(6, 6, 0.1), translation(0, 0, 2), impenetrable=True)
+THINGS = tuple(Object(box(1, 1, 1), translation(x, 0, 0), target=x == 0) for x in (-1.5, 0, 1.5))
+NOTHING = {
+    "all of it lies behind what stays opaque": ((HIDING, *THINGS), 8.0),
+    "nothing is in view": (THINGS, -8.0),
+    "nothing is asked for": (tuple(replace(o, target=False) for o in THINGS), -8.0),
+    "no thing at all": ((), 8.0),
+}
+
+
+@pytest.mark.parametrize("name", registry.known("technique"))
+@pytest.mark.parametrize("why", NOTHING)
+def test_where_a_rule_has_nothing_to_draw_nothing_is_seen(context, name, why):
+    things, far = NOTHING[why]
+    scene = Scene(things)
+    towards = np.array([0, 0, far * 2 if far < 0 else 0.0])  # away from all of them
+    camera = look_at(np.array([0, 0, far]), towards, fov_y=0.4, near=1, far=20)
+    seen = Renderer(context, (160, 120)).look(scene, camera, named(name), (80, 60))
+    opaque = sum(o.impenetrable for o in things)
+    assert (seen.pixels[opaque:] == 0).all() and (seen.pixels[:opaque] > 0).all()

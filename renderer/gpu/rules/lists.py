@@ -131,5 +131,6 @@ class Lists:
         """(count, words) the surfaces, and (h·w,) where each pixel's list begins, from 1; the
         bottom row first."""
         assert self._heads is not None
-        data = np.frombuffer(self.surfaces.read(count * self.words * 4), "u4")
+        # Of nothing there is nothing to read, for which a driver has an error.
+        data = np.frombuffer(self.surfaces.read(count * self.words * 4) if count else b"", "u4")
         return data.reshape(-1, self.words), np.frombuffer(self._heads.read(), "u4")
