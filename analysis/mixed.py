@@ -9,7 +9,7 @@ the way. t has n − g degrees of freedom: the participants' less the groups'.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -40,8 +40,9 @@ class MixedEffect:
 
     `ratio`: level / baseline. `n`: participants who met every level of the factor; `df`: n less the
     groups; `model`: the random terms that were fitted, `singular` whether one of their variances is
-    estimated as 0 or a correlation as ±1. `sd_slope`: s.d. of the effect between participants;
-    `sd_task_slope`: between the tasks of one participant. `given_up`: fuller models, and why not.
+    estimated as 0 or a correlation as ±1; `crossed`: whether all else is crossed with the factor.
+    `sd_slope`: s.d. of the effect between participants; `sd_task_slope`: between the tasks of one
+    participant. `given_up`: fuller models, and why not.
     """
 
     n: int
@@ -59,6 +60,7 @@ class MixedEffect:
     level: str = ""
     df: int = 0
     terms: tuple[str, ...] = ()
+    crossed: bool = True
     given_up: tuple[str, ...] = ()
 
 
@@ -73,6 +75,7 @@ class Layout:
     tasks: int
     n: int
     df: int
+    crossed: bool
 
 
 def _none(n: int, trials: int, why: str, level: str) -> MixedEffect:
@@ -121,9 +124,13 @@ def rows_of(trials: pd.DataFrame, design: Design, factor: Factor) -> Rows | str:
             "agrees with the contrast scores"
         )
     others = tuple(level for level in factor.levels if level != factor.baseline)
-    layout = _layout(trials, design, factor, others, n)
-    if np.linalg.matrix_rank(layout.fixed) < layout.fixed.shape[1]:
-        return "not every task was met under every level"
+    layout = _layout(trials, design, factor, others, n, crossed=True)
+    if not _independent(layout.fixed).all():
+        layout = _layout(trials, design, factor, others, n, crossed=False)
+        kept = _independent(layout.fixed)
+        if not kept[: len(others) + 1].all():
+            return "the levels' effects cannot be told apart"
+        layout = replace(layout, fixed=layout.fixed[:, kept])
     y = np.log(trials["time"].to_numpy())
     if is_constant(y):
         return "all times are equal"
@@ -150,19 +157,20 @@ def mixed_model(trials: pd.DataFrame, design: Design) -> list[MixedEffect]:
 
 
 def _layout(
-    trials: pd.DataFrame, design: Design, factor: Factor, others: Sequence[str], n: int
-) -> Layout:
+    trials: pd.DataFrame, design: Design, factor: Factor, others: Sequence[str], n: int,
+    crossed: bool,
+) -> Layout:  # fmt: skip
     """Each level's column is its indicator less 1/k, so that its coefficient is level − baseline at
     the mean of all else, which is sum-coded and crossed with it.
 
-    Where the study leaves cells out, nothing is crossed: not every interaction can be estimated.
+    Where some cells have no trials (a study leaves them out, or gives groups tasks of their own)
+    nothing is crossed: not every interaction can be estimated.
     """
     levels = levels_of(trials, (*design.crossed, *design.groups), design.task_names)
     own = trials[factor.name].astype("str").to_numpy()
     shares = len(factor.levels)
     level = np.column_stack([(own == name) - 1 / shares for name in others])
     rest = np.ones((len(trials), 1))
-    crossed = not any(set(gone) & set(levels) for gone in design.excluded)
     for name, known in levels.items():
         if name != factor.name and len(known) > 1:
             codes = pd.Categorical(trials[name].astype("str"), categories=list(known)).codes
@@ -172,13 +180,27 @@ def _layout(
             else:
                 rest = np.column_stack([rest, coded[:, 1:]])
     if not crossed:
-        return Layout(np.column_stack([rest[:, :1], level, rest[:, 1:]]), *_who(trials, level),
-                       len(levels["task"]), n, n - _groups(trials, design))  # fmt: skip
+        fixed = np.column_stack([rest[:, :1], level, rest[:, 1:]])
+        return Layout(fixed, *_who(trials, level), len(levels["task"]), n,
+                      n - _groups(trials, design), crossed)  # fmt: skip
     both = np.einsum("ni,nj->nij", level, rest).reshape(len(trials), -1)
     slots = np.arange(len(others)) * rest.shape[1]
     left = np.setdiff1d(np.arange(both.shape[1]), slots)
     fixed = np.column_stack([rest[:, :1], both[:, slots], rest[:, 1:], both[:, left]])
-    return Layout(fixed, *_who(trials, level), len(levels["task"]), n, n - _groups(trials, design))
+    return Layout(fixed, *_who(trials, level), len(levels["task"]), n, n - _groups(trials, design),
+                  crossed)  # fmt: skip
+
+
+def _independent(columns: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which columns are no sum of those before them."""
+    kept: list[int] = []
+    small = np.linalg.qr(columns).R  # of the same ranks, and no taller than wide
+    for k in range(columns.shape[1]):
+        if np.linalg.matrix_rank(small[:, [*kept, k]]) > len(kept):
+            kept.append(k)
+    found = np.zeros(columns.shape[1], bool)
+    found[kept] = True
+    return found
 
 
 def _who(
@@ -276,5 +298,6 @@ def _effect(
         level,
         layout.df,
         names,
+        layout.crossed,
         given_up,
     )

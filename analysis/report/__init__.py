@@ -30,6 +30,7 @@ from seethrough.analysis.page.tables_csv import as_csv
 from seethrough.analysis.report import folder
 from seethrough.analysis.report.pdf import find_browser, print_pdf
 from seethrough.analysis.report.r_script import Facts, as_r
+from seethrough.analysis.sections.base.asked import asked_alike, scales
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.methods import methods_section
 from seethrough.analysis.sections.participants import participants_section
@@ -113,7 +114,7 @@ def _facts(context: Context, sections: Sequence[Section]) -> Facts:
     shape = (1, *(len(known) for known in levels.values()))
     whole, _ = complete(design, Cells(np.zeros(shape), np.ones(shape, np.intp), ("",), levels))
     names = [str(t.rows[0]["model"]) if t else "" for t in (mixed, scenes)]
-    return Facts(whole.factors, names[0], names[1])
+    return Facts(whole.factors, names[0], names[1], asked_alike(context), scales(context))
 
 
 def _title(study: Study) -> str:

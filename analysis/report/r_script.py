@@ -8,9 +8,11 @@ from dataclasses import dataclass
 
 from jinja2 import Environment, StrictUndefined
 
-from seethrough.analysis.design import Design
+from seethrough.analysis.design import Design, Item
 from seethrough.analysis.load.plan import Plan
 from seethrough.analysis.page.html import template
+from seethrough.analysis.sections.base.asked import Alike
+from seethrough.analysis.sections.reliability import parts_of
 
 FILE = "analysis.R"
 
@@ -19,11 +21,13 @@ FILE = "analysis.R"
 class Facts:
     """Choices of a report's that its script has to know: the levels of each factor in the largest
     complete table, the mixed model's random terms and those of the model with scenes ("" for no
-    such model)."""
+    such model), which questions are asked alike, and which go together."""
 
     omnibus: Mapping[str, Sequence[str]]
     model: str
     scenes: str
+    asked: Sequence[Alike]
+    scales: Sequence[tuple[str, Sequence[Item]]]
 
 
 def as_r(title: str, source: str, plan: Plan, design: Design, facts: Facts) -> str:
@@ -59,7 +63,26 @@ def _constants(source: str, plan: Plan, design: Design, facts: Facts) -> list[st
         f"MAIN <- {_text(main.name if main else '')}",
         f"MODEL <- {_text(facts.model)}",
         f"SCENES <- {_text(facts.scenes)}",
+        f"ASKED <- {_nested([_asked(group) for group in facts.asked])}",
+        f"SCALES <- {_nested([_scale(name, items) for name, items in facts.scales])}",
     ]
+
+
+def _asked(group: Alike) -> str:
+    return (
+        f"list(name = {_text(group.name)}, stem = {_text(group.stem)}, "
+        f"items = {_texts([i.name for i in group.items])}, "
+        f"each = {_texts([f.name for f in group.each])}, "
+        f"main = {_text(group.each[-1].name)}, both_ways = {_bool(group.both_ways)})"
+    )
+
+
+def _scale(name: str, items: Sequence[Item]) -> str:
+    turned = sorted({r for i in items for r in i.reverse})
+    return (
+        f"list(name = {_text(name)}, items = {_texts(parts_of(items))}, "
+        f"each = {_texts(items[0].each)}, reverse = {_texts(turned)})"
+    )
 
 
 def _measures(design: Design) -> list[str]:

@@ -89,13 +89,14 @@ def _counts(context: Context) -> list[dict[str, object]]:
 
 
 def _cells(context: Context) -> Table:
-    """Trials that count, by task and the factors that vary inside a task."""
+    """Trials that count, by task and the factors that vary inside a task; 0 where all that were
+    played are left out."""
     design, trials = context.design, context.trials
     names = [TASK, *(f.name for f in (*design.groups, *design.crossed))]
     sizes = trials.groupby(names, observed=True).size()
-    known = {tuple(str(x) for x in (key if isinstance(key, tuple) else (key,))): int(size)
-             for key, size in sizes.items()}  # fmt: skip
-    levels = levels_of(trials, (*design.groups, *design.crossed), design.task_names)
+    known = dict.fromkeys(map(_key, context.study.trials.groupby(names, observed=True).groups), 0)
+    known |= {_key(key): int(size) for key, size in sizes.items()}
+    levels = levels_of(context.study.trials, (*design.groups, *design.crossed), design.task_names)
     return Table(
         "trials_by_cell",
         f"Trials counted, by {' and '.join(names)}",
@@ -115,6 +116,11 @@ def _cells(context: Context) -> Table:
         ),
         (*names, "trials"),
     )
+
+
+def _key(group: object) -> tuple[str, ...]:
+    """A group's key as pandas gives it."""
+    return tuple(str(x) for x in (group if isinstance(group, tuple) else (group,)))
 
 
 def _deviations(context: Context) -> list[Prose]:

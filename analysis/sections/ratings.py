@@ -10,10 +10,17 @@ import pandas as pd
 
 from seethrough.analysis.cells import Cells
 from seethrough.analysis.comparison import Pair, add_holm, pair_of, sd_of
-from seethrough.analysis.design import Factor, Item
+from seethrough.analysis.design import Item
 from seethrough.analysis.figures.comparison import ratings_figure
 from seethrough.analysis.measures import answers, ratings
 from seethrough.analysis.page.blocks import Block, Cited, Column, Section, Table, say
+from seethrough.analysis.sections.base.asked import (
+    Alike,
+    asked_alike,
+    items_of,
+    one_scale,
+    scales,
+)
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import keep, missing_note
 from seethrough.analysis.sections.reliability import reliability_blocks
@@ -42,79 +49,30 @@ NEUTRAL = "neutral"
 """What the row of a preference says in `text` where it is for neither."""
 
 
-def items_of(context: Context) -> tuple[Item, ...]:
-    """What was asked: as the design has it, else as the answers look."""
-    asked = context.study.questionnaire
-    names = list(dict.fromkeys(asked["item"].astype("str")))
-    stated = context.design.items
-    if stated is not None:
-        return tuple(item for item in stated if item.name in names)
-    found = []
-    for name in names:
-        own = asked[(asked["item"] == name) & asked["value"].notna()]
-        each = tuple(f.name for f in context.design.factors
-                     if f.within and len(own) and own[f.name].nunique() > 1)  # fmt: skip
-        if len(own):
-            found.append(Item(name, name.replace("_", " "), each))
-    return tuple(found)
-
-
 def ratings_section(context: Context) -> Section | None:
     """None if the study asked nothing."""
     table = context.study.questionnaire
     if not len(table):
         return None
-    items = items_of(context)
-    groups: dict[tuple[str, tuple[str, ...]], list[Item]] = {}
-    for item in items:
-        if item.each:
-            groups.setdefault((item.group or item.name, item.each), []).append(item)
     blocks: list[Block] = []
-    for number, ((name, each), own) in enumerate(groups.items()):
-        blocks += _group(context, name, each, own, number)
-    once = [item for item in items if not item.each]
-    blocks += _single(context, once)
-    single: dict[str, list[Item]] = {}
-    for item in once:
-        single.setdefault(item.group or item.name, []).append(item)
-    scales = [(name, own) for (name, _), own in groups.items()] + list(single.items())
-    blocks += reliability_blocks(context, [(n, o) for n, o in scales if _one_scale(o)])
+    for number, group in enumerate(asked_alike(context)):
+        blocks += _group(context, group, number)
+    blocks += _single(context, [item for item in items_of(context) if not item.each])
+    blocks += reliability_blocks(context, scales(context))
     return Section("ratings", "Questionnaire", tuple(blocks)) if blocks else None
 
 
-def _one_scale(items: Sequence[Item]) -> bool:
-    """Whether items have the same points."""
-    return len({(i.points, i.low) for i in items}) == 1
-
-
-def _both_ways(items: Sequence[Item]) -> bool:
-    """Whether some items of a group count the other way round, and others do not: then their plain
-    mean means nothing."""
-    turned = {r for i in items for r in i.reverse if not i.parts}
-    return 0 < len(turned) < len(items)
-
-
-def _group(
-    context: Context, name: str, each: tuple[str, ...], items: Sequence[Item], number: int
-) -> list[Block]:
+def _group(context: Context, group: Alike, number: int) -> list[Block]:
     """Items that are asked alike: tests of each and of their mean, by level."""
-    factors = sorted(  # what is compared runs fastest
-        (context.design.factor(f) for f in each), key=lambda f: f is context.design.main
-    )
-    cells = ratings(context.study.questionnaire, [i.name for i in items], factors)
-    context.lacking(name, cells)
-    blocks: list[Block] = []
-    if cells.factors["item"]:
-        blocks += _ratings(context, cells, name, items, factors, number)
-    return [*blocks, *missing_note(context.missing[name])]
+    names = [i.name for i in group.items]
+    cells = ratings(context.study.questionnaire, names, group.each)
+    context.lacking(group.name, cells)
+    blocks = _ratings(context, cells, group, number) if cells.factors["item"] else []
+    return [*blocks, *missing_note(context.missing[group.name])]
 
 
-def _ratings(
-    context: Context, cells: Cells, name: str, items: Sequence[Item], factors: Sequence[Factor],
-    number: int,
-) -> list[Block]:  # fmt: skip
-    main = next((f for f in factors if f is context.design.main), factors[-1])
-    others = [f for f in factors if f is not main]
+def _ratings(context: Context, cells: Cells, group: Alike, number: int) -> list[Block]:
+    name, items, (*others, main) = group.name, group.items, group.each
     contrasts = [c for c in main.contrasts() if c.level in cells.factors[main.name]]
     several = len(contrasts) > 1
     each, overall = [], []
@@ -128,8 +86,8 @@ def _ratings(
                 key = "_".join((item, *where)) + ending
                 label = ", ".join((item, *where)) + words
                 each.append(pair_of(key, label, "", 2, cells, contrast, "ratings", at=at))
-        if (len(cells.factors["item"]) > 1 or others) and not _both_ways(items):
-            key = f"{_stem(name)}_overall{ending}"
+        if (len(cells.factors["item"]) > 1 or others) and not group.both_ways:
+            key = f"{group.stem}_overall{ending}"
             family = "overall" if several else ""
             overall.append(pair_of(key, f"overall{words}", "", 2, cells, contrast, family))
     found, means = keep(each), keep(overall)
@@ -152,7 +110,7 @@ def _ratings(
         name[:1].upper() + name[1:])  # fmt: skip
     ending = "conditions" if name == "ratings" else f"{name}_conditions"
     ordered = [main.name, *(f.name for f in others)]
-    over = conditions(context, cells, ordered, ending, f"{_stem(name)}_conditions",
+    over = conditions(context, cells, ordered, ending, f"{group.stem}_conditions",
                       "Overall rating", 50 + 1000 * number)  # fmt: skip
     if several or not found:
         return [*said, tests, *over]
@@ -160,14 +118,10 @@ def _ratings(
     return [*said, figure, tests, *over]
 
 
-def _stem(name: str) -> str:
-    return name.removesuffix("s")
-
-
 def _points(items: Sequence[Item]) -> str:
     """`0–4` where the items say how many points their scale has."""
     first = items[0]
-    if first.points is None or not _one_scale(items):
+    if first.points is None or not one_scale(items):
         return ""
     return f"{first.low:g}–{first.low + first.points - 1:g}"
 

@@ -58,8 +58,13 @@ def _known(table: Table, name: str) -> list[str]:
     ]
 
 
+def parts_of(items: Sequence[Item]) -> tuple[str, ...]:
+    """The names of what a scale is made of: its items, or the parts of one that is a sum."""
+    return items[0].parts if len(items) == 1 else tuple(i.name for i in items)
+
+
 def _rows(context: Context, name: str, items: Sequence[Item]) -> list[dict[str, object]]:
-    parts = items[0].parts if len(items) == 1 else tuple(i.name for i in items)
+    parts = parts_of(items)
     turned = {r for i in items for r in i.reverse}
     factors = [context.design.factor(f) for f in items[0].each]
     if len(parts) < LEAST_ITEMS:

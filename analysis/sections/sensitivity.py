@@ -48,7 +48,7 @@ def sensitivity_section(context: Context, logs: Table | None) -> Section | None:
                        if f is not factor)  # fmt: skip
     sums = f"tasks{' and ' + coding if coding else ''} sum-coded"
     codes = "−½ and ½" if len(factor.levels) == 2 else f"against {factor.baseline}, centred"
-    times = " + " if context.design.excluded else " × "
+    times = " × " if first.crossed else " + "
     terms = times.join([factor.name, "task", *coding.split(", ")] if coding else
                        [factor.name, "task"])  # fmt: skip
     table = Table(

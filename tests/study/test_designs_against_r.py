@@ -37,6 +37,7 @@ WITHOUT: Mapping[tuple[str, str], str] = {
     ("mixed_model", "sd_task_slope"): HELD,
     ("groups_", "p_exact"): DRAWN,
     ("friedman_", "p_exact"): DRAWN,
+    ("reliability", "omega"): HELD,
     ("contrasts_", "least"): "a count",
     ("contrasts_", "error"): "follows from estimate and t",
     **{("contrasts_", c): "follows from the estimate and its interval"
@@ -61,10 +62,7 @@ TABLES: Mapping[str, str] = {
     "learning_curve": HELD,
     "order": HELD,
     "difficulty": HELD,
-    "friedman_effort": HELD,
     "single_items": HELD,
-    "friedman_effort_conditions": HELD,
-    "post_hoc_effort_conditions": HELD,
     "predictions": "each p that decides stands in another table, too, and is held there",
     **dict.fromkeys("participants totals trials_by_cell flow faults files missing excluded".split(),
                     "counts, held by unit tests"),

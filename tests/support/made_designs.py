@@ -77,6 +77,11 @@ class Design:
         return [c for c in found
                 if not any(gone.items() <= c.items() for gone in self.excluded)]  # fmt: skip
 
+    def tasks_of(self, cell: Cell) -> list[str]:
+        """The tasks that a cell has: factors may give each level its own (`tasks`)."""
+        own = [f["tasks"][cell[f["name"]]] for f in self.factors if f.get("tasks")]
+        return [t for t in self.tasks if all(t in known for known in own)]
+
 
 def factor(name: str, *levels: str, kind: str = "within", **more: Any) -> dict[str, Any]:
     """A factor as the sidecar has it, the first level the baseline."""
@@ -139,7 +144,7 @@ def _trials(
     rows: list[dict[str, Any]] = []
     for block, index in enumerate(order.tolist(), start=1):
         cell = {**group, **cells[index]}
-        for task in design.tasks:
+        for task in design.tasks_of(cell):
             for k in range(1, design.trials + 1):
                 mean = 3 + person + slopes[index] + design.effect({**cell, "task": task})
                 scene, adds = _scene(design, slot, task, len(rows), index)
@@ -182,6 +187,22 @@ def _answers(design: Design, rng: Generator) -> list[dict[str, Any]]:
         if cell
     ]
     return [*rows, {"item": "age", "value": int(rng.integers(20, 60)), "text": ""}]
+
+
+def _asked_of(
+    *groups: tuple[Sequence[str], Sequence[Cell]],
+) -> Callable[[int], list[dict[str, Any]]]:
+    """Answers of these items in these cells, of five points that a person tends to."""
+
+    def answers(slot: int) -> list[dict[str, Any]]:
+        rng = np.random.default_rng(slot)
+        tends = rng.integers(0, 3)
+        return [
+            {"item": item, **cell, "value": int(tends + rng.integers(1, 4)), "text": ""}
+            for items, cells in groups for item in items for cell in cells
+        ]  # fmt: skip
+
+    return answers
 
 
 CLUTTER = factor("clutter", "80", "180", "380", numbers=[80, 180, 380], scenes="changed")
@@ -245,6 +266,28 @@ DESIGNS: Mapping[str, Design] = {
         (factor("view", "plain", "cut", "lens"), CLUTTER), (9,), 3, ("find",), (TIME, EASE, RIGHT),
         effect=_of_both, seed=16, excluded=({"view": "plain", "clutter": "380"},),
         plan={"pairwise": ["view"], "aligned_ranks": True},
+    ),
+    "tasks_by_group": Design(
+        (factor("job", "finding", "counting", kind="between",
+                tasks={"finding": ["find"], "counting": ["count"]}),
+         factor("view", "plain", "cut")),
+        (7, 6), 3, ("find", "count"), effect=_of_view, seed=17,
+    ),
+    "nested": Design(
+        (factor("view", "plain", "cut"),
+         factor("place", "in", "out", tasks={"in": ["find", "count"], "out": ["read"]})),
+        (9,), 2, ("find", "count", "read"), effect=_of_view, seed=18,
+        answers=_asked_of((("ease", "fun"), [
+            {"view": v, "place": p} for v in ("plain", "cut") for p in ("in", "out")])),
+    ),
+    "asked_in_part": Design(
+        (factor("view", "plain", "cut", "lens"),), (12,), 2, effect=_of_view, seed=19,
+        answers=_asked_of((("quick", "sure", "calm"), [
+            {"view": v} for v in ("plain", "cut", "lens")]), (
+            ("tiring",), [{"view": v} for v in ("cut", "lens")])),
+        more={"items": [
+            {"name": n, "label": n, "each": ["view"], "group": g, "points": 5, "low": 1}
+            for g, own in (("mood", ("quick", "sure", "calm")), ("", ("tiring",))) for n in own]},
     ),
     "scenes": Design((factor("view", "plain", "cut"),), (12,), 4, effect=_of_view, seed=9,
                      shared=8),

@@ -185,7 +185,7 @@ def cell_table(
         for index in np.ndindex(*cells.values.shape[1:]):
             at = dict(zip(cells.factors, (known[i] for known, i in zip(
                 cells.factors.values(), index, strict=True)), strict=True))  # fmt: skip
-            if context.design.left_out({**where, **at}):
+            if context.design.left_out({**where, **at}) or not asked(context, where, at):
                 continue
             values = cells.values[(slice(None), *index)]
             has = np.isfinite(values) & members
@@ -207,6 +207,17 @@ def cell_table(
     factors = [*names, *cells.factors]
     shown = [*factors, "n", "trials", "mean", "sd", *(["geometric"] if logs else []), "median"]
     return Table(key, title, cell_columns(factors), tuple(rows), tuple(shown), note)
+
+
+def asked(context: Context, group: Mapping[str, str], at: Mapping[str, str]) -> bool:
+    """Whether a group was given a cell's task. Its people have rows then, be they left out; nobody
+    says of a group that has no people yet."""
+    trials = context.study.trials
+    for name, level in group.items():
+        trials = trials[trials[name].astype(str) == level]
+    return (
+        trials.empty or "task" not in at or bool((trials["task"].astype(str) == at["task"]).any())
+    )
 
 
 def design_at(context: Context, cells: Cells) -> Design:

@@ -50,10 +50,10 @@ class LinedPainter:
     """Keeps programs and buffers. What one buffer cannot hold the lists of is drawn layer by layer
     (PeelPainter), and so is what is looked at: painters.py never makes this one with ids."""
 
-    found: Sequence[Drawn] = ()
 
     def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
         self._context = context
+        self.found: list[Drawn] = []  # nobody looks
         self._one_by_one = PeelPainter(context, defines)
         self._lists = Lists(context, defines, lined=True)
         assert "WITH_IDS" not in defines
