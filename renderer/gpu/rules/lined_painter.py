@@ -50,7 +50,6 @@ class LinedPainter:
     """Keeps programs and buffers. What one buffer cannot hold the lists of is drawn layer by layer
     (PeelPainter), and so is what is looked at: painters.py never makes this one with ids."""
 
-
     def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
         self._context = context
         self.found: list[Drawn] = []  # nobody looks
