@@ -7,10 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from seethrough import registry
+from seethrough.experiment.gallery.gallery_scenes import stage
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 
@@ -96,3 +99,23 @@ def test_a_part_sorted_by_pixel_does_not_show_in_its_mask(context):
             assert (np.abs(one - four).max(axis=2) > 2).mean() < 0.2
             checked += 1
     assert checked == 8
+
+
+@pytest.mark.parametrize("name", registry.known("technique"))
+@pytest.mark.parametrize("size", [SIZE, (151, 150), (64, 200)])
+def test_several_samples_change_nothing_but_edges(context, name, size):
+    """A triangle that covers the picture may be cut in two, and pixels along the cut drawn twice:
+    lists that the first took away showed as a line from corner to corner."""
+    scene, camera = stage()
+    pictures = []
+    for samples in (0, 4):
+        renderer = Renderer(context, size, samples)
+        renderer.draw(scene, camera, named(name))
+        pictures.append(renderer.read().astype(int))
+    plain, smooth = pictures
+    around = np.stack([np.roll(plain, (y, x), (0, 1)) for y in (-1, 0, 1) for x in (-1, 0, 1)])
+    flat = np.ptp(around, axis=0).max(axis=2) <= 4  # of 255: shading alone
+    assert flat.mean() > 0.2
+    # Gaps between the planks that are thinner than a pixel lie between what is flat: few.
+    apart = np.abs(plain - smooth).max(axis=2)[flat] > 6
+    assert apart.mean() < 0.003

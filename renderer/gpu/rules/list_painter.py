@@ -55,13 +55,25 @@ class ListPainter:
         return draws
 
     def _add_up(self, scope: Scope, target: FrameTarget, most: int) -> None:
-        pipeline.within(target.framebuffer, scope)
-        target.framebuffer.use()
-        self._sum.set(width=target.size[0], most=most, enough=OPAQUE)
+        """Add up the lists of a part of the picture over what is there, and take them away.
+
+        Where pixels have several samples these are two passes: the triangle that covers the picture
+        may be cut in two, and a pixel that lies in both is drawn twice, the second time of nothing
+        if the first had taken its list.
+        """
+        once = target.resolved is target.framebuffer
+        self._pass(target.framebuffer, scope, most, takes=once)
+        if not once:
+            self._pass(self._lists.spare, scope, 0, takes=True)
+
+    def _pass(self, into: moderngl.Framebuffer, scope: Scope, most: int, takes: bool) -> None:
+        pipeline.within(into, scope)
+        into.use()
+        self._sum.set(width=into.size[0], most=most, enough=OPAQUE, takes=takes)
         self._context.enable_only(moderngl.BLEND)
         pipeline.blend(self._context, pipeline.OVER)
         self._screen.render(moderngl.TRIANGLES, 3)
-        pipeline.within(target.framebuffer, None)
+        pipeline.within(into, None)
 
 
 def _layers(

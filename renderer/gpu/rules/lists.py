@@ -91,6 +91,12 @@ class Lists:
         return count
 
     @property
+    def spare(self) -> moderngl.Framebuffer:
+        """One of a sample a pixel, whose colours are nobody's."""
+        assert self._opaque is not None
+        return self._opaque
+
+    @property
     def _room(self) -> int:
         return self.surfaces.size // (4 * self.words)
 
