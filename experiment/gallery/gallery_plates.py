@@ -10,7 +10,7 @@ from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 DYNAMIC = DynamicTransparency()
-SIZE, LARGE = (400, 300), (800, 600)
+SMALL, SIZE, LARGE = (200, 150), (400, 300), (800, 600)
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,3 +36,8 @@ class Section:
     about: str
     plates: tuple[Plate, ...]
     refused: tuple[tuple[str, str], ...] = field(default=())
+
+    @property
+    def small(self) -> bool:
+        """Whether its pictures are small multiples."""
+        return all(plate.size == SMALL for plate in self.plates)

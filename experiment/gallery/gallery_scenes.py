@@ -36,7 +36,7 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
         tuple(_scenes(aspect, scenes)),
     )
     yield from gallery_looks.sections(scenes)
-    yield from gallery_techniques.sections(stage(), aspect, seed)
+    yield from gallery_techniques.sections({"stage": stage(), **scenes})
     yield from _options()
     yield from gallery_hard.sections()
 

@@ -3,43 +3,41 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, replace
 
-import numpy as np
-
 from seethrough import registry
+from seethrough.experiment.gallery import gallery_parameters
 from seethrough.experiment.gallery.gallery_failures import failures
-from seethrough.experiment.gallery.gallery_plates import Plate, Section
+from seethrough.experiment.gallery.gallery_plates import SIZE, Plate, Section
 from seethrough.renderer import events
-from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Parameters, Shot
-from seethrough.tasks.kit.controls import orbit
-from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
-from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 
 POINTER = (0.62, 0.5)  # at the horse of the stage
+# How far from the eye what is looked for is, in the scene's units.
+REACHES = {"stage": 11.5, "abstract": 97.2, "walkthrough": 29.0, "jeep": 3.4}
 
 
-def sections(stage: tuple[Scene, Camera], aspect: float, seed: int) -> Iterator[Section]:
-    """Each technique on the stage and in the abstract world, by name; then the failures."""
-    parameters = AbstractParameters()
-    world = abstract_scene(np.random.default_rng(seed), parameters)
-    eye = orbit(parameters, aspect).camera().eye * 0.55
-    near = look_at(eye, np.zeros(3), fov_y=0.6, near=5, far=250)
-    places = (("stage", *stage, 11.5), ("abstract", world, near, float(np.linalg.norm(eye))))
+def sections(places: Mapping[str, tuple[Scene, Camera]]) -> Iterator[Section]:
+    """Each technique in all places, by name, with what its parameters do in the first; then the
+    failures."""
+    first = next(iter(places))
     for name in registry.known("technique"):
         technique = registry.get("technique", name)
-        yield Section(
-            technique.title,
-            technique.instruction,
-            tuple(
-                _plate(name, where, Shot(scene, camera, (400, 300)), reach)
-                for where, scene, camera, reach in places
-            ),
+        plates = {
+            where: _plate(name, where, Shot(scene, camera, SIZE), REACHES[where])
+            for where, (scene, camera) in places.items()
+        }
+        yield Section(technique.title, technique.instruction, tuple(plates.values()))
+        shown = plates[first]
+        small = gallery_parameters.plates(
+            name, first, shown.scene, shown.camera, shown.technique, shown.state
         )
+        if many := tuple(small):
+            yield Section(f"{technique.title}: parameters", "One varied at a time.", many)
     yield Section(
         "Where techniques fail",
         "Each picture is exact: what is wrong with it is the technique's own.",

@@ -14,7 +14,7 @@ from seethrough.experiment.gallery.gallery_scenes import sections
 if TYPE_CHECKING:
     from seethrough.renderer.gpu.renderer import Renderer
 
-HELP = "draw every mode, mask, granularity and hard case into a page"
+HELP = "draw every technique, parameter, look and hard case into a page"
 WIDEST = 800  # pixels of a picture on the page
 
 _PAGE = """<!doctype html>
@@ -25,6 +25,8 @@ body {{ font: 15px/1.4 system-ui, sans-serif; margin: 2rem auto; max-width: 90re
   color: #222; background: #fff; }}
 h2 {{ margin: 2.5rem 0 .25rem; }} section > p {{ margin: 0 0 .75rem; }}
 .plates {{ display: grid; gap: 1rem; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr)) }}
+.many {{ gap: .5rem; grid-template-columns: repeat(auto-fill, minmax(9.5rem, 1fr)) }}
+.many figcaption {{ font-size: .8rem; }}
 figure {{ margin: 0; }} figcaption {{ color: #555; }}
 img {{ width: 100%; aspect-ratio: 4 / 3; object-fit: contain; background: #f4f4f4;
   border-radius: 4px; image-rendering: auto; }}
@@ -87,7 +89,8 @@ def _section(section: Section) -> str:
     if section.about:
         lines.append(f"<p>{html.escape(section.about)}</p>")
     if section.plates:
-        lines += ['<div class="plates">', *map(_figure, section.plates), "</div>"]
+        kind = "plates many" if section.small else "plates"
+        lines += [f'<div class="{kind}">', *map(_figure, section.plates), "</div>"]
     if section.refused:
         items = (f"<dt>{html.escape(a)}</dt><dd>{html.escape(b)}</dd>" for a, b in section.refused)
         lines += ["<dl>", *items, "</dl>"]
