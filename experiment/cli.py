@@ -53,7 +53,7 @@ ROOMS = {  # where a command is, below commands/
     "pictures": {
         "render": "draw a scene into a picture",
         "view": "look at a scene of translucent polygons, ordered by a method",
-        "gallery": "draw every mode, mask, granularity and hard case into a page",
+        "gallery": "draw every technique, parameter, look and hard case into a page",
     },
     "kinds": {
         "technique": "list techniques, or try one on all that it must keep to",

@@ -1,1 +1,1 @@
-"""Pictures of every mode, mask, granularity and hard case."""
+"""Pictures of every technique, parameter, look and hard case."""

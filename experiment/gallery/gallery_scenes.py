@@ -1,4 +1,4 @@
-"""What the gallery shows: every mode, mask, granularity and hard case, as scenes to draw."""
+"""What the gallery shows: every technique, parameter, look and hard case, as scenes to draw."""
 
 from __future__ import annotations
 

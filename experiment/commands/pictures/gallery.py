@@ -1,4 +1,4 @@
-"""`seethrough gallery`: every mode, mask, granularity and hard case as a page of pictures."""
+"""`seethrough gallery`: every technique, parameter, look and hard case as a page of pictures."""
 
 from __future__ import annotations
 
