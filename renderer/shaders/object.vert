@@ -9,8 +9,12 @@ in vec3 in_position;
 in vec3 in_normal;
 in vec3 in_color;
 
-out vec3 offset;
-out vec3 normal;
+// A rule goes by where a surface is: of a pixel with several samples, on the surface, not beside it.
+#ifndef RULED
+#define centroid
+#endif
+centroid out vec3 offset;
+centroid out vec3 normal;
 out vec3 color;
 flat out int object;
 flat out int channel;

@@ -4,8 +4,9 @@
 // GHOSTS, what is removed instead, without any colour: lines go along its edges. With BLENDED, the
 // colour comes times its opacity as well, to go over what is there already. With LISTED, each kept
 // surface goes into its pixel's list: the next one, depth, colour times opacity, opacity, object.
-in vec3 offset;
-in vec3 normal;
+// With SOLID, only where it is opaque.
+centroid in vec3 offset;
+centroid in vec3 normal;
 in vec3 color;
 flat in int object;
 flat in int channel;
@@ -24,6 +25,7 @@ layout(std430, binding = 1) buffer Heads { uint heads[]; };
 layout(std430, binding = 2) buffer Count { uint count; };
 uniform int width;  // of the picture, in pixels
 uniform uint room;  // for surfaces in `lists`
+uniform bool solid; // whether what is opaque was drawn before
 #endif
 layout(location = 0) out vec4 picture;
 #ifdef PEELED
@@ -87,6 +89,11 @@ void main() {
 #else
     if (shown <= 0.0) discard;
     if (!s.front && !opened(s)) discard;
+#endif
+#ifdef SOLID
+    if (shown < 1.0) discard;
+#elif defined(LISTED)
+    if (solid && shown >= 1.0) discard;
 #endif
     vec3 shown_color = lit(color, s.front ? normal : -normal, offset);
     shown_color = hazed(mix(shown_color, tinted.rgb, tinted.a), offset);

@@ -9,11 +9,12 @@ import pytest
 
 from seethrough import registry
 from seethrough.experiment.gallery.gallery_scenes import stage
+from seethrough.renderer.events import PointerMove
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.renderer.techniques import named
+from seethrough.renderer.techniques import changed, named
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 
@@ -119,3 +120,23 @@ def test_several_samples_change_nothing_but_edges(context, name, size):
     # Gaps between the planks that are thinner than a pixel lie between what is flat: few.
     apart = np.abs(plain - smooth).max(axis=2)[flat] > 6
     assert apart.mean() < 0.003
+
+
+def test_nothing_shows_between_what_a_rule_is_asked_about_and_its_neighbour(context):
+    """Two panes that meet within a pixel, the first of which fades elsewhere."""
+    color = (0.3, 0.3, 0.3)
+    panes = [
+        Object(geometry.box(3, 6, 0.1), transforms.translation(x, 0, 0), color)
+        for x in (-1.487, 1.513)
+    ]
+    ball = Object(geometry.sphere(0.2, 2), transforms.translation(-2, 0, -2), RED, True)
+    renderer = Renderer(context, SIZE, 4)
+    fade = changed(named("fade"), radius=0.05, softness=0.05)
+    state, _ = fade.technique.on_event(
+        fade, fade.technique.begin(fade), PointerMove(0.0, 0.4, 0.5, 0.0, 0.0), None
+    )
+    renderer.draw(Scene((*panes, ball)), CAMERA, fade, state=state)
+    assert renderer.plan.ruled.tolist() == [0]  # the other lies beyond the pointer's reach
+    row = renderer.read()[20].astype(int)  # above all of what fades
+    inside = row[60:140]
+    assert np.abs(inside - inside[0]).max() <= 3  # shading alone; the sky is brighter by 160

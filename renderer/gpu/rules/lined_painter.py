@@ -11,11 +11,12 @@ import moderngl
 
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import Shader, program
+from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.lists import BEFORE, LINED_WORDS, NEEDED, Lists
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.rule_program import Ruled
-from seethrough.renderer.gpu.rules.scope import scope_of
+from seethrough.renderer.gpu.rules.scope import around, scope_of
 from seethrough.renderer.scene.visibility import Drawn
 
 AT_ONCE = 4  # layers; the shaders have as many pictures of each kind
@@ -32,7 +33,7 @@ class _Layers:
         self.places = [context.texture(size, 2, dtype="u4") for _ in range(AT_ONCE)]
         self.sum = context.texture(size, 4, dtype="f4")
         for texture in (*self.colors, *self.places, self.sum):
-            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            kept(texture).filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.taken = context.framebuffer([*self.colors, *self.places])
         self.total = context.framebuffer([self.sum])
         self.last = context.buffer(bytes(4 * size[0] * size[1]))  # none is taken yet
@@ -76,8 +77,11 @@ class LinedPainter:
             return self._one_by_one.draw(ruled, target)
         layers = self._ready(target.size)
         most = ruled.technique.technique.layers(ruled.technique)
-        for framebuffer in (layers.taken, layers.total, target.framebuffer):
-            pipeline.within(framebuffer, scope)
+        pipeline.within(target.framebuffer, scope)
+        # Lines ask the pixels beside, of which some lie beyond, and of pixels with several samples
+        # llvmpipe puts some of those: there must be nothing there.
+        for framebuffer in (layers.taken, layers.total):
+            pipeline.within(framebuffer, around(scope, target.size))
         layers.total.clear()
         self._add.set(**ruled.technique.technique.edges(ruled.technique))
         left = count if most is None else most  # no pixel has more than all together

@@ -17,6 +17,7 @@ from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.lists import BEFORE, NEEDED, WORDS, Lists
+from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
 from seethrough.renderer.gpu.rules.rule_program import Ruled
 from seethrough.renderer.gpu.rules.scope import Scope, halves, scope_of
 from seethrough.renderer.scene.visibility import Drawn
@@ -31,6 +32,7 @@ class ListPainter:
     def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
         self._context, self._ids = context, "WITH_IDS" in defines
         self._lists = Lists(context, defines)
+        self._solids = RemovalPainter(context, ["SOLID", *defines])
         own = [f"WORDS {WORDS}u"]
         self._sum = program(context, "present.vert", "lists.frag", own, NEEDED, BEFORE)
         self._screen = context.vertex_array(self._sum.program, [])
@@ -39,8 +41,13 @@ class ListPainter:
     def draw(self, ruled: Ruled, target: FrameTarget) -> int:
         """Draw the plan's ruled objects over those already in the target. Returns the draws."""
         most = ruled.technique.technique.layers(ruled.technique)
-        frame = self._lists.begin(ruled, target)
-        parts, draws, found = [scope_of(ruled.frame, target.size)], 0, list[list[Drawn]]()
+        # Where pixels have several samples, what is opaque needs them all: a list is of the middle
+        # of its pixel, and beside a neighbour that no rule is asked about, what is behind both
+        # would show. A limited number of layers counts what is opaque among them.
+        solid = target.resolved is not target.framebuffer and most is None
+        draws = self._solids.draw(ruled, target) if solid else 0
+        frame = self._lists.begin(ruled, target, solid)
+        parts, found = [scope_of(ruled.frame, target.size)], list[list[Drawn]]()
         while parts:
             part = parts.pop()
             count = self._lists.gather(frame, part)

@@ -59,21 +59,22 @@ class Lists:
         own = ["LISTED", f"WORDS {self.words}u", *(["LINED"] if lined else []), *shown]
         self._programs = RulePrograms(context, own, NEEDED)
         self.surfaces = kept(context.buffer(reserve=FIRST * self.words * 4))
-        self._count = context.buffer(reserve=4)
+        self._count = kept(context.buffer(reserve=4))
         self.limit = int(context.info["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]) // (4 * self.words)
         self._heads: moderngl.Buffer | None = None
         self._opaque: moderngl.Framebuffer | None = None
         self._owned: list[moderngl.Texture | moderngl.Framebuffer] = []
 
-    def begin(self, ruled: Ruled, target: FrameTarget) -> Gathering:
-        """A frame begins, over what is opaque in the target."""
+    def begin(self, ruled: Ruled, target: FrameTarget, solid: bool = False) -> Gathering:
+        """A frame begins, over what is opaque in the target; `solid`: what the rule keeps opaque is
+        there as well."""
         size = target.size
         if self._opaque is None or self._opaque.size != size:
             self._make(size)
         assert self._opaque is not None
         self._context.copy_framebuffer(self._opaque, target.framebuffer)
         shader = self._programs.ready(ruled)
-        shader.set(width=size[0])
+        shader.set(width=size[0], solid=solid)
         numbered = [numbers(ruled.technique, ruled.shot)]
         camera = ruled.shot.camera
         sequence, runs = ruled.table.sequence([ruled.frame.ruled], camera, numbered)
@@ -125,9 +126,9 @@ class Lists:
             old.release()
         if self._heads is not None:
             self._heads.release()
-        like = [self._context.texture(size, 4, dtype="f2")]
-        like += [self._context.texture(size, 1, dtype="f4")] * self._ids
-        below = self._context.depth_texture(size)
+        like = [kept(self._context.texture(size, 4, dtype="f2"))]
+        like += [kept(self._context.texture(size, 1, dtype="f4"))] * self._ids
+        below = kept(self._context.depth_texture(size))
         self._opaque = self._context.framebuffer(like, below)
         self._owned = [self._opaque, *like, below]
         # No list begins anywhere between frames: whoever adds a list up takes it away.

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import program
+from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms, draw, numbers
-from seethrough.renderer.gpu.rules.scope import scope_of
+from seethrough.renderer.gpu.rules.scope import around, scope_of
 from seethrough.renderer.scene.visibility import Drawn
 
 # Texture units, beyond those of a rule's pictures.
@@ -33,7 +34,7 @@ class _Buffers:
         self.owned: list[moderngl.Texture | moderngl.Renderbuffer | moderngl.Framebuffer] = []
 
         def texture(components: int, dtype: str) -> moderngl.Texture:
-            made = context.texture(size, components, dtype=dtype)
+            made = kept(context.texture(size, components, dtype=dtype))
             made.filter = (moderngl.NEAREST, moderngl.NEAREST)
             self.owned.append(made)
             return made
@@ -47,7 +48,7 @@ class _Buffers:
 
         self.colors = [texture(4, "f2") for _ in range(2)]
         self.places = [texture(4 if lined else 2, "f4") for _ in range(2)]
-        depths = [context.depth_renderbuffer(size) for _ in range(2)]
+        depths = [kept(context.depth_renderbuffer(size)) for _ in range(2)]
         self.layers = [
             framebuffer(color, place, depth=depth)
             for color, place, depth in zip(self.colors, self.places, depths, strict=True)
@@ -56,7 +57,7 @@ class _Buffers:
         self.total = framebuffer(self.sum, depth=None)
         self.ruled = texture(4, "f2")
         self.lines = framebuffer(self.ruled, depth=None)
-        self.below = context.depth_texture(size)
+        self.below = kept(context.depth_texture(size))
         self.below.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.below.compare_func = ""
         like = [texture(4, "f2"), *([texture(1, "f4")] * ids)]
@@ -102,8 +103,11 @@ class PeelPainter:
             pipeline.within(layer, None)
             layer.clear()  # all of it is read, though only the scope is drawn
         scope = scope_of(frame, size)
-        for framebuffer in (*buffers.layers, buffers.total, buffers.lines, target.framebuffer):
-            framebuffer.scissor = scope
+        pipeline.within(target.framebuffer, scope)
+        # Lines ask the pixels beside, of which some lie beyond, and of pixels with several samples
+        # llvmpipe puts some of those: there must be nothing there.
+        for framebuffer in (*buffers.layers, buffers.total, buffers.lines):
+            pipeline.within(framebuffer, around(scope, size))
         shader = self._programs.ready(ruled)
         sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
         buffers.total.clear()

@@ -41,7 +41,7 @@ class RulePrograms:
     def __init__(
         self, context: moderngl.Context, defines: Sequence[str], version: int = REQUIRED
     ) -> None:
-        self._context, self._defines, self._version = context, list(defines), version
+        self._context, self._defines, self._version = context, ["RULED", *defines], version
         self._programs: dict[str, Shader] = {}
         self._pictures: dict[str, moderngl.Texture] = {}
         self._depth = program(context, "object.vert", "view_depth.frag")
@@ -115,9 +115,9 @@ class RulePrograms:
         if shot.size not in self._framebuffers:
             for old in self._framebuffers.values():
                 old.release()
-            texture = self._context.texture(shot.size, 1, dtype="f4")
+            texture = kept(self._context.texture(shot.size, 1, dtype="f4"))
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-            depth = self._context.depth_renderbuffer(shot.size)
+            depth = kept(self._context.depth_renderbuffer(shot.size))
             self._framebuffers = {shot.size: self._context.framebuffer([texture], depth)}
         framebuffer = self._framebuffers[shot.size]
         framebuffer.clear(depth=0.0)

@@ -18,6 +18,13 @@ def scope_of(frame: FramePlan, size: tuple[int, int]) -> Scope:
     return (left, size[1] - bottom, max(right - left, 1), max(bottom - top, 1))
 
 
+def around(scope: Scope, size: tuple[int, int]) -> Scope:
+    """The rectangle and the pixels beside it, as far as the picture goes."""
+    x, y, width, height = scope
+    left, low = max(x - 1, 0), max(y - 1, 0)
+    return (left, low, min(x + width + 1, size[0]) - left, min(y + height + 1, size[1]) - low)
+
+
 def halves(scope: Scope) -> list[Scope]:
     """A rectangle in two, one over the other; beside each other where it is one pixel high. Raises
     CannotDraw for a single pixel."""
