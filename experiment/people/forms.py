@@ -139,12 +139,13 @@ class Opinions:
         return int(np.argmin(looks))
 
     def _preference(self, options: tuple[str, ...]) -> int:
-        """The first level or the last: by the times taken, and by chance."""
+        """The first level or the last: by the times taken, and by chance; neither where a level took
+        no time, as with a task that somebody begins to write."""
         first, last = (
             [fmean(t) for (met, _), t in self._times.items() if level in dict(met).values()]
             for level in (options[0], options[-1])
         )
-        if not first or not last:
+        if not first or not last or not any(first) or not any(last):
             return len(options) // 2
         odds = log2(fmean(last) / fmean(first))
         chance = 1 / (1 + exp(-3 * odds))
