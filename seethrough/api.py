@@ -21,7 +21,7 @@ from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
-from seethrough.renderer.techniques import layered, pointing, removal
+from seethrough.renderer.techniques import layered, pointing, reaching, removal
 from seethrough.renderer.techniques.base import (
     Gesture,
     Look,
@@ -93,6 +93,7 @@ __all__ = [
     "measure",
     "pages",
     "pointing",
+    "reaching",
     "removal",
     "results",
     "row",

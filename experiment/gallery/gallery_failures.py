@@ -31,13 +31,16 @@ Measure = Callable[[ExactPicture, ExactPicture, ExactPicture], float]
 @dataclass(frozen=True, eq=False)
 class Failure:
     """A technique (its parameters) in a scene, in words, and the measure of what goes wrong: it is
-    `worse` than the bound that a good picture keeps to."""
+    `worse` than the bound that a good picture keeps to. `left`: how much of a wall before a target
+    hides it with default parameters, at most, the pointer at it: its opacity where it is not
+    removed."""
 
     words: str
     parameters: Parameters
     scene: Scene
     measure: Measure
     bound: float
+    left: float = 0.02
     camera: Camera = CAMERA
 
     def measured(self) -> float:
@@ -132,13 +135,14 @@ def failures() -> dict[str, Failure]:
     row = [Object(geometry.box(0.5, 0.5, 0.5), at(0.9 * k - 1.8, 0, 0), BLUE) for k in range(5)]
     lens = named("lens")
     every = (
-        Failure("What is behind a wall is not there", Standard(), Scene(one), hidden(0), 0.99),
+        Failure("What is behind a wall is not there", Standard(), Scene(one), hidden(0), 0.99, 1.0),
         Failure(
             "Eight panes leave little of the target, each as clear as it may be",
             DynamicTransparency(),
             Scene((*_panes(8), _ball(0, -2))),
             hidden(0),
             0.9,
+            left=0.35,
         ),
         Failure(
             "Through twelve layers nothing can be seen",
@@ -146,6 +150,7 @@ def failures() -> dict[str, Failure]:
             Scene((*_panes(12), _ball(0, -2))),
             hidden(0),
             0.95,
+            left=0.35,
         ),
         Failure(
             "What hides the target has no tag",
@@ -153,6 +158,7 @@ def failures() -> dict[str, Failure]:
             Scene((crate, _ball(0, -2, 0.4))),
             hidden(0),
             0.99,
+            left=0.35,
         ),
         Failure(
             "An open mesh has no inside: the cut shows a hole, not a wall",
@@ -195,6 +201,7 @@ def failures() -> dict[str, Failure]:
             Scene((*_panes(8), _ball(0, -2))),
             hidden(0),
             0.85,
+            left=0.3,
         ),
         Failure(
             "The target is elsewhere: only what the pointer is at turns transparent",
@@ -202,6 +209,7 @@ def failures() -> dict[str, Failure]:
             Scene((_wall(), _ball(2.2, -2, 0.6))),
             hidden(0),
             0.99,
+            left=0.35,
         ),
         Failure(
             "A flat wall that faces the viewer vanishes",
@@ -209,6 +217,7 @@ def failures() -> dict[str, Failure]:
             Scene(one),
             gone(0),
             0.85,
+            left=0.2,
         ),
         Failure(
             "Lines of many layers clutter what is behind them",
@@ -216,6 +225,7 @@ def failures() -> dict[str, Failure]:
             Scene((*_bars(4), _ball(0, -2))),
             hidden(0),
             0.7,
+            left=0.12,
         ),
         Failure(
             "What stood side by side is torn apart",
@@ -223,6 +233,7 @@ def failures() -> dict[str, Failure]:
             Scene((*row,)),
             moved,
             0.2,
+            left=1.0,
         ),
     )
     return {failure.parameters.technique.name: failure for failure in every}

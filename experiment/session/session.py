@@ -22,9 +22,8 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design.design import TaskSet, Trial, session_for
-from seethrough.tasks.kit.base import OwnControls, Task
+from seethrough.tasks.kit.base import OwnControls, OwnFeedback, Task
 from seethrough.tasks.kit.unsure import UNKNOWN
-from seethrough.tasks.worlds.building.building_parameters import METRES
 
 
 class TimeIsUp(Leave):
@@ -153,7 +152,7 @@ def _train(study: Study, task_set: TaskSet, run: TrialRun) -> None:
             break
         record = run.play(trial, left if limit else 0.0)
         right.append(record.outcome is not None and record.outcome.correct)
-        world.input.ask(_feedback(record))
+        world.input.ask(_feedback(record, world.tasks[trial.task]))
     if task_set.training:
         world.input.ask(_page("ready"))
 
@@ -182,7 +181,7 @@ def _controls(study: Study, trial: Trial, task: Task) -> str:
     return task.controls(setting) if isinstance(task, OwnControls) else setting.controls
 
 
-def _feedback(record: TrialRecord) -> Page:
+def _feedback(record: TrialRecord, task: Task) -> Page:
     outcome = record.outcome
     if outcome is None:
         return Page("feedback", "feedback.title", (Paragraph("feedback.time"),))
@@ -190,9 +189,9 @@ def _feedback(record: TrialRecord) -> Page:
     if outcome.answer == UNKNOWN:
         return Page("feedback", "feedback.title", (Paragraph("feedback.unsure"),))
     text = "feedback.right" if outcome.correct else "feedback.wrong"
-    if outcome.distance is not None:
-        text = "feedback.distance" if outcome.correct else "feedback.other_room"
-        values = (("distance", METRES * outcome.distance),)
+    if isinstance(task, OwnFeedback):
+        text, said = task.feedback(outcome)
+        values = tuple(said.items())
     pictures = () if record.solution is None else (PlanPicture(record.solution),)
     return Page("feedback", "feedback.title", (Paragraph(text, values), *pictures))
 

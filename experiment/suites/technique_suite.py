@@ -110,6 +110,8 @@ class _Tried:
             missing.append(f"painter, one of {sorted(PAINTERS)}")
         strange = [t for t in technique.takes if t not in TAKES and not t.startswith("key:")]
         missing += [f"takes {t!r}, expected one of {', '.join(TAKES)} or key:q" for t in strange]
+        missing += [f"a picture called {n}, one of {', '.join(sorted(base.NEEDS))}"
+                    for n in sorted(technique.needs - base.NEEDS)]  # fmt: skip
         missing += list(self.unsaid())
         if p.technique is not technique:
             missing.append("parameters that know their technique (derive them from Parameters)")

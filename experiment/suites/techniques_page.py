@@ -14,29 +14,9 @@ from seethrough.experiment.gallery.gallery_failures import failures
 from seethrough.experiment.generated import write_anew
 from seethrough.experiment.suites.requirements import SHOWS, VIEWS, measure
 from seethrough.renderer.techniques.base import Technique
-from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
-from seethrough.renderer.techniques.standard.opaque import Standard
 
 REFERENCE = Path(__file__).resolve().parents[2] / "docs" / "techniques.md"
 
-# What Elmqvist2009 §IV-A says of the kinds of techniques in its table I, in our words: which of the
-# requirements they miss. Of the table itself the rows alone can be read in our copy.
-PAPER = {
-    Standard.technique.name: "",
-    DynamicTransparency.technique.name: "meets all of them",
-    "constant": "misses R2 or R5; R7",
-    "blueprint": "misses R2 or R5; R7",
-    "view_dependent": "misses R2 or R5; R7",
-    "see_through": "misses R2 or R5; R7",
-    "fade": "misses R4 (two dimensions)",
-    "cutaway": "misses R2 (targets in line), R7",
-    "breakaway": "misses R2 (targets in line), R7",
-    "adaptive_cutaway": "",
-    "lens": "misses R2, R6, R7",
-    "dig": "misses R2, R6, R7",
-    "importance": "misses R4 (volumes), R5",
-    "balloon": "",
-}  # fmt: skip
 ABOUT = f"""# Techniques
 
 Written by `python -m seethrough.experiment.suites.techniques_page`; the keys of each are in
@@ -67,13 +47,16 @@ def _table() -> Iterator[str]:
     yield "| technique | " + " | ".join(columns) + " | Elmqvist2009 |"
     yield "| --- " * (len(columns) + 2) + "|"
     for name in _ours():
-        words = measure(registry.get("technique", name)).words()
+        technique = registry.get("technique", name)
+        words = measure(technique).words()
         cells = " | ".join(words[c] for c in columns)
-        yield f"| {name} | {cells} | {PAPER[name]} |"
+        yield f"| {name} | {cells} | {technique.misses} |"
 
 
 def _ours() -> tuple[str, ...]:
-    return tuple(name for name in registry.known("technique") if name in PAPER)
+    return tuple(
+        name for name in registry.known("technique") if registry.origin("technique", name) is None
+    )
 
 
 def _each() -> Iterator[str]:

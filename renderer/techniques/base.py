@@ -27,10 +27,15 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Texts = Mapping[str, Mapping[str, str]]  # language → name of a text → the text
 
-# How a technique is drawn (renderer/gpu): one of ours. What it touches is drawn
+# How what a technique touches is drawn (renderer/gpu/rules/painters.py).
 MASKS = "masks"  # by levels and pixels, with a mask about each target
 REMOVAL = "removal"  # in one pass that leaves out what the rule takes away
-PEELS = "peels"  # layer by layer from the front, each as strongly as the rule says
+PEELS = "peels"  # surfaces that show through one another, each as strongly as the rule says
+
+TARGET_DEPTH = "target_depth"
+NEEDS = frozenset({TARGET_DEPTH})
+"""Pictures that the frame makes for rules that name them in `needs`: view depth of the farthest
+surface of a target that faces the viewer, 0 where there is none."""
 
 
 @dataclass(frozen=True)
@@ -186,8 +191,10 @@ class Technique(Protocol[P, State, Known]):
         float opacity(Surface s)   0 where it is removed
         bool opened(Surface s)     whether it shows from inside as well
 
-    of shaders/rule.glsl's Surface, with the uniforms that `uniforms` gives and the pictures that
-    `pictures` gives or `needs` names.
+    of the Surface in renderer/shaders/rule.frag, with the uniforms that `uniforms` gives and the
+    pictures that `pictures` gives or `needs` names (NEEDS). What it writes into `tinted` (colour,
+    share) is mixed into the surface's colour, as `Look.tint` is on the CPU. `misses`: what the
+    text of Elmqvist2009 §IV-A says that the technique's kind lacks of R1 to R7, if it treats it.
     """
 
     name: str
@@ -201,6 +208,7 @@ class Technique(Protocol[P, State, Known]):
     painter: str
     glsl: str
     needs: frozenset[str]
+    misses: str
 
     @property
     def Parameters(self) -> type[P]:
@@ -275,6 +283,7 @@ class Plain(Generic[P, State, Known]):
     texts: Texts = MappingProxyType({})
     painter = REMOVAL
     needs: frozenset[str] = frozenset()
+    misses = ""
     glsl = "float opacity(Surface s) { return 1.0; }\nbool opened(Surface s) { return false; }\n"
     Parameters: type[P]
     name: str

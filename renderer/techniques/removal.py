@@ -127,23 +127,3 @@ def uncertain(seen: Surfaces) -> Floats:
     lens = seen.shot.camera.lens(seen.shot.size[1])
     along = np.linalg.norm(seen.offset, axis=1) / np.maximum(seen.depth, 1e-300)
     return seen.slack * along + seen.depth * along * (1 / (256 * lens) + 1e-5)
-
-
-def reached(shot: base.Shot, extents: Floats, depth: Floats) -> Bools:
-    """(n,) penetrable objects that reach into one of some parts of the picture (k, 4: left, top,
-    right, bottom in pixels) and before the view depth (k,) that belongs to it."""
-    from seethrough.renderer.scene.projection import screen_boxes
-
-    scene = shot.scene
-    found = np.zeros(len(scene.objects), dtype=bool)
-    if len(extents):
-        boxes = screen_boxes(scene.corners, shot.camera, shot.size)
-        low = (boxes.extents[:, None, :2] <= extents[None, :, 2:]).all(axis=2)
-        high = (boxes.extents[:, None, 2:] >= extents[None, :, :2]).all(axis=2)
-        found = np.any(low & high & (boxes.near[:, None] <= depth), axis=1)
-    return found & ~scene.targets & ~scene.impenetrable
-
-
-def whole(shot: base.Shot, count: int) -> Floats:
-    """(count, 4) the whole picture, so many times."""
-    return np.tile(np.array([0.0, 0.0, *shot.size]), (count, 1))

@@ -223,6 +223,14 @@ class OwnControls(Protocol):
 
 
 @runtime_checkable
+class OwnFeedback(Protocol):
+    """What a task says besides whose answers are more than right or wrong."""
+
+    def feedback(self, outcome: Outcome) -> tuple[str, dict[str, str | float]]:
+        """The name of the text that says in practice how it went, and the values in it."""
+
+
+@runtime_checkable
 class Needs(Protocol):
     """What a task says besides that needs more than one target."""
 

@@ -19,7 +19,7 @@ from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts, keys
 from seethrough.tasks.unique.simulate import STRATEGY
 from seethrough.tasks.worlds.building.building import Building, unique_building
-from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
+from seethrough.tasks.worlds.building.building_parameters import METRES, BuildingParameters
 from seethrough.tasks.worlds.building.floor import room_at
 from seethrough.tasks.worlds.building.plan_mark import PlanMark
 from seethrough.tasks.worlds.building.visit import Visit, before, visit
@@ -118,6 +118,12 @@ class Unique:
             correct=rooms[0] == rooms[1],
             distance=float(np.hypot(*(mark - place))),
         )
+
+    def feedback(self, outcome: Outcome) -> tuple[str, dict[str, str | float]]:
+        """How far from the place the mark is."""
+        text = "feedback.distance" if outcome.correct else "feedback.other_room"
+        assert outcome.distance is not None
+        return text, {"distance": METRES * outcome.distance}
 
     def solution(self, state: UniqueState) -> FloorPlan | None:
         """The plan with the mark and the thing's true place."""

@@ -20,9 +20,6 @@ from seethrough.renderer.techniques.base import Shot
 WALL = Object(geometry.box(7, 5, 0.2), transforms.translation(0, 0, 2), (0.7, 0.7, 0.65))
 BALL = Object(geometry.sphere(0.8, 2), transforms.translation(0, 0, -2), (0.9, 0.2, 0.1), True)
 CLOSED = Object(geometry.sphere(2.4, 3), transforms.translation(0, 0, 0), (0.3, 0.75, 0.35))
-# What is left of the occluder before the target, at most: its opacity, .3 at one layer by default.
-LEFT = {"standard": 1.0, "balloon": 1.0, "dynamic": 0.35, "constant": 0.35, "see_through": 0.35,
-        "fade": 0.35, "importance": 0.3, "view_dependent": 0.2, "blueprint": 0.12}  # fmt: skip
 
 
 def test_every_technique_has_a_failure():
@@ -53,7 +50,7 @@ def test_a_target_behind_a_wall_shows_as_the_technique_promises(name):
             state, _ = p.technique.on_event(p, state, event, shot)
     truth = exact(shot.scene, CAMERA, p, SIZE, state)
     alone = exact(Scene((BALL,)), CAMERA, named("standard"), SIZE)
-    assert hidden(0)(truth, alone, alone) <= LEFT.get(name, 0.02) + 0.01
+    assert hidden(0)(truth, alone, alone) <= failures()[name].left + 0.01
 
 
 def test_a_closed_thing_is_cut_with_a_wall_and_an_open_one_with_a_hole():

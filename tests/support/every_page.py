@@ -45,11 +45,11 @@ def pages(aspect):
     ]
     trial = session_for(1, study.plan)[0].training[0]
     for outcome in (None, Outcome("12", "14", False, count_error=-2), Outcome("K", "K", True)):
-        person.pages.append(_feedback(ended(trial, outcome)))
+        person.pages.append(_feedback(ended(trial, outcome), TASKS["count"]))
     for keys in ("right", "up"), ("left", "down"):
         state = marked(begun("unique", aspect), *keys)
         outcome, plan = TASKS["unique"].outcome(state), TASKS["unique"].solution(state)
-        person.pages.append(_feedback(ended(trial, outcome, plan)))
+        person.pages.append(_feedback(ended(trial, outcome, plan), TASKS["unique"]))
     list(asked(after(study), person))
     return person.pages
 

@@ -22,8 +22,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques import removal
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques import reaching, removal
+from seethrough.renderer.techniques.base import (
+    TARGET_DEPTH,
+    Bools,
+    Floats,
+    Look,
+    Shot,
+    Surfaces,
+)
 
 
 @dataclass(frozen=True)
@@ -56,7 +63,7 @@ class AdaptiveCutaway(removal.Removal[AdaptiveParameters, None, Cones]):
     source = "Burns2008"
     Parameters = AdaptiveParameters
     removes = removal.CLIPPED
-    needs = frozenset({"target_depth"})
+    needs = frozenset({TARGET_DEPTH})
 
     def touches(self, p: AdaptiveParameters, state: object, shot: Shot) -> Bools:
         """What is nearer than the farthest target."""
@@ -64,7 +71,7 @@ class AdaptiveCutaway(removal.Removal[AdaptiveParameters, None, Cones]):
 
         boxes = screen_boxes(shot.scene.corners, shot.camera, shot.size)
         far = boxes.far[shot.scene.targets & boxes.inside].max(initial=0.0)
-        return removal.reached(shot, removal.whole(shot, 1), np.array([far]))
+        return reaching.reached(shot, reaching.whole(shot, 1), np.array([far]))
 
     def known(self, p: AdaptiveParameters, state: object, seen: Surfaces) -> Cones:
         """The hole, from every point of a target."""

@@ -41,6 +41,7 @@ class Blueprint(Layering[BlueprintParameters, None, tuple[Bools, Bools]]):
     title = "Blueprint"
     instruction = "Things are drawn as lines, with a faint fill, so that lines behind lines show."
     source = "Nienhaus2004"
+    misses = "misses R2 or R5; R7"
     Parameters = BlueprintParameters
     strength = "uniform float fill;\nfloat opacity_of(Surface s) { return fill; }\n"
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques import removal
+from seethrough.renderer.techniques import reaching, removal
 from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
 
 
@@ -44,6 +44,7 @@ class Breakaway(removal.Removal[BreakawayParameters, None, list[Hole]]):
     title = "Break-away"
     instruction = "Whatever stands before a target has a hole in the target's shape."
     source = "Diepstraten2003"
+    misses = "misses R2 (targets in line), R7"
     Parameters = BreakawayParameters
     removes = removal.CLIPPED
 
@@ -53,7 +54,7 @@ class Breakaway(removal.Removal[BreakawayParameters, None, list[Hole]]):
         grow = (p.margin * shot.scale + 1) * np.array([-1, -1, 1, 1])
         extents = [np.concatenate([h.corners.min(axis=0), h.corners.max(axis=0)]) for h in made]
         depths = np.array([hole.depth for hole in made])
-        return removal.reached(shot, np.reshape(extents, (-1, 4)) + grow, depths)
+        return reaching.reached(shot, np.reshape(extents, (-1, 4)) + grow, depths)
 
     def known(self, p: BreakawayParameters, state: object, seen: Surfaces) -> list[Hole]:
         """The holes."""

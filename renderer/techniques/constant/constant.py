@@ -51,6 +51,7 @@ class Constant(Layering[ConstantParameters]):
     title = "Constant transparency"
     instruction = "Whatever could be in the way is equally transparent everywhere."
     source = "Everitt2001"
+    misses = "misses R2 or R5; R7"
     Parameters = ConstantParameters
     strength = "uniform float alpha;\nfloat opacity_of(Surface s) { return alpha; }\n"
 

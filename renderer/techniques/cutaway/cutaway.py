@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques import removal
+from seethrough.renderer.techniques import reaching, removal
 from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
 
 
@@ -51,6 +51,7 @@ class Cutaway(removal.Removal[CutawayParameters, None, list[Wedge]]):
     title = "Cut-away"
     instruction = "What stands before a target is cut off along planes, like a slice of a cake."
     source = "Diepstraten2003"
+    misses = "misses R2 (targets in line), R7"
     Parameters = CutawayParameters
     removes = removal.CLIPPED
 
@@ -58,7 +59,7 @@ class Cutaway(removal.Removal[CutawayParameters, None, list[Wedge]]):
         """What is nearer than the end of a wedge."""
         made = wedges(p, shot)
         depths = np.array([w.depth for w in made])
-        return removal.reached(shot, removal.whole(shot, len(made)), depths)
+        return reaching.reached(shot, reaching.whole(shot, len(made)), depths)
 
     def known(self, p: CutawayParameters, state: object, seen: Surfaces) -> list[Wedge]:
         """The wedges."""

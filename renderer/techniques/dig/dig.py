@@ -72,6 +72,7 @@ class Dig(removal.Removal[DigParameters, Digging]):
         "all holes."
     )
     source = "Coffin2006"
+    misses = "misses R2, R6, R7"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e", "key:r"})
     texts = TEXTS
     Parameters = DigParameters

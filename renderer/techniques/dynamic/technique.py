@@ -38,6 +38,7 @@ class DynamicRendering(base.Plain[DynamicTransparency, Pointing | None, Masks]):
     title = "Dynamic transparency"
     instruction = "Things turn transparent where a target lies behind them."
     source = "Elmqvist2009"
+    misses = "meets all of them"
     painter = base.MASKS
     takes = frozenset({"pointer"})
     texts = TEXTS

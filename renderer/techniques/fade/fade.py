@@ -12,7 +12,7 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.events import Event, PointerMove
-from seethrough.renderer.techniques import pointing
+from seethrough.renderer.techniques import pointing, reaching
 from seethrough.renderer.techniques.base import Bools, Look, Shot, Surfaces, Texts
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.pointing import Pointing
@@ -49,6 +49,7 @@ class Fade(Layering[FadeParameters, Pointing]):
     title = "Fading about the pointer"
     instruction = "Whatever is near the pointer turns transparent."
     source = "Gutwin2003"
+    misses = "misses R4 (two dimensions)"
     takes = frozenset({"pointer"})
     texts = TEXTS
     Parameters = FadeParameters
@@ -76,12 +77,10 @@ float opacity_of(Surface s) {
 
     def touches(self, p: FadeParameters, state: Pointing, shot: Shot) -> Bools:
         """What reaches into the square about the pointer."""
-        from seethrough.renderer.techniques.removal import reached
-
         half = (p.radius + p.softness) * shot.size[1] + 1
         x, y = state.pixel(shot)
         box = np.array([[x - half, y - half, x + half, y + half]])
-        return reached(shot, box, np.array([np.inf]))
+        return reaching.reached(shot, box, np.array([np.inf]))
 
     def rule(self, p: FadeParameters, state: Pointing, seen: Surfaces, known: object) -> Look:
         """By the distance of the pixel from the pointer."""

@@ -13,9 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import (
+    TARGET_DEPTH,
+    Bools,
+    Floats,
+    Look,
+    Shot,
+    Surfaces,
+)
 from seethrough.renderer.techniques.layered import Layered, Layering
-from seethrough.renderer.techniques.removal import reached
+from seethrough.renderer.techniques.reaching import before_targets
 
 STYLES = ("opacity", "screen door")
 # Bayer's threshold matrix, 0 to 15: the pattern of a screen door of any density.
@@ -38,7 +45,8 @@ class Importance(Layering[ImportanceParameters, None, Floats]):
     title = "Importance-driven transparency"
     instruction = "Whatever hides a target grows sparse there."
     source = "Viola2004"
-    needs = frozenset({"target_depth"})
+    misses = "misses R4 (volumes), R5"
+    needs = frozenset({TARGET_DEPTH})
     Parameters = ImportanceParameters
     strength = f"""
 uniform sampler2D target_depth;
@@ -55,11 +63,7 @@ float opacity_of(Surface s) {{
 
     def touches(self, p: ImportanceParameters, state: None, shot: Shot) -> Bools:
         """What overlaps a target on the screen and reaches nearer than its end."""
-        from seethrough.renderer.scene.projection import screen_boxes
-
-        boxes = screen_boxes(shot.scene.corners, shot.camera, shot.size)
-        among = shot.scene.targets & boxes.inside
-        return reached(shot, boxes.extents[among] + [-1, -1, 1, 1], boxes.far[among])
+        return before_targets(shot)
 
     def known(self, p: ImportanceParameters, state: None, seen: Surfaces) -> Floats:
         """(h·w,) depth of the farthest surface of a target that faces the viewer."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.events import Event
-from seethrough.renderer.techniques import pointing, removal
+from seethrough.renderer.techniques import pointing, reaching, removal
 from seethrough.renderer.techniques.base import (
     Bools,
     Floats,
@@ -68,6 +68,7 @@ class Lens(removal.Removal[LensParameters, Pointing]):
         "farther."
     )
     source = "Ropinski2004"
+    misses = "misses R2, R6, R7"
     takes = frozenset({"pointer", "wheel", "key:q", "key:e"})
     texts = TEXTS
     Parameters = LensParameters
@@ -114,8 +115,8 @@ bool pierced(Surface s) {
         half *= 2.0 if p.shape == "ball" else 1.0
         box = np.array([[x - half - 1, y - half - 1, x + half + 1, y + half + 1]])
         if p.shape == "ball" and 2 * p.radius * np.tan(shot.camera.fov_y / 2) >= 0.5:
-            box = removal.whole(shot, 1)
-        return removal.reached(shot, box, np.array([end]))
+            box = reaching.whole(shot, 1)
+        return reaching.reached(shot, box, np.array([end]))
 
     def rule(self, p: LensParameters, state: Pointing, seen: Surfaces, known: object) -> Look:
         """Removed in the tube or ball."""

@@ -31,6 +31,7 @@ class SeeThrough(Layering[SeeThroughParameters]):
     title = "See-through surfaces"
     instruction = "Walls are transparent."
     source = "Chittaro2001"
+    misses = "misses R2 or R5; R7"
     Parameters = SeeThroughParameters
     strength = "uniform float alpha;\nfloat opacity_of(Surface s) { return alpha; }\n"
 

@@ -37,6 +37,7 @@ class ViewDependent(Layering[ViewDependentParameters]):
     title = "View-dependent transparency"
     instruction = "Things are transparent where they face you, and opaque along their outlines."
     source = "Diepstraten2002"
+    misses = "misses R2 or R5; R7"
     Parameters = ViewDependentParameters
     strength = """
 uniform float least;

@@ -90,7 +90,7 @@ def test_every_frame_of_a_practice_trial_is_marked_and_none_of_any_other(task):
 def test_distances_are_in_metres_with_the_digits_that_matter(units, correct, en, de):
     outcome = Outcome("0,0", "1,1", correct, distance=units)
     record = TrialRecord(None, outcome, 1, 0.0, 1.0, 0.0, False, 9, 0, 0.0, 0.0, 0.0)
-    paragraph = _feedback(record).blocks[0]
+    paragraph = _feedback(record, TASKS["unique"]).blocks[0]
     assert en in Texts("en").fill(paragraph.text, paragraph.values)
     assert de in Texts("de").fill(paragraph.text, paragraph.values)
 
@@ -98,7 +98,7 @@ def test_distances_are_in_metres_with_the_digits_that_matter(units, correct, en,
 def test_feedback_of_a_marked_place_has_its_plan():
     task = TASKS["unique"]
     state = mark(begun("unique", 4 / 3), "left")
-    page = _feedback(ended(None, task.outcome(state), task.solution(state)))
+    page = _feedback(ended(None, task.outcome(state), task.solution(state)), task)
     (plan,) = [b.plan for b in page.blocks if isinstance(b, PlanPicture)]
     assert plan.mark is not None and plan.place is not None and len(plan.walls) > 4
 
