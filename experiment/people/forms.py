@@ -139,8 +139,8 @@ class Opinions:
         return int(np.argmin(looks))
 
     def _preference(self, options: tuple[str, ...]) -> int:
-        """The first level or the last: by the times taken, and by chance; neither where a level took
-        no time, as with a task that somebody begins to write."""
+        """The first level or the last: by the times taken, and by chance; neither where one of them
+        took no time, as with a task that somebody begins to write."""
         first, last = (
             [fmean(t) for (met, _), t in self._times.items() if level in dict(met).values()]
             for level in (options[0], options[-1])
