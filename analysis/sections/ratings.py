@@ -5,15 +5,13 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-import pandas as pd
-
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.comparison import Pair, add_holm, pair_of, sd_of
+from seethrough.analysis.comparison import Pair, add_holm, pair_of
 from seethrough.analysis.design import Item
 from seethrough.analysis.figures.comparison import ratings_figure
-from seethrough.analysis.measures import answers, ratings
-from seethrough.analysis.page.blocks import Block, Cited, Column, Section, Table, say
+from seethrough.analysis.measures import ratings
+from seethrough.analysis.page.blocks import Block, Section
+from seethrough.analysis.sections.asked_once import once_blocks
 from seethrough.analysis.sections.base.asked import (
     Alike,
     asked_alike,
@@ -31,22 +29,6 @@ from seethrough.analysis.sections.tests.ordinal import (
     friedman_sentence,
     friedman_table,
 )
-from seethrough.analysis.stats.ranks import share_interval, sign_test
-from seethrough.analysis.stats.undefined import Undefined, is_defined
-
-SINGLE = (
-    Column("item", "item"),
-    Column("label", "item"),
-    Column("n", "n", "int"),
-    Column("neutral", "neutral", "int", "for neither: left out of share and test"),
-    Column("mean", "mean", "fixed2", "95 % interval of a share", "low", "high"),
-    Column("sd", "SD", "fixed2"),
-    Column("low", "from", "bound2", "95 % interval of the share"),
-    Column("high", "to", "bound2", "95 % interval of the share"),
-    Column("p", "p (sign test)", "p"),
-)
-NEUTRAL = "neutral"
-"""What the row of a preference says in `text` where it is for neither."""
 
 
 def ratings_section(context: Context) -> Section | None:
@@ -57,7 +39,7 @@ def ratings_section(context: Context) -> Section | None:
     blocks: list[Block] = []
     for number, group in enumerate(asked_alike(context)):
         blocks += _group(context, group, number)
-    blocks += _single(context, [item for item in items_of(context) if not item.each])
+    blocks += once_blocks(context, [item for item in items_of(context) if not item.each])
     blocks += reliability_blocks(context, scales(context))
     return Section("ratings", "Questionnaire", tuple(blocks)) if blocks else None
 
@@ -129,109 +111,3 @@ def _points(items: Sequence[Item]) -> str:
 def _said(m: Pair, labels: Mapping[str, str]) -> str:
     item, comma, where = m.label.partition(", ")
     return f"{labels.get(item, item).capitalize()}{comma}{where}"
-
-
-_OF_SHARES = ("neutral", "low", "high", "p")
-"""Columns that only the preference has."""
-
-
-def _single(context: Context, items: Sequence[Item]) -> list[Block]:
-    """Items that were asked once."""
-    asked = context.study.questionnaire
-    rows, sides = [], []
-    for item in items:
-        values = answers(asked, item.name)
-        if len(values):
-            own = _share(asked, item) if item.of else dict.fromkeys(_OF_SHARES)
-            if item.of:
-                sides.append((item, _sides(context, item)))
-            rows.append(
-                {
-                    "item": item.name,
-                    "label": item.label or item.name,
-                    "n": len(values),
-                    "mean": float(values.mean()),
-                    "sd": sd_of(values),
-                    **own,
-                }
-            )
-    if not rows:
-        return []
-    table = Table(
-        "single_items",
-        "Asked once",
-        SINGLE,
-        tuple(rows),
-        tuple("label n neutral mean sd p".split()),
-        "".join(f"{i.name.capitalize()}: 1 {second}, 0 {first}. " for i, (first, second) in sides)
-        + ("Who prefers neither is a tie: counted, and left out of share, interval (Clopper and "
-           "Pearson's) and sign test." if sides else ""),
-    )  # fmt: skip
-    return [*(p for item, _ in sides for p in _preference(context, table, item)), table]
-
-
-def _sides(context: Context, item: Item) -> tuple[str, str]:
-    """The two levels that a preference is between."""
-    factor = context.design.factor(item.of)
-    level = next((c.level for c in factor.contrasts()), factor.baseline)
-    return factor.baseline, level
-
-
-def preferences(asked: pd.DataFrame, item: str) -> tuple[int, int, int]:
-    """How many prefer the level, the baseline, and neither.
-
-    Neither is what says so in `text`, or has a value between 0 and 1.
-    """
-    own = asked[(asked["item"] == item) & asked["value"].notna()]
-    value, text = own["value"], own["text"].astype("str")
-    neither = (text == NEUTRAL) | ((value != 0) & (value != 1))
-    return (
-        int(((value == 1) & ~neither).sum()),
-        int(((value == 0) & ~neither).sum()),
-        int(neither.sum()),
-    )
-
-
-def _share(asked: pd.DataFrame, item: Item) -> dict[str, object]:
-    """The columns of the preference: its share and interval are of those who prefer one."""
-    level, baseline, neither = preferences(asked, item.name)
-    n = level + baseline
-    if n == 0:
-        gone = Undefined("nobody prefers one to the other")
-        return {"neutral": neither, "mean": gone, "sd": gone, "low": gone, "high": gone, "p": gone}
-    low, high = share_interval(level, n)
-    share = np.repeat([1.0, 0.0], [level, baseline])
-    return {
-        "neutral": neither,
-        "mean": level / n,
-        "sd": sd_of(share),
-        "low": low,
-        "high": high,
-        "p": sign_test(level, baseline),
-    }
-
-
-def _preference(context: Context, table: Table, item: Item) -> list[Block]:
-    key, said = item.name, f"{item.name[:1].upper()}{item.name[1:]}"
-    factor = context.design.factor(item.of)
-    words = factor.label(_sides(context, item)[1])
-    row = table.row(key)
-    neutral: list[str | Cited] = []
-    if row["neutral"]:
-        neutral = [", of them ", table.cite(key, "neutral"), " for neither"]
-    if not is_defined(row["mean"]):
-        return [say(f"{said}: {{}}.", table.cite(key, "mean"))]
-    p = table.cite(key, "p")
-    return [
-        say(
-            f"{said} (n = {{}}{{}}): of those who prefer one, a share of {{}} prefers {words}, "
-            "95 % CI [{}, {}], "
-            f"sign test p {'' if p.text.startswith(('<', '>')) else '= '}{{}}.",
-            table.cite(key, "n"),
-            neutral,
-            table.cite(key, "mean", "bound2"),
-            table.cite(key, "low"),
-            table.cite(key, "high"),
-            p,
-        )
-    ]

@@ -85,6 +85,11 @@ class Texts:
                 found[key] = found.get(key, False) or name in used[kind]
         return found
 
+    def english_only(self, language: str, used: Mapping[str, Set[str]]) -> list[str]:
+        """Texts of plug-ins that are used which have no other of this language."""
+        return [key for kind, name, texts in _each_plugin() if name in used[kind]
+                for key in texts.get("en", {}) if key not in texts.get(language, {})]  # fmt: skip
+
     def keys(self) -> frozenset[str]:
         """Every key there is."""
         return frozenset(self._texts)

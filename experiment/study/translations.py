@@ -86,24 +86,27 @@ def _free(where: str, taken: Mapping[str, str]) -> str:
     return name
 
 
+def _used(study: Study) -> dict[str, set[str]]:
+    """The plug-ins whose texts a study may show, by kind."""
+    return {
+        "technique": {  # who reads how to use their hands
+            part.technique_name
+            for part in study.parts.values()
+            if part.technique.technique.active(part.technique)
+        },
+        "world": {part.world for part in study.parts.values()},
+        "task": {*study.tasks()},
+        "question": {q.use for part in study.parts.values() for q in part.questions.values()},
+    }
+
+
 def needed(study: Study) -> dict[str, str]:
     """Every text that the study may show, by its name, in English or in the study's own words."""
     uses = {q.use for part in study.parts.values() for q in part.questions.values()}
     kinds = any(part.world != "abstract" for part in study.parts.values()) or "depth_test" in uses
     sure = [part.limits.options(t) for part in study.parts.values() for t in part.design.tasks]
     texts = Texts("en", study.texts)
-    plugins = texts.of_others(
-        {
-            "technique": {  # who reads how to use their hands
-                part.technique_name
-                for part in study.parts.values()
-                if part.technique.technique.active(part.technique)
-            },
-            "world": {part.world for part in study.parts.values()},
-            "task": {*study.tasks()},
-            "question": uses,
-        }
-    )
+    plugins = texts.of_others(_used(study))
     found = {}
     for key in sorted(texts.keys(), key=texts.place):
         table = key.partition(".")[0]
@@ -158,7 +161,15 @@ def _faults(study: Study, found: Mapping[str, object]) -> Iterator[str]:
 def texts_of(study: Study, language: str) -> Texts:
     """All texts of a session in one of the study's languages."""
     if not is_own(language):
-        return Texts(language, study.texts)
+        texts = Texts(language, study.texts)
+        lacking = [
+            f"{key}: missing in {shown(language)}, expected it there or below [texts]"
+            for key in texts.english_only(language, _used(study))
+            if key not in study.texts
+        ]
+        if lacking:
+            raise gathered(lacking)
+        return texts
     given = study.translations[language]
     replaced = {k: v for k, v in given.items() if not k.startswith(OWN)}
     return Texts("en", {**study.texts, **replaced}, own_words(study, language))

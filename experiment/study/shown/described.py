@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from typing import Any
 
 from seethrough.experiment.questions.kit import Asking, Weighs
@@ -12,6 +13,7 @@ from seethrough.experiment.study.design.factors import ALONE, Factor
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.tables.reading import STARTS, Question
 from seethrough.experiment.study.tables.ready import Ready, question
+from seethrough.renderer.declared import Declares
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.measure import CONFIDENCE, TIME
 
@@ -55,7 +57,7 @@ def _items(study: Study, name: str, asked: Question) -> list[dict[str, object]]:
     if asked.use in STARTS:
         return []
     kind = question(asked.use)
-    said = kind.items(asked.parameters, name)
+    said = kind.items(_with_options(study, asked), name)
     parts = {p.score: list(p.asked(name)) for p in _scales(asked, name) if p.score}
     added = {item for own in parts.values() for item in own}
     added |= {*kind.behind(asked.parameters)} if isinstance(kind, Weighs) else set()
@@ -81,6 +83,15 @@ def _items(study: Study, name: str, asked: Question) -> list[dict[str, object]]:
                else {}),
         })  # fmt: skip
     return items
+
+
+def _with_options(study: Study, asked: Question) -> Declares:
+    """A question's parameters; what is asked of a factor's levels has those for options."""
+    p, of = asked.parameters, asked.table.of
+    if not of or getattr(p, "options", None) != ():
+        return p
+    levels = next(f.names for f in study.factors if f.name == of)
+    return replace(p, options=tuple(levels), **({"of": ""} if hasattr(p, "of") else {}))
 
 
 def _scales(asked: Question, name: str) -> list[LikertParameters]:

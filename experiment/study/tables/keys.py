@@ -137,7 +137,7 @@ def _of_model(table: str, model: type[BaseModel]) -> Iterator[StudyKey]:
         inner = f"{table}.{name}"
         table_of = f"a table, [{inner}]" if inner in tables() else ""
         may = str(more["said"]) or table_of or _allowed(field)
-        default = REQUIRED if field.is_required() else field.default
+        default = REQUIRED if field.is_required() else field.get_default(call_default_factory=True)
         yield StudyKey(table, name, may, default, str(more["unit"]), field.description or "")
 
 

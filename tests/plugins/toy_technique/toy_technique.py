@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.api import key, removal
+from seethrough.api import key, reaching, removal
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ bool pierced(Surface s) { return true; }
 """
 
     def touches(self, p, state, shot):
-        return removal.reached(shot, removal.whole(shot, 1), np.array([p.distance]))
+        return reaching.reached(shot, reaching.whole(shot, 1), np.array([p.distance]))
 
     def rule(self, p, state, seen, known):
         pixels = np.ones(seen.shot.size[0] * seen.shot.size[1], dtype=bool)

@@ -14,7 +14,7 @@ from seethrough.analysis.load.study import load_study
 from seethrough.analysis.page.blocks import Table, walk
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.report import Options, make_report
-from seethrough.analysis.sections.ratings import preferences
+from seethrough.analysis.sections.asked_once import preferences
 from seethrough.analysis.validity import learning_slopes
 
 

@@ -313,3 +313,17 @@ def test_migrating_keeps_what_was_said_of_questions():
     for said in ("consent", "how old", "after everything", "short ones", "approved"):
         assert said not in session
     assert tomllib.loads(new)["questions"]["ratings"]["when"] == "end"
+
+
+def test_a_ranking_of_levels_has_an_item_for_each(tmp_path):
+    study = tmp_path / "mine.toml"
+    study.write_text(
+        '[study]\nname = "mine"\ntitle = "Mine"\ndescription = "Ours."\n'
+        "participants = 4\nseed = 1\n"
+        '[factors.view.levels]\nplain = { technique.use = "standard" }\n'
+        'cut = { technique.use = "cutaway" }\n'
+        '[design]\ntasks = ["count"]\ntrials = 1\n[world]\nuse = "abstract"\n'
+        '[questions]\norder = { use = "ranking", of = "view", text = "Which first?" }\n',
+        encoding="utf-8",
+    )
+    assert [i["name"] for i in design_entry(load(str(study)))["items"]] == ["order_1", "order_2"]
