@@ -6,7 +6,15 @@ from screen import Screen, button, fields, seen
 
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.hud_drawing import ACCENT, PILOT
-from seethrough.experiment.pages.pages import Page, Paragraph, TextField
+from seethrough.experiment.pages.pages import (
+    Choice,
+    Page,
+    Paragraph,
+    Ranking,
+    Scale,
+    Several,
+    TextField,
+)
 from seethrough.experiment.questions.tlx.tlx_question import TLX
 from seethrough.experiment.study.tables.ready import one_page
 
@@ -163,3 +171,22 @@ def test_keys_of_a_trial_do_not_scroll_the_page_after_it(screen):
         for down in (True, False):
             screen.stage.interface.key(name, down)
     assert (seen(screen, page()) == top).all()
+
+
+BLOCKS = {
+    "scale": lambda text: Scale("x", text, "low", "high", 5),
+    "choice": lambda text: Choice("x", text, ("one", "two")),
+    "several": lambda text: Several("x", text, ("one", "two")),
+    "ranking": lambda text: Ranking("x", text, ("one", "two")),
+    "text": lambda text: TextField("x", text),
+}
+
+
+@pytest.mark.parametrize("kind", BLOCKS)
+def test_a_question_s_words_are_drawn(screen, kind):
+    """Fewer strokes, less ink: one question is an I, the other many Ms."""
+    ink = []
+    for text in ("I", "MMMMMMMMMMMMMMMM"):
+        picture = screen.draw(Form(Page("x", "remarks.title", (BLOCKS[kind](text),))))
+        ink.append((np.asarray(picture, float).max(axis=2) < 100).sum())
+    assert ink[1] > ink[0] + 200

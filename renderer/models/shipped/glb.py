@@ -105,9 +105,11 @@ class _Writer:
 
 
 def _index_kind(count: int) -> tuple[str, int]:
-    if count <= 256:
+    """For so many vertices. The largest number of a kind is no index (glTF 2.0 §3.7.2.1): some
+    drivers begin a new strip there."""
+    if count <= 255:
         return "<u1", BYTE
-    return ("<u2", SHORT) if count <= 65536 else ("<u4", LONG)
+    return ("<u2", SHORT) if count <= 65535 else ("<u4", LONG)
 
 
 def glb(nodes: Sequence[Node], shapes: Mapping[str, Shape], said: str) -> bytes:

@@ -139,7 +139,7 @@ def test_status_says_who_has_what_and_what_is_next(tmp_path, capsys):
     assert "balance   completed rows differ by 1\n          row 1: 1 complete, 0 open" in said
     assert "open      C, slot 3, since 2026-01-02T03:04:05.000Z (stale: its slot may" in said
     assert "void      B, slot 2, since 2026-01-02T03:04:05.000Z: felt ill\\x1b[2J" in said
-    assert "next      seethrough run demo --next: slot 2, row 2" in said
+    assert "next      seethrough run demo --next: slot 2, row 2\n" in said
 
 
 def test_withdrawing_asks_and_removes_only_when_told(sessions, tmp_path, capsys, monkeypatch):

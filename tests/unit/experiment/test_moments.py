@@ -90,6 +90,17 @@ def test_once_for_each_level_is_the_last_time_that_it_is_met():
     assert Counter(r["item"] for r in recorder.rows) == {"hard": 2, "once": 1}
 
 
+def test_once_for_each_cell_is_the_last_time_that_it_is_met():
+    asked = questions(hard={**LIKERT, "when": "trial", "each": ["transparency"]})
+    _, recorder, _ = play(asked)
+    trials = [t for s in session_for(1, asked.plan) for t in s.trials]
+    last = {t.levels["transparency"]: str(t.number) for t in trials}
+    assert len(trials) > len(last) > 1
+    rows = [r for r in recorder.rows if r["item"] == "hard"]
+    assert len(rows) == len(last)
+    assert {r["transparency"]: r["after_trial"] for r in rows} == last
+
+
 @pytest.mark.parametrize(
     ("given", "asked"),
     [({"hard": 2}, [2]), ({"hard": [1, 7]}, [1, 4]), ({"hard": {"least": 3}}, [3, 4]),
