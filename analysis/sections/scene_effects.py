@@ -64,8 +64,10 @@ def _none(found: Scenes) -> Prose:
     if found.given_up:
         steps = "; ".join(found.given_up)
         said += f", as a random effect: {steps}. They are none in the model above, {ONLY}"
-    else:
+    elif found.shared < FEWEST:
         said += f". Fewer than {FEWEST} are no sample, {ONLY}"
+    else:
+        said += f". The model above was not fitted, nor is one with them, {ONLY}"
     return say("{}", [said], kind="note")
 
 

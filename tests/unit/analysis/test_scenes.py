@@ -106,11 +106,24 @@ def test_the_report_says_for_which_scenes_it_speaks(tmp_path: Path) -> None:
     assert shared["mixed_scenes"].rows[0]["scenes"] == 8
     few = _report(tmp_path / "few", 4)
     assert "mixed_scenes" not in {t.key for t in tables_of(few)}
-    said = " ".join(
-        str(run) for s in few.sections for b in s.blocks for run in getattr(b, "runs", ())
+    assert "4 scenes were met by several people. Fewer than 7 are no sample" in _said(few)
+
+
+def _said(report) -> str:
+    return " ".join(
+        str(run) for s in report.sections for b in s.blocks for run in getattr(b, "runs", ())
     )
-    assert "4 scenes were met by several people. Fewer than 7 are no sample" in said
 
 
 def _report(folder: Path, scenes: int):
     return make_report(make_design(folder, replace(DESIGNS["scenes"], shared=scenes)), Options())
+
+
+def test_scenes_enough_beside_a_model_that_was_not_fitted_are_not_called_too_few(
+    tmp_path: Path,
+) -> None:
+    """Two people are too few for the model, whatever the scenes."""
+    few = replace(DESIGNS["scenes"], people=(2,))
+    report = make_report(make_design(tmp_path / "data", few), Options())
+    assert "8 scenes were met by several people. The model above was not fitted" in _said(report)
+    assert "no sample" not in _said(report)
