@@ -12,6 +12,7 @@ from seethrough.benchmarks.rows import Row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 LEAST = 0.05  # of 255: less is drawn here, as no error; a logarithm has no zero
 COLORS = {"abstract": "#2f81d6", "walkthrough": "#c2750a", "jeep": "#2e9e4f"}
@@ -29,6 +30,11 @@ Table = dict[str, dict[str, dict[str, float]]]  # figure → way → scene → v
 
 
 def draw(rows: list[Row], path: Path) -> None:
+    """Write the picture."""
+    save(picture(rows), path, "Error against time, and what is shown, for every technique")
+
+
+def picture(rows: list[Row]) -> Figure:
     """Above, error against time, a panel a scene; below, what each technique shows. Ways have the
     numbers that they have below."""
     from matplotlib.figure import Figure
@@ -55,7 +61,7 @@ def draw(rows: list[Row], path: Path) -> None:
         handles, labels, loc="outside lower center", ncols=len(scenes), fontsize=8,
         labelcolor=INK, frameon=False,
     )  # fmt: skip
-    save(figure, path, "Error against time, and what is shown, for every technique")
+    return figure
 
 
 def _table(rows: list[Row]) -> Table:
@@ -83,8 +89,12 @@ def _scatter(axes: Axes, scene: str, table: Table, ways: list[str]) -> None:
         axes.annotate(
             str(number), (x, error), (0, 3 + 8 * up), textcoords="offset points",
             fontsize=6.5, color=INK, ha="center",
+            arrowprops={"arrowstyle": "-", "color": INK, "lw": 0.25} if up else None,
         )  # fmt: skip
-    axes.set(xscale="log", yscale="log", ylim=(LEAST / 1.5, 200), xlim=(0.7, 60))
+    every = [value for way in ways for value in table["time"][way].values()]
+    worst = max(value for way in ways for value in table["error"][way].values())
+    axes.set(xscale="log", yscale="log", ylim=(LEAST / 1.5, max(200, 4 * worst)),
+             xlim=(min(0.7, 0.8 * min(every)), max(60, 1.2 * max(every))))  # fmt: skip
     axes.set_xticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
     axes.set_xticks([], minor=True)
     axes.set_yticks([LEAST, 1, 10, 100], ["none", "1", "10", "100"])
@@ -111,4 +121,5 @@ def _dots(
     if name == "pops":
         axes.set_xlim(left=0)
     else:
-        axes.set_xlim(-4, 104)
+        most = max([100.0, *(v for found in table[name].values() for v in found.values())])
+        axes.set_xlim(-4, most + 4)

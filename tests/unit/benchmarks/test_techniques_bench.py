@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from seethrough.benchmarks.drawing import techniques as bench
-from seethrough.benchmarks.drawing.technique_figure import draw
+from seethrough.benchmarks.drawing.technique_figure import draw, picture
 from seethrough.benchmarks.drawing.technique_ways import Way, ways_of
 from seethrough.benchmarks.rows import row
 from seethrough.experiment.gallery.gallery_failures import CAMERA, failures
@@ -115,6 +116,14 @@ def test_the_figure_names_every_way_and_draws_what_is_missing_as_nothing(tmp_pat
                     if scene == "abstract":
                         rows.append(row(figure, f"{scene}: {name}", 10.0, "%"))
     rows.append(row("adaptive_cutaway: border off by more than 4 px", "jeep", 0.1, "%"))
+    rows += [row("time", "jeep: quick", 0.3, "×"), row("error", "jeep: quick", 900.0, "of 255"),
+             row("context left", "jeep: quick", 120.0, "%")]  # fmt: skip
+    for axes in (axes for part in picture(rows).subfigs for axes in part.axes):
+        (left, right), (a, b) = axes.get_xlim(), sorted(axes.get_ylim())
+        points = np.concatenate([line.get_xydata() for line in axes.lines])
+        shown = points[np.isfinite(points).all(axis=1)]
+        assert len(shown) and (left <= shown[:, 0]).all() and (shown[:, 0] <= right).all()
+        assert (a <= shown[:, 1]).all() and (shown[:, 1] <= b).all()
     draw(rows, tmp_path / "a.svg")
     text = (tmp_path / "a.svg").read_text("utf-8")
     assert "cutaway  1" in text and "constant, 4 peels  2" in text and "idle" not in text
