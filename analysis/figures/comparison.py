@@ -146,7 +146,7 @@ def _ratings(where: str, measures: Sequence[Pair], tests: Table, points: str) ->
                 ends.append({"x": i + side, "low": mean - sd, "high": mean + sd})
             bar = {"from": i + side - 0.18, "to": i + side + 0.18, "mean": mean, "zero": 0}
             bars.append({**bar, "level": level, "tip": tip})
-    x = categories([m.label.split(",")[0] for m in measures])
+    x = categories([m.label.split(",")[0].replace("_", " ") for m in measures])
     scale, axis = {}, "rating"
     if points:
         top = int(points.rpartition("–")[2])
@@ -162,7 +162,7 @@ def _ratings(where: str, measures: Sequence[Pair], tests: Table, points: str) ->
     span = {"y": number("low", axis, **scale), "y2": {"field": "high"}}
     return {
         "title": where,
-        "width": 270,
+        "width": max(270, 66 * len(measures)),
         "height": HEIGHT,
         "layer": layers(
             layer("rect", bars, {**box, "y": y, "y2": {"field": "zero"}}),

@@ -100,6 +100,7 @@ def categories(labels: Sequence[str], channel: str = "x") -> Spec:
             "values": list(range(len(labels))),
             "labelExpr": f"{named!r}[datum.value]",
             "labelAngle": 0,
+            "labelOverlap": False,
             "grid": False,
         },
     }

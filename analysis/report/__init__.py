@@ -24,6 +24,7 @@ from seethrough.analysis.page.blocks import (
     Table,
     walk,
 )
+from seethrough.analysis.page.glossary import meaning
 from seethrough.analysis.page.html import as_html
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.page.tables_csv import as_csv
@@ -71,7 +72,7 @@ def make_report(data: Path, options: Options) -> Report:
     if any(chain.state == "none" for chain in study.chains):
         banner = f"{banner} {UNCHAINED}".strip()
     subtitle = f"Study {study.name}. Source: {study.source}. {study.description}"
-    sections[-1] = with_dictionary(sections)
+    sections[-1] = with_dictionary(sections, (f.name for f in study.design.factors))
     script = as_r(_title(study), study.source, plan, study.design, _facts(context, sections))
     return Report(f"{_title(study)}: report", subtitle, banner, tuple(sections), script)
 
@@ -85,8 +86,9 @@ DICTIONARY = (
 )
 
 
-def with_dictionary(sections: Sequence[Section]) -> Section:
-    """The last section, with what every column of every table means."""
+def with_dictionary(sections: Sequence[Section], factors: Iterable[str] = ()) -> Section:
+    """The last section, with what every column of every table means; `factors`: the study's."""
+    names = frozenset(factors)
     tables = [b for s in sections for b in walk(s.blocks) if isinstance(b, Table) and not b.source]
     rows = tuple(
         {
@@ -94,7 +96,7 @@ def with_dictionary(sections: Sequence[Section]) -> Section:
             "table": table.key,
             "title": table.title,
             "label": column.label,
-            "about": column.about,
+            "about": meaning(column.name, column.about, names),
         }
         for table in tables
         for column in table.columns

@@ -32,7 +32,7 @@ def participants_section(context: Context) -> Section:
     total = Table(
         "totals",
         "Data",
-        (Column("what", "data"), Column("count", "count", "int")),
+        (Column("what", "data"), Column("count", "count", "int", "how many")),
         (
             {"what": "participants", "count": people},
             {"what": "trials recorded", "count": len(trials)},
