@@ -169,8 +169,8 @@ def test_a_killed_stations_lock_frees_itself(stations, tmp_path):
 def test_a_stopped_station_writes_nothing_after_another_took_over(stations, tmp_path):
     first = stations().played()
     first.send(signal.SIGSTOP)
-    # PostgreSQL's clock has it as dead, SQLite's stations will watch. A beat that was under way may be
-    # written some seconds after the stop, by a server on a busy machine.
+    # PostgreSQL's clock has it as dead, SQLite's stations will watch. A beat that was under way may
+    # be written some seconds after the stop, by a server on a busy machine.
     time.sleep(DEAD + 5.0)
     second = stations().played()
     second.end.touch()
