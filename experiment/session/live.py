@@ -21,7 +21,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.beside.own_model_files import keep
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.shown.described import design_entry
-from seethrough.experiment.study.translations import texts_of
+from seethrough.experiment.study.translations import demand_texts, texts_of
 from seethrough.tasks.catalog import TASKS
 
 if TYPE_CHECKING:
@@ -51,6 +51,8 @@ def play_in_window(
     if start.session > 1:
         print(going_on(study, start), file=sys.stderr, flush=True)
     part = study.session_part(start.slot)
+    if start.session == 1:  # who has begun goes on as they began
+        demand_texts(study, part.study.language)
     texts = texts_of(study, part.study.language)
     window = Window(part.display, texts, clock, texts.get(study.study.title))
     window.stage.pilot = source == "pilot"

@@ -161,18 +161,24 @@ def _faults(study: Study, found: Mapping[str, object]) -> Iterator[str]:
 def texts_of(study: Study, language: str) -> Texts:
     """All texts of a session in one of the study's languages."""
     if not is_own(language):
-        texts = Texts(language, study.texts)
-        lacking = [
-            f"{key}: missing in {shown(language)}, expected it there or below [texts]"
-            for key in texts.english_only(language, _used(study))
-            if key not in study.texts
-        ]
-        if lacking:
-            raise gathered(lacking)
-        return texts
+        return Texts(language, study.texts)
     given = study.translations[language]
     replaced = {k: v for k, v in given.items() if not k.startswith(OWN)}
     return Texts("en", {**study.texts, **replaced}, own_words(study, language))
+
+
+def demand_texts(study: Study, language: str) -> None:
+    """Raises InputError where a plug-in has no text in one of our languages, before anybody reads
+    it in English. Sessions that were shown so are replayed as they were."""
+    if is_own(language):
+        return
+    only = Texts(language, study.texts).english_only(language, _used(study))
+    lacking = [key for key in only if key not in study.texts]
+    if lacking:
+        raise InputError(
+            f"study.language = {shown(language)}: no text in it of {', '.join(lacking)}: expected "
+            "them there where they are in English, or below [texts]"
+        )
 
 
 def own_words(study: Study, language: str) -> dict[str, str]:

@@ -20,7 +20,7 @@ from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design.design import TaskSet, session_for
 from seethrough.experiment.study.design.factors import ALONE, WITHIN
 from seethrough.experiment.study.shown.design_table import minutes
-from seethrough.experiment.study.translations import languages_of, texts_of
+from seethrough.experiment.study.translations import demand_texts, languages_of, texts_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 from seethrough.renderer.errors import CannotDraw
 from seethrough.renderer.techniques.standard.opaque import Standard
@@ -82,6 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
     study = load(arguments.study)
     for language in languages_of(study):
         texts_of(study, language)
+        demand_texts(study, language)
     said = Verdicts()
     said.say("config", f"{study.study.name}, {study.digest()[:12]}")
     _models(study, said)

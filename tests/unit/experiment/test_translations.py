@@ -3,6 +3,7 @@
 import re
 import shutil
 import tomllib
+from dataclasses import replace
 
 import pytest
 
@@ -14,7 +15,14 @@ from seethrough.experiment.session import questionnaire
 from seethrough.experiment.session.moments import moments_of
 from seethrough.experiment.study.config import find, load, parse
 from seethrough.experiment.study.design.design import session_for
-from seethrough.experiment.study.translations import needed, own_texts, texts_of, unshowable
+from seethrough.experiment.study.translations import (
+    demand_texts,
+    needed,
+    own_texts,
+    texts_of,
+    unshowable,
+)
+from seethrough.tasks.catalog import TASKS
 
 FRENCH = find("french")
 FILE = FRENCH.parent / "languages" / "fr.toml"
@@ -192,3 +200,20 @@ def test_texts_of_studies_without_own_languages_are_as_they_were():
     texts = texts_of(study, "de")
     plain = Texts("de", study.texts)
     assert {k: texts[k] for k in texts.keys()} == {k: plain[k] for k in plain.keys()}
+
+
+@pytest.mark.parametrize("replaced", [{}, {"count.extra": "Mehr"}])
+def test_a_plug_in_without_the_language_is_refused_and_replayed(monkeypatch, replaced):
+    """Before anybody reads it in English, unless the study says it itself; what was shown so is
+    shown so again."""
+    task = TASKS["count"]
+    more = {**task.texts, "en": {**task.texts["en"], "count.extra": "More"}}
+    monkeypatch.setattr(type(task), "texts", more)
+    study = replace(load("published"), texts=replaced)
+    demand_texts(study, "en")
+    assert texts_of(study, "de")["count.extra"] == replaced.get("count.extra", "More")
+    if replaced:
+        demand_texts(study, "de")
+        return
+    with pytest.raises(InputError, match=r'"de": no text in it of count[.]extra'):
+        demand_texts(study, "de")
