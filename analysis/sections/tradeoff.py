@@ -23,7 +23,7 @@ from seethrough.analysis.tradeoff import Change, accuracy_by_speed, changes, cor
 CHANGES = (
     Column("task", "task"),
     Column("label", "task"),
-    Column("error", "error measure"),
+    Column("error", "error measure", about="the measure that times are set against"),
     Column("n", "n", "int"),
     Column("faster_worse", "faster, more errors", "int"),
     Column("faster_better", "faster, fewer errors", "int"),

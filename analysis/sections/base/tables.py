@@ -185,7 +185,7 @@ def cell_table(
         for index in np.ndindex(*cells.values.shape[1:]):
             at = dict(zip(cells.factors, (known[i] for known, i in zip(
                 cells.factors.values(), index, strict=True)), strict=True))  # fmt: skip
-            if context.design.left_out({**where, **at}) or not asked(context, where, at):
+            if context.design.left_out({**where, **at}) or not has_task(context, where, at):
                 continue
             values = cells.values[(slice(None), *index)]
             has = np.isfinite(values) & members
@@ -209,7 +209,7 @@ def cell_table(
     return Table(key, title, cell_columns(factors), tuple(rows), tuple(shown), note)
 
 
-def asked(context: Context, group: Mapping[str, str], at: Mapping[str, str]) -> bool:
+def has_task(context: Context, group: Mapping[str, str], at: Mapping[str, str]) -> bool:
     """Whether a group was given a cell's task. Its people have rows then, be they left out; nobody
     says of a group that has no people yet."""
     trials = context.study.trials
