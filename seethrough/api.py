@@ -101,7 +101,7 @@ __all__ = [
     "transforms",
 ]
 
-VERSION = 2
+VERSION = 3
 
 LATER = ("Loaded", "load", "results")  # statistics take a second to import, plug-ins need none
 
