@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -11,22 +9,19 @@ from numpy.typing import NDArray
 from seethrough.renderer.arrays import Floats, Floats32, Ints
 
 
-def least_of_greatest(
-    functions: Sequence[NDArray[np.float64]], size: tuple[int, int]
-) -> NDArray[np.float32]:
-    """(h, w) 1 / the least, over some sets, of the greatest of a set's linear functions (k, 3:
-    column, row, constant) at the middle of each pixel. Sets that can be least nowhere are left
-    out first."""
+TILE = 128, 16  # columns and rows: rows as long as this are worked through several at once
+
+
+def least_of_greatest(rows: Floats, starts: Ints, size: tuple[int, int]) -> NDArray[np.float32]:
+    """(h, w) 1 / the least, over some sets, of the greatest of a set's linear functions at the
+    middle of each pixel. Set k has the `rows` (m, 3: column, row, constant) from starts[k] (n + 1,)
+    to starts[k + 1]. Sets that can be least nowhere are left out first. To 10⁻⁶ of itself."""
     width, height = size
     corners = np.array([[0, 0, 1], [width, 0, 1], [0, height, 1], [width, height, 1.0]])
-    starts = np.cumsum([0, *(len(f) for f in functions)])
-    values = np.concatenate(functions) @ corners.T  # (rows, 4)
+    values = rows @ corners.T  # (m, 4)
     greatest = np.maximum.reduceat(values.max(axis=1), starts[:-1])
     chosen = _undominated(values, starts, np.argsort(greatest, kind="stable"))
-    kept = [functions[a] for a in chosen.tolist()]
-    return _least_of_greatest(
-        np.concatenate(kept), np.cumsum([0, *(len(f) for f in kept)]), width, height
-    )
+    return _least_of_greatest(rows, starts, chosen, width, height)
 
 
 @njit(cache=True)
@@ -61,46 +56,59 @@ def _undominated(values: Floats, starts: Ints, order: Ints) -> Ints:
     return chosen[:count]
 
 
-TILE = 32
+@njit(cache=True)
+def _least_of_greatest(
+    rows: Floats, starts: Ints, chosen: Ints, width: int, height: int
+) -> Floats32:
+    out = np.empty((height, width), np.float32)
+    across = (np.arange(TILE[0]) + 0.5).astype(np.float32)
+    greatest = np.empty(TILE[0], np.float32)
+    for top in range(0, height, TILE[1]):
+        for left in range(0, width, TILE[0]):
+            bottom, right = min(top + TILE[1], height), min(left + TILE[0], width)
+            kept, begins = _deciding(rows, starts, chosen, (left, top, right, bottom))
+            for r in range(top, bottom):
+                line = out[r, left:right]
+                for i in range(len(begins) - 1):
+                    for k in range(begins[i], begins[i + 1]):
+                        base = np.float32(kept[k, 0] * left + kept[k, 1] * (r + 0.5) + kept[k, 2])
+                        step = np.float32(kept[k, 0])
+                        first = k == begins[i]
+                        for x in range(len(line)):
+                            value = base + step * across[x]
+                            greatest[x] = value if first or value > greatest[x] else greatest[x]
+                    for x in range(len(line)):
+                        line[x] = greatest[x] if i == 0 or greatest[x] < line[x] else line[x]
+                for x in range(len(line)):
+                    line[x] = np.float32(1.0) / line[x]
+    return out
 
 
 @njit(cache=True)
-def _least_of_greatest(rows: Floats, starts: Ints, width: int, height: int) -> Floats32:
-    out = np.empty((height, width), np.float32)
-    sets = len(starts) - 1
-    low, high = np.empty(sets), np.empty(sets)
-    kept = np.empty((len(rows), 3))
-    for top in range(0, height, TILE):
-        for left in range(0, width, TILE):
-            bottom, right = min(top + TILE, height), min(left + TILE, width)
-            # What the greatest of a set is at most and at least in the tile: at its corners.
-            for s in range(sets):
-                low[s], high[s] = -np.inf, -np.inf
-                for k in range(starts[s], starts[s + 1]):
-                    a, b, c = rows[k]
-                    x0, x1, y0, y1 = a * left, a * right, b * top, b * bottom
-                    low[s] = max(low[s], c + min(x0, x1) + min(y0, y1))
-                    high[s] = max(high[s], c + max(x0, x1) + max(y0, y1))
-            bound = high.min()
-            for r in range(top, bottom):
-                out[r, left:right] = np.inf
-            for s in range(sets):
-                if low[s] > bound:
-                    continue
-                count = 0
-                for k in range(starts[s], starts[s + 1]):
-                    a, b, c = rows[k]
-                    if c + max(a * left, a * right) + max(b * top, b * bottom) >= low[s]:
-                        kept[count] = rows[k]
-                        count += 1
-                for r in range(top, bottom):
-                    for c in range(left, right):
-                        greatest = -np.inf
-                        for k in range(count):
-                            value = kept[k, 0] * (c + 0.5) + kept[k, 1] * (r + 0.5) + kept[k, 2]
-                            greatest = max(greatest, value)
-                        out[r, c] = min(out[r, c], np.float32(greatest))
-            for r in range(top, bottom):
-                for c in range(left, right):
-                    out[r, c] = np.float32(1.0) / out[r, c]
-    return out
+def _deciding(
+    rows: Floats, starts: Ints, chosen: Ints, box: tuple[int, int, int, int]
+) -> tuple[Floats, Ints]:
+    """The rows, and where each set of them begins, that may decide within a rectangle of the
+    picture: by the bounds of each at its corners."""
+    left, top, right, bottom = box
+    low, bound = np.full(len(chosen), -np.inf), np.inf
+    for i in range(len(chosen)):
+        high = -np.inf
+        for k in range(starts[chosen[i]], starts[chosen[i] + 1]):
+            a, b, c = rows[k, 0], rows[k, 1], rows[k, 2]
+            low[i] = max(low[i], c + min(a * left, a * right) + min(b * top, b * bottom))
+            high = max(high, c + max(a * left, a * right) + max(b * top, b * bottom))
+        bound = min(bound, high)
+    kept, begins = np.empty((len(rows), 3)), np.zeros(len(chosen) + 1, np.int64)
+    sets, count = 0, 0
+    for i in range(len(chosen)):
+        if low[i] > bound:
+            continue
+        for k in range(starts[chosen[i]], starts[chosen[i] + 1]):
+            a, b, c = rows[k, 0], rows[k, 1], rows[k, 2]
+            if c + max(a * left, a * right) + max(b * top, b * bottom) >= low[i]:
+                kept[count] = rows[k]
+                count += 1
+        sets += 1
+        begins[sets] = count
+    return kept[:count], begins[: sets + 1]

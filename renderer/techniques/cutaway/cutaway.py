@@ -35,16 +35,17 @@ class CutawayParameters(removal.Removing):
 
 
 @dataclass(frozen=True, eq=False)
-class Wedge:
-    """About one target: unit normals (k, 3) of the planes, towards the eye, their distances from it
-    along them (k,), below 0, and the view depth of the box's farthest corner."""
+class Wedges:
+    """About each of n targets: unit normals (n, k, 3) of the planes, towards the eye, their
+    distances from it along them (n, k), below 0, of planes that do not cut −∞, and the view depth
+    (n,) of the box's farthest corner."""
 
     normals: Floats
     away: Floats
-    depth: float
+    depth: Floats
 
 
-class Cutaway(removal.Removal[CutawayParameters, None, list[Wedge]]):
+class Cutaway(removal.Removal[CutawayParameters, None, Wedges]):
     """Few planes cut off what stands before a target."""
 
     name = "cutaway"
@@ -57,22 +58,21 @@ class Cutaway(removal.Removal[CutawayParameters, None, list[Wedge]]):
 
     def touches(self, p: CutawayParameters, state: object, shot: Shot) -> Bools:
         """What is nearer than the end of a wedge."""
-        made = wedges(p, shot)
-        depths = np.array([w.depth for w in made])
-        return reaching.reached(shot, reaching.whole(shot, len(made)), depths)
+        deepest = wedges(p, shot).depth.max(initial=-np.inf)
+        return reaching.reached(shot, reaching.whole(shot, 1), np.array([deepest]))
 
-    def known(self, p: CutawayParameters, state: object, seen: Surfaces) -> list[Wedge]:
+    def known(self, p: CutawayParameters, state: object, seen: Surfaces) -> Wedges:
         """The wedges."""
         return wedges(p, seen.shot)
 
-    def rule(self, p: CutawayParameters, state: object, seen: Surfaces, known: list[Wedge]) -> Look:
+    def rule(self, p: CutawayParameters, state: object, seen: Surfaces, known: Wedges) -> Look:
         """Removed inside a wedge: before all its planes, and before the box's end."""
         signed = np.full(len(seen.depth), -np.inf)
-        for wedge in known:
-            outside = (seen.offset @ wedge.normals.T - wedge.away).min(axis=1, initial=np.inf)
-            signed = np.maximum(signed, np.minimum(outside, wedge.depth - seen.depth))
+        for normals, away, depth in zip(known.normals, known.away, known.depth, strict=True):
+            outside = (seen.offset @ normals.T - away).min(axis=1)
+            signed = np.maximum(signed, np.minimum(outside, depth - seen.depth))
         width, height = seen.shot.size
-        pierced = np.full(width * height, bool(known))
+        pierced = np.full(width * height, len(known.depth) > 0)
         return removal.look(p, seen, signed, pierced)
 
     def pictures(
@@ -82,7 +82,7 @@ class Cutaway(removal.Removal[CutawayParameters, None, list[Wedge]]):
         return {"clip": clip_depth(wedges(p, shot), shot)}
 
 
-def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
+def wedges(p: CutawayParameters, shot: Shot) -> Wedges:
     """One for each target that reaches beyond the near plane and has a box of some volume."""
     scene, camera = shot.scene, shot.camera
     targets = np.nonzero(scene.targets)[0]
@@ -98,11 +98,10 @@ def wedges(p: CutawayParameters, shot: Shot) -> list[Wedge]:
     middles = center[:, None] + np.concatenate([reach, -reach], axis=1)
     away = (normals * middles).sum(axis=2)
     order = np.argsort(away, axis=1, kind="stable")[:, : p.planes]
-    found = []
-    for t in np.nonzero((depth > camera.near) & flat)[0]:
-        chosen = order[t][away[t, order[t]] < 0]
-        found.append(Wedge(normals[t, chosen], away[t, chosen], float(depth[t])))
-    return found
+    away = np.take_along_axis(away, order, axis=1)
+    normals = np.take_along_axis(normals, order[:, :, None], axis=1)
+    there = (depth > camera.near) & flat
+    return Wedges(normals[there], np.where(away < 0, away, -np.inf)[there], depth[there])
 
 
 def _thick(sides: Floats) -> Floats:
@@ -119,29 +118,31 @@ def _thick(sides: Floats) -> Floats:
     return found
 
 
-def clip_depth(made: list[Wedge], shot: Shot) -> NDArray[np.float32]:
+def clip_depth(made: Wedges, shot: Shot) -> NDArray[np.float32]:
     """(h, w) the farthest depth of a hole at each pixel, 0 where there is none."""
     from seethrough.renderer.techniques.maps import least_of_greatest
 
-    if not made:
+    if not len(made.depth):
         return np.zeros(shot.size[::-1], np.float32)
-    planes = [linear(wedge, shot) for wedge in made]
-    return least_of_greatest(planes, shot.size)
+    planes = linear(made, shot)
+    starts = np.arange(len(planes) + 1) * planes.shape[1]
+    return least_of_greatest(planes.reshape(-1, 3), starts, shot.size)
 
 
-def linear(wedge: Wedge, shot: Shot) -> Floats:
-    """(k + 1, 3) 1 / depth at which lines of sight leave a wedge, at most 0 where they
+def linear(made: Wedges, shot: Shot) -> Floats:
+    """(n, k + 1, 3) 1 / depth at which lines of sight leave each wedge, at most 0 where they
     never do: a · column + b · row + c at a pixel's middle."""
-    right, up, back = shot.camera.rotation.T
+    axes = shot.camera.rotation * [1, 1, -1]
     lens = shot.camera.lens(shot.size[1])
     # A line of sight is depth · (forward + x right + y up); it meets n · p = away at 1 / depth
     # = n · (forward + x right + y up) / away.
-    x = wedge.normals @ right / wedge.away / lens
-    y = wedge.normals @ up / wedge.away / lens
-    level = wedge.normals @ -back / wedge.away
+    x, y, level = np.moveaxis(made.normals @ axes / made.away[..., None], 2, 0)
+    x, y = x / lens, -y / lens
     middle = np.array(shot.size) / 2
-    rows = np.stack([x, -y, level - x * middle[0] + y * middle[1]], axis=1)
-    return np.concatenate([rows, [[0.0, 0.0, 1.0 / wedge.depth]]])
+    rows = np.stack([x, y, level - x * middle[0] - y * middle[1]], axis=2)
+    ends = np.zeros((len(rows), 1, 3))
+    ends[:, 0, 2] = 1.0 / made.depth
+    return np.concatenate([rows, ends], axis=1)
 
 
 TECHNIQUE = Cutaway()
