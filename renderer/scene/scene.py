@@ -142,6 +142,15 @@ class Scene:
         return own * stretch.max(axis=1, initial=0.0)
 
     @cached_property
+    def target_hulls(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """(m, 3) world corners of the hulls of all targets' meshes, one target's after the other's,
+        and where each target's begin (targets + 1,)."""
+        things = [self.objects[t] for t in np.nonzero(self.targets)[0].tolist()]
+        points = [t.mesh.hull @ t.transform[:3, :3].T + t.transform[:3, 3] for t in things]
+        starts = np.cumsum([0, *(len(p) for p in points)])
+        return np.concatenate([np.zeros((0, 3)), *points]), starts
+
+    @cached_property
     def triangle_counts(self) -> NDArray[np.int64]:
         """(n,) triangles of each object."""
         return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)

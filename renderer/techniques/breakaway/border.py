@@ -6,6 +6,37 @@ import numpy as np
 from numba import njit
 
 from seethrough.renderer.arrays import Floats, Floats32, Ints, Real
+from seethrough.renderer.masks.masks import convex_hull
+
+
+@njit(cache=True)
+def hulls(points: Floats, starts: Ints, lens: Floats) -> tuple[Floats, Ints, Floats]:
+    """Corners in pixels (m, 2) of the hulls of sets of points (p, 3) in camera coordinates, of
+    which each begins at one of `starts` (n + 1,), where each hull's begin (k + 1,), and the
+    farthest depth of each (k,). Points nearer than the near plane are left out, and so are sets
+    that have no other. `lens`: pixels for a slope of 1, the middle of the picture x, y, and the
+    near plane's depth."""
+    n = len(starts) - 1
+    corners, first, depths = np.empty((2 * len(points), 2)), np.zeros(n + 1, np.int64), np.empty(n)
+    pixels = np.empty((len(points), 2))
+    sets, total = 0, 0
+    for t in range(n):
+        count, deepest = 0, 0.0
+        for p in range(starts[t], starts[t + 1]):
+            depth = -points[p, 2]
+            if depth > lens[3]:
+                pixels[count, 0] = lens[1] + lens[0] * points[p, 0] / depth
+                pixels[count, 1] = lens[2] - lens[0] * points[p, 1] / depth
+                deepest = max(deepest, depth)
+                count += 1
+        if count > 0:
+            hull = convex_hull(pixels[:count])
+            corners[total : total + len(hull)] = hull
+            total += len(hull)
+            depths[sets] = deepest
+            sets += 1
+            first[sets] = total
+    return corners[:total], first[: sets + 1], depths[:sets]
 
 
 @njit(cache=True)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Ints
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import reaching, removal
 from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
@@ -30,14 +31,16 @@ class BreakawayParameters(removal.Removing):
 
 
 @dataclass(frozen=True, eq=False)
-class Hole:
-    """Before one target: the corners of its hull in pixels (k, 2), and its farthest depth."""
+class Holes:
+    """Before each of n targets: the `corners` of its hull in pixels (m, 2), one hull's after the
+    other's, where each hull's begin (n + 1,), and the target's farthest depth (n,)."""
 
     corners: Floats
-    depth: float
+    starts: Ints
+    depth: Floats
 
 
-class Breakaway(removal.Removal[BreakawayParameters, None, list[Hole]]):
+class Breakaway(removal.Removal[BreakawayParameters, None, Holes]):
     """Holes in the shape of targets."""
 
     name = "breakaway"
@@ -52,16 +55,17 @@ class Breakaway(removal.Removal[BreakawayParameters, None, list[Hole]]):
         """What reaches into a hole's rectangle, and nearer than its target's end."""
         made = holes(shot)
         grow = (p.margin * shot.scale + 1) * np.array([-1, -1, 1, 1])
-        extents = [np.concatenate([h.corners.min(axis=0), h.corners.max(axis=0)]) for h in made]
-        depths = np.array([hole.depth for hole in made])
-        return reaching.reached(shot, np.reshape(extents, (-1, 4)) + grow, depths)
+        first = made.starts[:-1]
+        low = np.minimum.reduceat(made.corners, first) if len(first) else made.corners
+        high = np.maximum.reduceat(made.corners, first) if len(first) else made.corners
+        return reaching.reached(shot, np.concatenate([low, high], axis=1) + grow, made.depth)
 
-    def known(self, p: BreakawayParameters, state: object, seen: Surfaces) -> list[Hole]:
+    def known(self, p: BreakawayParameters, state: object, seen: Surfaces) -> Holes:
         """The holes."""
         return holes(seen.shot)
 
     def rule(
-        self, p: BreakawayParameters, state: object, seen: Surfaces, known: list[Hole]
+        self, p: BreakawayParameters, state: object, seen: Surfaces, known: Holes
     ) -> Look:
         """Removed within a hole, and before its target's end."""
         from seethrough.renderer.techniques.breakaway.border import room
@@ -72,10 +76,11 @@ class Breakaway(removal.Removal[BreakawayParameters, None, list[Hole]]):
         doubt = np.zeros(len(seen.depth), dtype=bool)
         pierced = np.zeros(width * height, dtype=bool)
         teeth = (p.margin * seen.shot.scale, p.jagged, p.teeth)
-        for hole in known:
-            inside = room(hole.corners, pixels.reshape(-1, 2), *teeth)
+        for k, depth in enumerate(known.depth):
+            corners = known.corners[known.starts[k] : known.starts[k + 1]]
+            inside = room(corners, pixels.reshape(-1, 2), *teeth)
             pierced |= inside > 0
-            before = hole.depth - seen.depth
+            before = depth - seen.depth
             signed = np.maximum(signed, np.where(inside[seen.pixel] > 0, before, -np.inf))
             doubt |= (np.abs(inside) < 1e-3)[seen.pixel] & (before > 0)
         return removal.look(p, seen, signed, pierced, doubt)
@@ -87,29 +92,18 @@ class Breakaway(removal.Removal[BreakawayParameters, None, list[Hole]]):
         from seethrough.renderer.techniques.breakaway.border import filled
 
         made = holes(shot)
-        corners = np.concatenate([np.zeros((0, 2)), *(hole.corners for hole in made)])
-        starts = np.cumsum([0, *(len(hole.corners) for hole in made)])
-        depths = np.array([hole.depth for hole in made], dtype=float)
         teeth = (p.margin * shot.scale, p.jagged, p.teeth)
-        return {"clip": filled(corners, starts, depths, shot.size[0], shot.size[1], *teeth)}
+        return {"clip": filled(made.corners, made.starts, made.depth, *shot.size, *teeth)}
 
 
-def holes(shot: Shot) -> list[Hole]:
+def holes(shot: Shot) -> Holes:
     """One for each target of which something lies beyond the near plane."""
-    from seethrough.renderer.masks.masks import convex_hull
-    from seethrough.renderer.scene.projection import to_camera, to_pixels
+    from seethrough.renderer.techniques.breakaway.border import hulls
 
-    scene, camera = shot.scene, shot.camera
-    found = []
-    for t in np.nonzero(scene.targets)[0]:
-        thing = scene.objects[t]
-        world = thing.mesh.hull @ thing.transform[:3, :3].T + thing.transform[:3, 3]
-        points = to_camera(world, camera)
-        points = points[-points[:, 2] > camera.near]
-        if len(points):
-            hull = convex_hull(np.ascontiguousarray(to_pixels(points, camera, shot.size)))
-            found.append(Hole(hull, float(-points[:, 2].min())))
-    return found
+    camera, (width, height) = shot.camera, shot.size
+    points, starts = shot.scene.target_hulls
+    lens = np.array([camera.lens(height), 0.5 * width, 0.5 * height, camera.near])
+    return Holes(*hulls((points - camera.eye) @ camera.rotation, starts, lens))
 
 
 TECHNIQUE = Breakaway()
