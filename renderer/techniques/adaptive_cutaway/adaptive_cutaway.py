@@ -10,7 +10,7 @@ that face the viewer within the picture. With slopes s = (x, y) / depth and T = 
 
 The axis of our cones is the line of sight, not the view vector: a target beside the middle of the
 picture is uncovered as one in it. `exact` finds the greatest q at every pixel; else it is found for
-blocks of 8 × 8 pixels, and a pixel takes the best of its block's and its neighbours'.
+blocks of 16 × 16 pixels, and a pixel takes the best of its block's and its neighbours'.
 """
 
 from __future__ import annotations

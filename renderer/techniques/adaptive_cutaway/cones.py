@@ -1,7 +1,8 @@
 """The hole that cones before all points of targets make, as a depth at each pixel.
 
 The best point of a pixel is found by bounds: a block of points cannot beat what is known if its
-nearest and deepest could not. Blocks of 8 × 8 and of 64 × 64 pixels are looked at in turn.
+nearest and deepest could not. Blocks of 8 × 8 and of 64 × 64 pixels are looked at in turn. Where
+not every pixel is asked, the middles of blocks of 16 × 16 are.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from numba import njit
 from seethrough.renderer.arrays import Floats, Floats32, Ints, Real
 
 SMALL, LARGE = 8, 64
+ASKED = 16
+BESIDE = np.array([(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)])
 
 
 @njit(cache=True)
@@ -19,9 +22,13 @@ def _deepest(depth: Real, block: int) -> Floats:
     """(rows, columns) the greatest depth in each block."""
     height, width = depth.shape
     found = np.zeros(((height + block - 1) // block, (width + block - 1) // block), np.float64)
-    for r in range(height):
+    for i in range(len(found)):
+        line = depth[i * block].copy()  # the greatest of each column: several at once
+        for r in range(i * block + 1, min(i * block + block, height)):
+            for c in range(width):
+                line[c] = depth[r, c] if depth[r, c] > line[c] else line[c]
         for c in range(width):
-            found[r // block, c // block] = max(found[r // block, c // block], depth[r, c])
+            found[i, c // block] = max(found[i, c // block], line[c])
     return found
 
 
@@ -115,43 +122,65 @@ def of_pixels(depth: Real, lens: float, tangent: float) -> Floats32:
 def of_blocks(depth: Real, lens: float, tangent: float) -> Floats32:
     """(h, w) the hole of the points that are best in the middle of a pixel's block or one beside
     it."""
+    seeds, wide = _seeds(depth, lens * tangent), np.float32(lens * tangent)
     height, width = depth.shape
+    out = np.empty((height, width), np.float32)
+    for i in range(seeds.shape[0]):
+        for j in range(seeds.shape[1]):
+            tried = _tried(seeds, i, j)
+            left, right = j * ASKED, min(j * ASKED + ASKED, width)
+            for r in range(i * ASKED, min(i * ASKED + ASKED, height)):
+                line = out[r, left:right]
+                line[:] = depth[r, left:right]
+                for k in range(len(tried)):
+                    y, x = np.float32(r - tried[k, 0]), np.float32(left - tried[k, 1])
+                    top = np.float32(depth[tried[k, 0], tried[k, 1]]) * wide
+                    for c in range(len(line)):
+                        across = x + np.float32(c)
+                        cone = top / (np.sqrt(across * across + y * y) + wide)
+                        line[c] = cone if cone > line[c] else line[c]
+    return out
+
+
+@njit(cache=True)
+def _seeds(depth: Real, wide: float) -> Ints:
+    """(rows, columns, 2) the row and column of the best point for the middle of each block, −1
+    where there is none."""
     small, large = _deepest(depth, SMALL), _deepest(depth, LARGE)
-    filled, wide = _filled(large), lens * tangent
-    rows, columns = small.shape
+    filled = _filled(large)
+    rows, columns = (depth.shape[0] + ASKED - 1) // ASKED, (depth.shape[1] + ASKED - 1) // ASKED
     seeds = np.full((rows, columns, 2), -1, np.int64)
     for i in range(rows):
         for j in range(columns):
-            x, y = j * SMALL + SMALL / 2, i * SMALL + SMALL / 2
+            x, y = j * ASKED + ASKED / 2, i * ASKED + ASKED / 2
             best = 0.0
-            if j > 0 and seeds[i, j - 1, 0] >= 0:
-                r, c = seeds[i, j - 1]
-                best = depth[r, c] * wide / (np.hypot(r + 0.5 - y, c + 0.5 - x) + wide)
-                seeds[i, j] = seeds[i, j - 1]
+            for a, b in ((i, j - 1), (i - 1, j)):  # seldom far from that of a block beside
+                r, c = seeds[a, b] if a >= 0 and b >= 0 else seeds[i, j]
+                if r < 0:
+                    continue
+                cone = depth[r, c] * wide / (np.hypot(r + 0.5 - y, c + 0.5 - x) + wide)
+                if cone > best:
+                    best = cone
+                    seeds[i, j] = seeds[a, b]
             row, column, _ = _best(depth, small, large, filled, x, y, wide, best)
             if row >= 0:
                 seeds[i, j, 0], seeds[i, j, 1] = row, column
-    out = np.zeros((height, width), np.float32)
-    tried = np.zeros((5, 3))
-    for i in range(rows):
-        for j in range(columns):
-            count = 0
-            for di, dj in ((0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)):
-                a, b = i + di, j + dj
-                if 0 <= a < rows and 0 <= b < columns and seeds[a, b, 0] >= 0:
-                    r, c = seeds[a, b]
-                    known = False  # neighbours often have the same point
-                    for k in range(count):
-                        known |= tried[k, 0] == r and tried[k, 1] == c
-                    if known:
-                        continue
-                    tried[count, 0], tried[count, 1], tried[count, 2] = r, c, depth[r, c] * wide
-                    count += 1
-            for r in range(i * SMALL, min(i * SMALL + SMALL, height)):
-                for c in range(j * SMALL, min(j * SMALL + SMALL, width)):
-                    best = np.float64(depth[r, c])
-                    for k in range(count):
-                        y, x = r - tried[k, 0], c - tried[k, 1]
-                        best = max(best, tried[k, 2] / (np.sqrt(x * x + y * y) + wide))
-                    out[r, c] = best
-    return out
+    return seeds
+
+
+@njit(cache=True)
+def _tried(seeds: Ints, i: int, j: int) -> Ints:
+    """(k, 2) the different points of a block and of those beside it."""
+    found = np.empty((len(BESIDE), 2), np.int64)
+    count = 0
+    for n in range(len(BESIDE)):
+        a, b = i + BESIDE[n, 0], j + BESIDE[n, 1]
+        if a < 0 or b < 0 or a >= seeds.shape[0] or b >= seeds.shape[1] or seeds[a, b, 0] < 0:
+            continue
+        known = False
+        for k in range(count):
+            known |= found[k, 0] == seeds[a, b, 0] and found[k, 1] == seeds[a, b, 1]
+        if not known:
+            found[count] = seeds[a, b]
+            count += 1
+    return found[:count]
