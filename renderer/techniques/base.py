@@ -55,12 +55,19 @@ class Parameters:
 @dataclass(frozen=True, eq=False)
 class Shot:
     """What is drawn: a scene, from where, and how large (width, height in pixels). `scale` is the
-    picture's size over the window's: widths in pixels of the window shrink with it."""
+    picture's size over the window's: widths in pixels of the window shrink with it. `part` (left,
+    top, right, bottom in pixels): beside it nobody looks anything up; None: the whole picture."""
 
     scene: Scene
     camera: Camera
     size: tuple[int, int]
     scale: float = 1.0
+    part: tuple[int, int, int, int] | None = None
+
+    @property
+    def looked_up(self) -> tuple[int, int, int, int]:
+        """The part, or the whole picture."""
+        return self.part or (0, 0, *self.size)
 
     @property
     def aspect(self) -> float:
@@ -244,7 +251,15 @@ class Technique(Protocol[P, State, Known]):
     def pictures(
         self, p: P, state: State, shot: Shot, needed: Mapping[str, NDArray[np.float32]]
     ) -> Mapping[str, NDArray[np.float32]]:
-        """Name → (h, w) of the pictures that `glsl` looks up, made from those that it `needs`."""
+        """Name → (h, w) of the pictures that `glsl` looks up, made from those that it `needs`.
+        Beside the shot's `part` they may hold anything."""
+
+    def cut(
+        self, shot: Shot, pictures: Mapping[str, NDArray[np.float32]], among: Indices
+    ) -> tuple[Indices, Indices]:
+        """Of the objects `among` (k,) that it touches, those whose front faces alone show, all of
+        them, and those of which any part may go; what is in neither is removed whole. `pictures`
+        are those that `glsl` looks up."""
 
     def objects(self, p: P, scene: Scene) -> NDArray[np.int64]:
         """(n,) a number of each object's, the Surface's `number` in `glsl`."""
@@ -341,6 +356,12 @@ class Plain(Generic[P, State, Known]):
     ) -> Mapping[str, NDArray[np.float32]]:
         """Those that it needs, as they are."""
         return needed
+
+    def cut(
+        self, shot: Shot, pictures: Mapping[str, NDArray[np.float32]], among: Indices
+    ) -> tuple[Indices, Indices]:
+        """Of all any part may go."""
+        return among[:0], among
 
     def objects(self, p: P, scene: Scene) -> NDArray[np.int64]:
         """1 what may be penetrated, 0 targets and what may not."""

@@ -12,22 +12,26 @@ from seethrough.renderer.arrays import Floats, Floats32, Ints
 TILE = 128, 16  # columns and rows: rows as long as this are worked through several at once
 
 
-def least_of_greatest(rows: Floats, starts: Ints, size: tuple[int, int]) -> NDArray[np.float32]:
-    """(h, w) 1 / the least, over some sets, of the greatest of a set's linear functions at the
+def least_of_greatest(
+    rows: Floats, starts: Ints, size: tuple[int, int], part: tuple[int, int, int, int]
+) -> NDArray[np.float32]:
+    """(h, w), 0 beside the `part` (left, top, right, bottom), else 1 / the least, over some sets, of the greatest of a set's linear functions at the
     middle of each pixel. Set k has the `rows` (m, 3: column, row, constant) from starts[k] (n + 1,)
     to starts[k + 1]. Sets that can be least nowhere are left out first. To 10⁻⁶ of itself."""
-    width, height = size
-    corners = np.array([[0, 0, 1], [width, 0, 1], [0, height, 1], [width, height, 1.0]])
+    left, top, right, bottom = part
+    corners = np.array([[left, top, 1], [right, top, 1], [left, bottom, 1], [right, bottom, 1.0]])
     values = rows @ corners.T  # (m, 4)
     greatest = np.maximum.reduceat(values.max(axis=1), starts[:-1])
     chosen = _undominated(values, starts, np.argsort(greatest, kind="stable"))
-    return _least_of_greatest(rows, starts, chosen, width, height)
+    found = np.zeros((size[1], size[0]), np.float32)
+    _least_of_greatest(rows, starts, chosen, part, found)
+    return found
 
 
 @njit(cache=True)
 def _undominated(values: Floats, starts: Ints, order: Ints) -> Ints:
     """The sets, in order, that some pixel may have as its least: one is nowhere least if for each
-    function of another, one of its own is at least as great at all corners of the picture."""
+    function of another, one of its own is at least as great at all four corners."""
     chosen = np.empty(len(order), np.int64)
     count = 0
     for a in order:
@@ -58,14 +62,13 @@ def _undominated(values: Floats, starts: Ints, order: Ints) -> Ints:
 
 @njit(cache=True)
 def _least_of_greatest(
-    rows: Floats, starts: Ints, chosen: Ints, width: int, height: int
-) -> Floats32:
-    out = np.empty((height, width), np.float32)
+    rows: Floats, starts: Ints, chosen: Ints, part: tuple[int, int, int, int], out: Floats32
+) -> None:
     across = (np.arange(TILE[0]) + 0.5).astype(np.float32)
     greatest = np.empty(TILE[0], np.float32)
-    for top in range(0, height, TILE[1]):
-        for left in range(0, width, TILE[0]):
-            bottom, right = min(top + TILE[1], height), min(left + TILE[0], width)
+    for top in range(part[1], part[3], TILE[1]):
+        for left in range(part[0], part[2], TILE[0]):
+            bottom, right = min(top + TILE[1], part[3]), min(left + TILE[0], part[2])
             kept, begins = _deciding(rows, starts, chosen, (left, top, right, bottom))
             for r in range(top, bottom):
                 line = out[r, left:right]
@@ -81,7 +84,6 @@ def _least_of_greatest(
                         line[x] = greatest[x] if i == 0 or greatest[x] < line[x] else line[x]
                 for x in range(len(line)):
                     line[x] = np.float32(1.0) / line[x]
-    return out
 
 
 @njit(cache=True)
@@ -112,3 +114,35 @@ def _deciding(
         sets += 1
         begins[sets] = count
     return kept[:count], begins[: sets + 1]
+
+
+BLOCK = 16  # pixels of a picture that are looked at together
+
+
+@njit(cache=True)
+def bounds(picture: Floats32, extents: Floats) -> Floats:
+    """(k, 2) the least and the greatest of a (h, w) picture within parts of it (k, 4: left, top,
+    right, bottom in pixels), or in a little more; of parts outside it −∞ and ∞."""
+    height, width = picture.shape
+    rows, columns = (height + BLOCK - 1) // BLOCK, (width + BLOCK - 1) // BLOCK
+    low, high = np.full((rows, columns), np.inf), np.full((rows, columns), -np.inf)
+    for i in range(rows):
+        least, most = picture[i * BLOCK].copy(), picture[i * BLOCK].copy()
+        for r in range(i * BLOCK + 1, min(i * BLOCK + BLOCK, height)):
+            for c in range(width):
+                value = picture[r, c]
+                least[c] = value if value < least[c] else least[c]
+                most[c] = value if value > most[c] else most[c]
+        for c in range(width):
+            j = c // BLOCK
+            low[i, j], high[i, j] = min(low[i, j], least[c]), max(high[i, j], most[c])
+    found = np.empty((len(extents), 2))
+    for k in range(len(extents)):
+        left, right = max(extents[k, 0] - 1, 0.0), min(extents[k, 2] + 1, width - 1.0)
+        top, bottom = max(extents[k, 1] - 1, 0.0), min(extents[k, 3] + 1, height - 1.0)
+        found[k, 0], found[k, 1] = -np.inf, np.inf
+        if left <= right and top <= bottom:
+            a, b = int(top) // BLOCK, int(bottom) // BLOCK + 1
+            c, d = int(left) // BLOCK, int(right) // BLOCK + 1
+            found[k, 0], found[k, 1] = low[a:b, c:d].min(), high[a:b, c:d].max()
+    return found

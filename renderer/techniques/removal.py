@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import key
@@ -21,6 +22,7 @@ from seethrough.renderer.techniques.lines import LINE, on_edges, unsure
 
 CAPS = ("none", "inside", "flat")
 WALL = (0.36, 0.34, 0.33)
+SURE = 1e-4  # of a depth: ten times what float32 may make of one
 CREASE = 0.6  # radians between neighbours' normals, from which on there is an edge
 
 # Where a hole is one depth at each pixel, from the eye on: the picture `clip` has it, 0 for none.
@@ -73,6 +75,23 @@ class Removal(base.Plain[P, base.State, base.Known]):
     def uniforms(self, p: P, state: base.State, shot: base.Shot) -> Mapping[str, object]:
         """How cuts are shown."""
         return {"cap": CAPS.index(p.cap)}
+
+    def cut(
+        self, shot: base.Shot, pictures: Mapping[str, NDArray[np.float32]], among: base.Indices
+    ) -> tuple[base.Indices, base.Indices]:
+        """Where a hole is one depth at each pixel, by its least and greatest about each object.
+        Only what is known to be convex counts as whole: of others back faces may show."""
+        if self.removes is not CLIPPED:
+            return among[:0], among
+        from seethrough.renderer.scene.projection import screen_boxes
+        from seethrough.renderer.techniques.maps import bounds
+
+        boxes = screen_boxes(shot.scene.corners[among], shot.camera, shot.size)
+        least, most = bounds(pictures["clip"], boxes.extents).T
+        gone = boxes.far * (1 + SURE) < least
+        convex = np.array([shot.scene.objects[i].mesh.convex for i in among.tolist()], dtype=bool)
+        whole = convex & (boxes.near > shot.camera.near) & (boxes.near > most * (1 + SURE))
+        return among[whole], among[~(whole | gone)]
 
     def sides(self, p: P) -> bool:
         """Where cuts show a wall."""

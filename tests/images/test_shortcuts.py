@@ -11,8 +11,13 @@ from sample_scenes import before_column, column, room
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.planner import SHORTCUTS
 from seethrough.renderer.scene import transforms
+from seethrough.renderer.techniques import named
+from seethrough.renderer.techniques.base import Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.removal import CAPS
 from seethrough.renderer.techniques.standard.opaque import Standard
+from seethrough.tasks.kit.controls import orbit
+from seethrough.tasks.worlds.abstract.abstract_scene import AbstractParameters, abstract_scene
 
 SIZE = (160, 120)
 TECHNIQUE = DynamicTransparency(width=8, min_transmittance=0.2, doubt=0.0)
@@ -39,6 +44,36 @@ def test_the_long_way_gives_the_same_picture(context, name, shortcut):
     long, _, _ = drawn(context, scene, camera, frozenset({shortcut}))
     allowed = 1 if shortcut in ("hulls", "parts") else 0
     assert np.abs(short - long).max() <= allowed
+
+
+HOLES = ("cutaway", "breakaway", "adaptive_cutaway")
+
+
+@pytest.mark.parametrize("cap", CAPS)
+@pytest.mark.parametrize("name", HOLES)
+def test_what_a_hole_takes_or_leaves_whole_is_sorted_out_without_a_trace(context, name, cap):
+    """Equal in every pixel over worlds of many convex things and rooms, walked into; and in the
+    worlds less is drawn."""
+    technique = replace(named(name), cap=cap)
+    renderers = [Renderer(context, SIZE, without=w) for w in ({"still"}, {"still", "removed"})]
+    fewer = 0
+    for seed in range(6):
+        world = abstract_scene(np.random.default_rng(seed), AbstractParameters())
+        ahead = orbit(AbstractParameters(), 4 / 3, float(seed)).camera()
+        inside = replace(ahead, eye=ahead.eye * 0.4)
+        for scene, camera in ((world, ahead), (world, inside), room(), SCENES["column"]):
+            for renderer in renderers:
+                renderer.draw(scene, camera, technique)
+            np.testing.assert_array_equal(renderers[0].read(), renderers[1].read())
+            shot = Shot(scene, camera, SIZE)
+            pictures = technique.technique.pictures(
+                technique, None, shot, renderers[0].needed(scene, camera, technique)
+            )
+            among = renderers[0].plan.ruled
+            whole, cut = technique.technique.cut(shot, pictures, among)
+            assert not set(whole) & set(cut)
+            fewer += len(cut) < len(among)
+    assert fewer > 0
 
 
 @pytest.mark.parametrize("name", SCENES)

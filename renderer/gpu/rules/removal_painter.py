@@ -21,13 +21,17 @@ class RemovalPainter:
 
     def draw(self, ruled: Ruled, target: FrameTarget) -> int:
         """Draw the plan's ruled objects among those already in the target. Returns the draws."""
-        table, frame, technique = ruled.table, ruled.frame, ruled.technique
-        shot, matrix = ruled.shot, ruled.matrix
-        shader = self._programs.ready(ruled)
-        sequence, runs = table.sequence([frame.ruled], shot.camera, [numbers(technique, shot)])
+        table, technique, shot, matrix = ruled.table, ruled.technique, ruled.shot, ruled.matrix
+        shader, pictures = self._programs.prepared(ruled)
+        rules, own = technique.technique, numbers(technique, shot)
+        among = ruled.frame.ruled
+        sorted_out = "removed" not in ruled.frame.without
+        parts = list(rules.cut(shot, pictures, among) if sorted_out else (among[:0], among))
+        sequence, runs = table.sequence(parts, shot.camera, [own, own])
         target.framebuffer.use()
-        sides = technique.technique.sides(technique)
-        self._context.enable_only(moderngl.DEPTH_TEST | (0 if sides else moderngl.CULL_FACE))
         self._context.depth_func = "<="
-        draw(self._context, shader, table, sequence, runs[0], shot.camera, matrix)
-        return len(runs[0])
+        for part, sides in zip(runs, (False, rules.sides(technique)), strict=True):
+            if part:
+                self._context.enable_only(moderngl.DEPTH_TEST | (0 if sides else moderngl.CULL_FACE))
+                draw(self._context, shader, table, sequence, part, shot.camera, matrix)
+        return sum(len(part) for part in runs)

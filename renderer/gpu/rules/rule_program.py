@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import moderngl
@@ -14,6 +14,7 @@ from seethrough.renderer.gpu.device.context import REQUIRED
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
+from seethrough.renderer.gpu.rules.scope import looked_up
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import screen_boxes
@@ -50,6 +51,10 @@ class RulePrograms:
     def ready(self, ruled: Ruled) -> Shader:
         """The technique's program with everything set but the sequence. Binds a framebuffer where
         the technique needs to know the targets' depth."""
+        return self.prepared(ruled)[0]
+
+    def prepared(self, ruled: Ruled) -> tuple[Shader, Mapping[str, NDArray[np.float32]]]:
+        """The same, and the pictures that it looks up, as far as they were made on the CPU."""
         technique, state, shot, table = ruled.technique, ruled.state, ruled.shot, ruled.table
         rules = technique.technique
         # What a rule needs as it is drawn stays on the GPU; what it makes pictures of comes down.
@@ -76,13 +81,14 @@ class RulePrograms:
             assert isinstance(depths, moderngl.Texture)
             depths.use(PICTURES)
             shader.set(target_depth=PICTURES)
-            return shader
-        pictures = rules.pictures(technique, state, shot, needed)
+            return shader, {}
+        part = looked_up(ruled.frame, shot.size)
+        pictures = rules.pictures(technique, state, replace(shot, part=part), needed)
         for unit, (name, picture) in enumerate(sorted(pictures.items()), PICTURES):
             if name in shader.members:
-                self._upload(name, picture).use(unit)
+                self._upload(name, picture, part).use(unit)
                 shader.set(**{name: unit})
-        return shader
+        return shader, pictures
 
     def needed(
         self, table: SceneTable, technique: Parameters, shot: Shot, matrix: bytes
@@ -91,7 +97,10 @@ class RulePrograms:
         rules = technique.technique
         return {name: self._target_depth(table, shot, matrix) for name in sorted(rules.needs)}
 
-    def _upload(self, name: str, picture: NDArray[np.float32]) -> moderngl.Texture:
+    def _upload(
+        self, name: str, picture: NDArray[np.float32], part: tuple[int, int, int, int]
+    ) -> moderngl.Texture:
+        left, top, right, bottom = part
         size = (picture.shape[1], picture.shape[0])
         if name not in self._pictures or self._pictures[name].size != size:
             if name in self._pictures:
@@ -99,7 +108,8 @@ class RulePrograms:
             texture = kept(self._context.texture(size, 1, dtype="f4"))
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
             self._pictures[name] = texture
-        self._pictures[name].write(np.ascontiguousarray(picture, dtype="f4"))
+        rows = np.ascontiguousarray(picture[top:bottom, left:right], dtype="f4")
+        self._pictures[name].write(rows, viewport=(left, top, right - left, bottom - top))
         return self._pictures[name]
 
     def _target_depth(self, table: SceneTable, shot: Shot, matrix: bytes) -> NDArray[np.float32]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from seethrough.renderer.errors import CannotDraw
 from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.techniques.maps import BLOCK
 
 Scope = tuple[int, int, int, int]  # as OpenGL has it: x, y (up), width, height
 
@@ -16,6 +17,17 @@ def scope_of(frame: FramePlan, size: tuple[int, int]) -> Scope:
     left, top = np.clip(np.floor(boxes[:, :2].min(axis=0)) - 1, 0, size).astype(int).tolist()
     right, bottom = np.clip(np.ceil(boxes[:, 2:].max(axis=0)) + 1, 0, size).astype(int).tolist()
     return (left, size[1] - bottom, max(right - left, 1), max(bottom - top, 1))
+
+
+def looked_up(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """Left, top, right, bottom in pixels of whole blocks about the plan's ruled objects and the
+    pixels beside them."""
+    x, y, width, height = around(scope_of(frame, size), size)
+    left, top, right, bottom = x, size[1] - y - height, x + width, size[1] - y
+    return (
+        *(left // BLOCK * BLOCK, top // BLOCK * BLOCK),
+        *(min(-(-right // BLOCK) * BLOCK, size[0]), min(-(-bottom // BLOCK) * BLOCK, size[1])),
+    )
 
 
 def around(scope: Scope, size: tuple[int, int]) -> Scope:

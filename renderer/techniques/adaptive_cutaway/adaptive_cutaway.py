@@ -104,10 +104,10 @@ class AdaptiveCutaway(removal.Removal[AdaptiveParameters, None, Cones]):
         from seethrough.renderer.techniques.adaptive_cutaway import cones
 
         depth = np.ascontiguousarray(needed["target_depth"], dtype=np.float32)
-        find = cones.of_pixels if p.exact else cones.of_blocks
-        return {
-            "clip": find(depth, shot.camera.lens(shot.size[1]), float(np.tan(np.radians(p.angle))))
-        }
+        slopes = shot.camera.lens(shot.size[1]), float(np.tan(np.radians(p.angle)))
+        if p.exact:
+            return {"clip": cones.of_pixels(depth, *slopes)}
+        return {"clip": cones.of_blocks(depth, *slopes, shot.looked_up)}
 
     def exactly(self, p: AdaptiveParameters) -> AdaptiveParameters:
         """At every pixel."""

@@ -119,14 +119,17 @@ def of_pixels(depth: Real, lens: float, tangent: float) -> Floats32:
 
 
 @njit(cache=True)
-def of_blocks(depth: Real, lens: float, tangent: float) -> Floats32:
+def of_blocks(
+    depth: Real, lens: float, tangent: float, part: tuple[int, int, int, int]
+) -> Floats32:
     """(h, w) the hole of the points that are best in the middle of a pixel's block or one beside
-    it."""
-    seeds, wide = _seeds(depth, lens * tangent), np.float32(lens * tangent)
+    it, 0 beside the blocks that a part (left, top, right, bottom) of the picture touches."""
     height, width = depth.shape
-    out = np.empty((height, width), np.float32)
-    for i in range(seeds.shape[0]):
-        for j in range(seeds.shape[1]):
+    first, last = (part[1] // ASKED, part[0] // ASKED), (-(-part[3] // ASKED), -(-part[2] // ASKED))
+    seeds, wide = _seeds(depth, lens * tangent, first, last), np.float32(lens * tangent)
+    out = np.zeros((height, width), np.float32)
+    for i in range(first[0], last[0]):
+        for j in range(first[1], last[1]):
             tried = _tried(seeds, i, j)
             left, right = j * ASKED, min(j * ASKED + ASKED, width)
             for r in range(i * ASKED, min(i * ASKED + ASKED, height)):
@@ -143,15 +146,15 @@ def of_blocks(depth: Real, lens: float, tangent: float) -> Floats32:
 
 
 @njit(cache=True)
-def _seeds(depth: Real, wide: float) -> Ints:
-    """(rows, columns, 2) the row and column of the best point for the middle of each block, −1
-    where there is none."""
+def _seeds(depth: Real, wide: float, first: tuple[int, int], last: tuple[int, int]) -> Ints:
+    """(rows, columns, 2) the row and column of the best point for the middle of each block from
+    the `first` to before the `last`, and one about them; −1 where there is none."""
     small, large = _deepest(depth, SMALL), _deepest(depth, LARGE)
     filled = _filled(large)
     rows, columns = (depth.shape[0] + ASKED - 1) // ASKED, (depth.shape[1] + ASKED - 1) // ASKED
     seeds = np.full((rows, columns, 2), -1, np.int64)
-    for i in range(rows):
-        for j in range(columns):
+    for i in range(max(first[0] - 1, 0), min(last[0] + 1, rows)):
+        for j in range(max(first[1] - 1, 0), min(last[1] + 1, columns)):
             x, y = j * ASKED + ASKED / 2, i * ASKED + ASKED / 2
             best = 0.0
             for a, b in ((i, j - 1), (i - 1, j)):  # seldom far from that of a block beside

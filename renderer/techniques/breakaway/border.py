@@ -94,33 +94,33 @@ def room(corners: Real, points: Real, margin: float, jagged: float, teeth: int) 
 
 
 @njit(cache=True)
-def filled(
+def fill(
     corners: Real,
     starts: Ints,
     depths: Floats,
-    width: int,
-    height: int,
+    part: tuple[int, int, int, int],
     margin: float,
     jagged: float,
     teeth: int,
-) -> Floats32:
-    """(height, width) the farthest depth of all holes at each pixel, 0 where there is none.
+    out: Floats32,
+) -> None:
+    """Put the farthest depth of all holes at each pixel of a part (left, top, right, bottom) of a
+    picture (h, w) of zeros into it.
 
     A row of pixels meets a convex hole without its teeth in one stretch, which is looked at only
     where teeth can be; the stretch through the hull alone has none.
     """
-    out = np.zeros((height, width), np.float32)
     for h in range(len(depths)):
         hull = corners[starts[h] : starts[h + 1]]
         middle = _middle(hull)
         depth = np.float32(depths[h])
         low, high = hull[:, 1].min() - margin, hull[:, 1].max() + margin
-        for r in range(max(0, int(low) - 1), min(height, int(max(high, 0.0)) + 2)):
+        for r in range(max(part[1], int(low) - 1), min(part[3], int(max(high, 0.0)) + 2)):
             y = r + 0.5
             left, right = _stretch(hull, y, margin)
-            first, last = max(0, int(left) - 1), min(width, int(max(right, 0.0)) + 2)
             if left > right:
                 continue
+            first, last = max(part[0], int(left) - 1), min(part[2], int(max(right, 0.0)) + 2)
             inner, outer = left + 1.0, right - 1.0
             if jagged > 0:
                 inner, outer = _stretch(hull, y, 0.0)
@@ -132,7 +132,6 @@ def filled(
                     _room(hull, middle, x, y, margin, jagged, teeth) > 0
                 ):
                     out[r, c] = depth
-    return out
 
 
 @njit(cache=True)

@@ -89,11 +89,13 @@ class Breakaway(removal.Removal[BreakawayParameters, None, Holes]):
         self, p: BreakawayParameters, state: object, shot: Shot, needed: Mapping[str, object]
     ) -> Mapping[str, NDArray[np.float32]]:
         """The depth at which each pixel's line of sight leaves the hole."""
-        from seethrough.renderer.techniques.breakaway.border import filled
+        from seethrough.renderer.techniques.breakaway.border import fill
 
         made = holes(shot)
+        clip = np.zeros((shot.size[1], shot.size[0]), np.float32)
         teeth = (p.margin * shot.scale, p.jagged, p.teeth)
-        return {"clip": filled(made.corners, made.starts, made.depth, *shot.size, *teeth)}
+        fill(made.corners, made.starts, made.depth, shot.looked_up, *teeth, clip)
+        return {"clip": clip}
 
 
 def holes(shot: Shot) -> Holes:

@@ -126,7 +126,7 @@ def clip_depth(made: Wedges, shot: Shot) -> NDArray[np.float32]:
         return np.zeros(shot.size[::-1], np.float32)
     planes = linear(made, shot)
     starts = np.arange(len(planes) + 1) * planes.shape[1]
-    return least_of_greatest(planes.reshape(-1, 3), starts, shot.size)
+    return least_of_greatest(planes.reshape(-1, 3), starts, shot.size, shot.looked_up)
 
 
 def linear(made: Wedges, shot: Shot) -> Floats:
