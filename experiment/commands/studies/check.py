@@ -90,6 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.balance:
         _balance(study, arguments.slots, said)
         return said.sum_up()
+    _trial_scenes(study, said)
     if arguments.config_only:
         return said.sum_up()
     from seethrough.experiment.display.driver import describe, on_the_processor, open_context
@@ -151,6 +152,14 @@ def _scenes(study: Study, context: Context, arguments: argparse.Namespace, said:
         path = arguments.scenes or scene_sheet.default_path(arguments.study)
         scene_sheet.write(found, context, path)
         said.say("scenes", f"a picture of each from every view, in {path}", OK, "look at it")
+
+
+def _trial_scenes(study: Study, said: Verdicts) -> None:
+    """What is odd about the scenes that trials are made in, which no picture has to tell."""
+    from seethrough.experiment.study.checked.trial_scenes import odd_files, odd_trials
+
+    for text, verdict, why in (*odd_files(study), *odd_trials(study)):
+        said.say("scenes", text, verdict, why)
 
 
 def _design(study: Study, said: Verdicts) -> None:

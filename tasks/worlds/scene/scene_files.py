@@ -67,15 +67,16 @@ def _of_file(p: SceneParameters, number: int, error: Exception) -> FileFault:
 
 
 def _another(p: SceneParameters, said: Sequence[str], hashes: Sequence[str]) -> Iterator[FileFault]:
-    """Files that are not those that the study says, or one file by two names."""
+    """Files that are not those that the study says, or one file, or a copy of it, by two names."""
     for number, (expected, own) in enumerate(zip(said, hashes, strict=False)):
         if expected != own:
             yield FileFault(f"sha256[{number}]", expected, f"expected {own}, which the file has")
     paths = [path_of(p, file).resolve() for file in p.files]
-    for number, path in enumerate(paths):
-        if path in paths[:number]:
-            first = p.files[paths.index(path)]
-            yield FileFault(f"files[{number}]", p.files[number], f"expected another file: {first}")
+    for number, (path, digest) in enumerate(zip(paths, hashes, strict=True)):
+        first = next(i for i in range(number + 1) if paths[i] == path or hashes[i] == digest)
+        if first < number:
+            said = f"expected a file that differs from {p.files[first]}"
+            yield FileFault(f"files[{number}]", p.files[number], said)
 
 
 def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileFault]:
