@@ -40,7 +40,7 @@ STUDY = """# {title}
 # `seethrough design {name}.toml`, `seethrough simulate {name}.toml --participants 4 --out data`.
 
 [study]
-name = "{plain}"
+name = "{name}"
 title = {quoted}
 description = "A study of how people see past what is in the way." # yours: what it is about
 participants = {people}
@@ -97,7 +97,7 @@ def new_study(name: str, folder: Path, yes: bool, ask: Ask | None = None) -> int
     people = _until(said, "How many people?", str(4 * len(chosen)), _people)
     title = _until(said, "What is it called?", f"{', '.join(chosen)} compared", _title)
     levels = "\n".join(f'levels.{view} = {{ technique.use = "{view}" }}' for view in chosen)
-    words = {"name": name, "plain": name.replace("_", ""), "title": title, "people": people,
+    words = {"name": name, "title": title, "people": people,
              "quoted": json.dumps(title, ensure_ascii=False), "levels": levels,
              "world": _world(task), "task": task}  # fmt: skip
     text = STUDY.format(**words)

@@ -8,6 +8,7 @@ from typing import get_args, get_origin, get_type_hints
 
 from seethrough import registry
 from seethrough.experiment.study.tables.parameter_tables import Fault
+from seethrough.experiment.study.tables.study_tables import TaskTable
 from seethrough.renderer.declared import Declares
 from seethrough.tasks import catalog
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
@@ -20,6 +21,15 @@ def names(kind: str) -> tuple[str, ...]:
 
         return (*READY, *registry.known(kind))
     return registry.known(kind)
+
+
+def taken_names(kind: str) -> tuple[str, ...]:
+    """What no plug-in of a kind can be called: where a study names it, these are keys already."""
+    if kind == "question":
+        from seethrough.experiment.study.tables.ready import READY  # asks for pages: not for --help
+
+        return tuple(READY)
+    return tuple(TaskTable.model_fields) if kind == "task" else ("use",)
 
 
 def parameters(kind: str, name: str) -> type[Declares]:

@@ -39,8 +39,13 @@ def key(
     return made
 
 
+def is_plain(name: str) -> bool:
+    """Whether a study may be called so: its name is part of the names of files."""
+    return name.isascii() and name.isalnum() and len(name) <= 32
+
+
 def _plain(value: str) -> str:
-    if not (value.isascii() and value.isalnum() and len(value) <= 32):
+    if not is_plain(value):
         raise ValueError(NAME)
     return value
 
