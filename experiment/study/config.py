@@ -20,6 +20,7 @@ from seethrough.experiment.study.parser import Parser
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_items import lacking_items
 from seethrough.experiment.study.tables.study_errors import study_error
+from seethrough.experiment.study.task_clashes import clashing_tasks
 from seethrough.experiment.study.translations import (
     unshowable_names,
     unshowable_texts,
@@ -84,7 +85,7 @@ def load(name: str, translated: bool = True) -> Study:
         raise gathered(lines)
     study = with_translations(study, path) if translated else study
     study = study.with_places(lambda place: beside(place, path))
-    lacking = [f"{path}: {line}" for line in lacking_items(study)]
+    lacking = [f"{path}: {line}" for line in (*clashing_tasks(study), *lacking_items(study))]
     if lines := lacking + unshowable_names(study, str(path)):
         raise gathered(lines)
     return study

@@ -20,6 +20,7 @@ from seethrough.experiment.errors import InputError, gathered, one_line, shown
 from seethrough.experiment.files import trust
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_beside, read_regular
+from seethrough.experiment.study.tables.plugins import taken_names
 
 KINDS = ("technique", "world", "task", "question")
 FOLDER = "plugins"  # in a data folder
@@ -52,6 +53,10 @@ def taken(table: Mapping[str, object], path: Path) -> dict[str, object]:
               '[task.mine] file = "mine.py"'] * ("plugins" in table)  # fmt: skip
     for kind, name, file in _named(table):
         where = f"{path}: {kind}.{name}.file = {shown(file)}"
+        if name in taken_names(kind):
+            faults.append(f"{where}: expected another name than {name}, a study says other things "
+                          "by it")  # fmt: skip
+            continue
         try:
             _take(PluginFile(kind, name, file, _read(path, where, file)), path.parent / file, where)
         except InputError as error:
