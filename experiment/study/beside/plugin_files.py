@@ -138,7 +138,8 @@ def provide(own: PluginFile, path: Path, where: str) -> str:
         raise InputError(f"{where}: {error}") from None
     except Exception as error:  # its code may raise anything
         said = one_line(f"{type(error).__name__}: {error}")
-        raise InputError(f"{where}: cannot be loaded ({said})") from None
+        at = registry.place_in(error, {str(path)})
+        raise InputError(f"{where}: cannot be loaded ({said}){at}") from None
 
 
 def _demand_suite(own: PluginFile, path: Path, where: str) -> None:
@@ -159,21 +160,30 @@ def _demand_suite(own: PluginFile, path: Path, where: str) -> None:
     except subprocess.TimeoutExpired:
         raise InputError(
             f"{where}: expected to be through with the suite within {SUITE_LIMIT:.0f} s; "
-            f"`seethrough {own.kind} check {path}` shows where it stands"
+            f"`seethrough {_asked_for(own.kind, path)}` shows where it stands"
         ) from None
     if run.returncode:
         lines = [*run.stdout.splitlines(), *run.stderr.splitlines()]
         found = next((line for line in lines if not line.startswith("ok")), "it ended by itself")
+        unread = found.removeprefix(f"seethrough: {_asked_for(own.kind, path)}: ")
+        if unread != found:
+            raise InputError(f"{where}: {one_line(unread)}")
+        said = one_line(" ".join(found.removeprefix("FAIL").split()))
         raise InputError(
-            f"{where}: expected what its suite demands: {one_line(' '.join(found.split()))} "
-            f"(all of it: `seethrough {own.kind} check {path}`)"
+            f"{where}: expected what its suite demands: {said} "
+            f"(all of it: `seethrough {_asked_for(own.kind, path)}`)"
         )
     trust.add_line(trust.kept_file("passed"), passed)
 
 
+def _asked_for(kind: str, path: Path) -> str:
+    """What a suite is run with, which begins what is said of a file that it cannot read."""
+    return f"{kind} check {path}"
+
+
 def from_path(kind: str, path: Path) -> str:
     """The name of a plug-in in a file, which is known from now on. Raises InputError."""
-    where = f"{kind} check {path}"
+    where = _asked_for(kind, path)
     try:
         content = read_regular(path, LARGEST_TEXT)
     except OSError as error:
