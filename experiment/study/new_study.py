@@ -13,6 +13,7 @@ from typing import TypeVar
 from seethrough import registry
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import parse
+from seethrough.renderer.meant import meant, one_of
 from seethrough.tasks.kit.world import ANYWHERE
 
 LONGEST_TITLE = 200
@@ -142,7 +143,7 @@ def _of(known: tuple[str, ...]) -> str:
 def _task(said: str) -> str:
     known = registry.known("task")
     if said not in known:
-        raise InputError(f"task = {said}: expected one of {', '.join(known)}")
+        raise InputError(f"task = {said}: expected {one_of(said, known)}")
     return said
 
 
@@ -155,7 +156,10 @@ def _world(task: str) -> str:
 def _techniques(known: tuple[str, ...], said: str) -> list[str]:
     chosen = said.replace(",", " ").split()
     if len(chosen) < 2 or len(set(chosen)) < len(chosen) or not set(chosen) <= set(known):
-        raise InputError(f"techniques = {said}: expected two or more of {', '.join(known)}")
+        raise InputError(
+            f"techniques = {said}: expected two or more of {', '.join(known)}"
+            + meant(chosen, known)
+        )
     return chosen
 
 

@@ -163,9 +163,10 @@ WRONG = [
     ("class T:\n    name = 'other'\nTASK = T()", "calls itself 'other', expected 'toy_task'"),
     ("def f():\n    raise OSError\nf()", "cannot be loaded (OSError: ) (toy_task.py, line 2)"),
     ("def f(:", "cannot be loaded (SyntaxError"),
-    ("class T:\n    name = 'toy_task'\nTASK = T()", "expected what its suite demands: It says what it is"),
+    ("class T:\n    name = 'toy_task'\nTASK = T()",
+     "expected what its suite demands: It says what it is"),
     ("import os\nos._exit(3)", "expected what its suite demands: it ended by itself"),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("code", "words"), WRONG)

@@ -10,6 +10,7 @@ from seethrough import registry
 from seethrough.experiment.study.tables.parameter_tables import Fault
 from seethrough.experiment.study.tables.study_tables import TaskTable
 from seethrough.renderer.declared import Declares
+from seethrough.renderer.meant import meant
 from seethrough.tasks import catalog
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
@@ -79,7 +80,7 @@ def further_faults(place: object) -> list[Fault]:
     wrong = [t for t in types if t not in known or types.count(t) > 1]
     if wrong or (types and len(types) < 3 and place.objects > 1):
         expected = f"three or more of {', '.join(sorted(known))}, each once"
-        found.append(Fault("types", wrong or types, expected))
+        found.append(Fault("types", wrong or types, expected + meant(wrong, known)))
     return found
 
 

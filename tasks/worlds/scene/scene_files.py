@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
+from seethrough.renderer.meant import meant, one_of
 from seethrough.tasks.kit.tags import fits
 from seethrough.tasks.kit.world import FileFault, FileFaults
 from seethrough.tasks.worlds.scene.kept_scene import packed
@@ -97,7 +97,7 @@ def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileF
             )
         own = by_file.get(item.file) if item.file or len(places) > 1 else places[0]
         if own is None:
-            said = f"expected one of {', '.join(p.files)[:100]}"
+            said = f"expected {one_of(item.file, p.files)}"
             yield FileFault(f"items[{number}].file", item.file, said)
             continue
         if item.ask not in own.names:
@@ -115,10 +115,9 @@ def _no_camera(key: str, value: str, place: ScenePlace) -> FileFault:
 
 
 def _expected(what: str, name: str, known: Sequence[str]) -> str:
-    near = get_close_matches(name[:100], known, 1, 0.6)
-    meant = f", did you mean {near[0]}?" if near else ""
     more = f" … and {len(known) - SHOWN} more" if len(known) > SHOWN else ""
-    return f"expected {what}{meant or ';'} there are: {', '.join(known[:SHOWN]) or 'none'}{more}"
+    there = ", ".join(known[:SHOWN]) or "none"
+    return f"expected {what}{meant(name, known) or ';'} there are: {there}{more}"
 
 
 def keeps(p: SceneParameters) -> dict[str, Callable[[], bytes]]:
