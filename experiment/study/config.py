@@ -48,9 +48,28 @@ def find(name: str) -> Path:
         return shipped()[name]
     if path.parent == Path("configs") and path.stem in shipped() and path.suffix == ".toml":
         return shipped()[path.stem]
+    if path.is_dir():
+        there = ", ".join(short(file.name) for file in _studies_in(path)) or "none"
+        raise InputError(
+            f"{short(name)}: a folder, expected a study's file; in it there are: {there}"
+        )
     raise InputError(
         f"{short(name)}: no such file; expected a TOML file or {one_of(name, shipped())}"
     )
+
+
+def _studies_in(folder: Path) -> list[Path]:
+    """The files in a folder that have a [study] with a name: texts have one without."""
+    return [path for path in sorted(folder.glob("*.toml"))
+            if path.is_file() and _names_a_study(path)]  # fmt: skip
+
+
+def _names_a_study(path: Path) -> bool:
+    try:
+        about = read_toml(path).get("study")
+    except InputError:
+        return True  # who asks for it is told what is wrong with it
+    return isinstance(about, Mapping) and "name" in about
 
 
 def _is_there(path: Path) -> bool:

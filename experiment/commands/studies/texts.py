@@ -6,22 +6,28 @@ import argparse
 import re
 from pathlib import Path
 
-from seethrough.experiment.errors import InputError
+from seethrough.experiment.errors import InputError, short
 from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_regular
 from seethrough.experiment.study.beside.toml_file import parse_toml
 from seethrough.experiment.study.config import find, load
 from seethrough.experiment.study.translations import needed, template
 from seethrough.tasks.kit.own_texts import flat
 
-NAME = re.compile(r"[A-Za-z0-9-]{1,32}")
+# A language tag as RFC 5646 has it: language, script, region, variants.
+TAG = re.compile(
+    r"[A-Za-z]{2,3}(-[A-Za-z]{4})?(-([A-Za-z]{2}|[0-9]{3}))?(-([A-Za-z0-9]{5,8}|[0-9]\w{3}))*",
+    re.ASCII,
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The command's own arguments."""
     parser.add_argument("study", metavar="STUDY", help="TOML file of a study")
-    parser.add_argument("--language", required=True, metavar="NAME", help="as fr")
     parser.add_argument(
-        "--out", type=Path, metavar="FILE", help="default: NAME.toml beside the study"
+        "--language", required=True, metavar="TAG", help="a language tag, as fr or pt-BR"
+    )
+    parser.add_argument(
+        "--out", type=Path, metavar="FILE", help="default: TAG.toml beside the study"
     )
 
 
@@ -29,8 +35,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Write every text that participants of the study read, to be filled in; what has been filled
     in before is taken over."""
     language = arguments.language
-    if not NAME.fullmatch(language):
-        raise InputError(f"--language = {language}: expected letters, digits and -, as fr")
+    if not TAG.fullmatch(language):
+        raise InputError(
+            f"--language = {short(language)}: expected a language tag, as fr, pt-BR or zh-Hant"
+        )
     study = load(arguments.study, translated=False)
     beside = find(arguments.study).parent / f"{language}.toml"
     out = arguments.out or beside

@@ -169,11 +169,20 @@ def test_what_is_to_be_translated_is_written_and_nothing_is_lost(beside, tmp_pat
     assert made == before
     assert '# "Welcome"' in out.read_text("utf-8")
     for words, message in (
-        (["--language", "fr"], "exists already"), (["--language", "f/r"], "expected letters"),
+        (["--language", "fr"], "exists already"), (["--language", "f/r"], "expected a language"),
+        (["--language", "xx9"], "--language = xx9: expected a language tag, as fr, pt-BR"),
+        (["--language", "f"], "expected a language tag"), (["--language", "fr-"], "expected a l"),
     ):  # fmt: skip
         assert cli.main(["texts", path, *words]) == 2
         said = capsys.readouterr().err
         assert message in said and said.count("\n") == 1
+
+
+@pytest.mark.parametrize("tag", ["pt-BR", "zh-Hant-TW", "es-419", "sl-rozaj", "de-1996", "haw"])
+def test_languages_are_called_by_their_tags(tmp_path, tag):
+    shutil.copy(find("demo"), tmp_path / "demo.toml")
+    assert cli.main(["texts", str(tmp_path / "demo.toml"), "--language", tag]) == 0
+    assert (tmp_path / f"{tag}.toml").is_file()
 
 
 def test_a_new_template_names_every_text_with_nothing_in_it(tmp_path):
