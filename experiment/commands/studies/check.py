@@ -11,16 +11,16 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seethrough.experiment.errors import InputError
+from seethrough.experiment.errors import InputError, shown
 from seethrough.experiment.files.outputs import check_output
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.levels import of_blocks
 from seethrough.experiment.study.beside.own_model_files import models_of
-from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.config import Study, find, load
 from seethrough.experiment.study.design.design import TaskSet, session_for
 from seethrough.experiment.study.design.factors import ALONE, WITHIN
 from seethrough.experiment.study.shown.design_table import minutes
-from seethrough.experiment.study.translations import demand_texts, languages_of, texts_of
+from seethrough.experiment.study.translations import demand_texts, is_own, languages_of, texts_of
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 from seethrough.renderer.errors import CannotDraw
 from seethrough.renderer.techniques.standard.opaque import Standard
@@ -85,6 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
         demand_texts(study, language)
     said = Verdicts()
     said.say("config", f"{study.study.name}, {study.digest()[:12]}")
+    _texts(study, find(arguments.study), said)
     _models(study, said)
     _design(study, said)
     if arguments.balance:
@@ -108,6 +109,17 @@ def run(arguments: argparse.Namespace) -> int:
         _write(study, measured, arguments.certificate)
     _machine(study, measured, context, arguments.seconds, said)
     return said.sum_up()
+
+
+def _texts(study: Study, path: Path, said: Verdicts) -> None:
+    """Translations of what is another text by now."""
+    for language in filter(is_own, languages_of(study)):
+        from seethrough.experiment.study.translated_from import stale_in
+
+        for key, (before, now) in stale_in(study, path, language).items():
+            text = f"{language}: {key}: translated from {shown(before)}, which is {shown(now)} now"
+            why = "expected a translation of that, with it in the comment above"
+            said.say("texts", text, WARNING, why)
 
 
 def _models(study: Study, said: Verdicts) -> None:

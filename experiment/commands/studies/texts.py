@@ -10,6 +10,7 @@ from seethrough.experiment.errors import InputError, short
 from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_regular
 from seethrough.experiment.study.beside.toml_file import parse_toml
 from seethrough.experiment.study.config import find, load
+from seethrough.experiment.study.translated_from import stale
 from seethrough.experiment.study.translations import needed, template
 from seethrough.tasks.kit.own_texts import flat
 
@@ -46,19 +47,23 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(
             f"{out}: exists already; expected a new file: --out FILE, with what is in it taken over"
         )
-    before = {}
+    before: dict[str, str] = {}
+    changed: dict[str, str] = {}
     if beside.exists():
+        data = read_regular(beside, LARGEST_TEXT)
         try:
-            before = flat(parse_toml(read_regular(beside, LARGEST_TEXT), str(beside)))
+            before = flat(parse_toml(data, str(beside)))
         except TypeError as error:
             raise InputError(f"{beside}: {error}") from None
+        changed = stale(study, before, data)
     texts = needed(study)
-    missing = sum(not before.get(key, "") for key in texts)
+    missing = sum(not before.get(key, "") for key in texts) + len(changed)
     try:
-        out.write_text(template(study, before), "utf-8")
+        out.write_text(template(study, before, changed), "utf-8")
     except OSError as error:
         raise InputError(f"{out}: cannot be written: {error.strerror}") from None
-    print(f"{out}: {len(texts)} texts, {missing} to be filled in")
+    again = f", {len(changed)} of them again: the study has other words now" if changed else ""
+    print(f"{out}: {len(texts)} texts, {missing} to be filled in{again}")
     print(
         f'then, in the study: language = "{out.name}" below [study]; `check` says what is missing'
     )
