@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from seethrough.experiment.study.tables import plugins
 from seethrough.experiment.study.tables.parameter_tables import MISSING, Fault, Faults, built
-from seethrough.experiment.study.tables.question_table import QuestionTable
+from seethrough.experiment.study.tables.question_table import STARTS, QuestionTable
 from seethrough.experiment.study.tables.study_errors import faults_of
 from seethrough.experiment.study.tables.study_tables import TABLES, Table, TaskTable
 from seethrough.renderer.declared import Declares
@@ -71,7 +71,6 @@ class Question:
 
 
 Read = tuple[Any, list[Fault]]  # what a table makes depends on its section
-STARTS = ("consent", "demographics", "color_check")  # asked at the start unless a study says not
 
 
 def read(section: str, table: object, whole: bool) -> Read:
