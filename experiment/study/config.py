@@ -48,7 +48,7 @@ def find(name: str) -> Path:
         return shipped()[name]
     if path.parent == Path("configs") and path.stem in shipped() and path.suffix == ".toml":
         return shipped()[path.stem]
-    if path.is_dir():
+    if os.path.isdir(path):  # of a name that no disk can have, too: it is none
         there = ", ".join(short(file.name) for file in _studies_in(path)) or "none"
         raise InputError(
             f"{short(name)}: a folder, expected a study's file; in it there are: {there}"
