@@ -14,6 +14,7 @@ from seethrough.analysis.errors import DataError
 from seethrough.experiment import streams
 from seethrough.experiment.errors import InputError, one_line, unknown
 from seethrough.renderer.errors import CannotDraw
+from seethrough.renderer.meant import one_of
 from seethrough.tasks.kit.errors import NoScene
 
 SAVING = {"run", "simulate", "demo"}  # commands that play sessions
@@ -90,8 +91,10 @@ def _in_words(message: str) -> str:
     name, kind, value, choices = found.group(1, 2, 3, 4)
     if kind is None:
         return f"{name}: missing, expected a value"
-    known = f"one of {choices.replace(chr(39), '')}" if choices else KINDS.get(kind, kind)
-    return f"{name} = {value[:60]}: expected {known}"
+    if not choices:
+        return f"{name} = {value[:60]}: expected {KINDS.get(kind, kind)}"
+    known = choices.replace("'", "").split(", ")
+    return f"{name} = {value[:60]}: expected {one_of(value, known)}"
 
 
 def _place(name: str) -> str:

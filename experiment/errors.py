@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
+
+from seethrough.renderer.meant import meant
 
 MOST = 40  # lines of faults: more come of one mistake more often than of forty
 
@@ -54,7 +55,4 @@ def shown(value: object) -> str:
 def unknown(name: str, known: Iterable[str], what: str = "key") -> str:
     """What to say of a name that there is not: the nearest one that there is, and all of them."""
     names = tuple(known)
-    near = get_close_matches(name.lower()[:100], [n.lower() for n in names], 1, 0.7)
-    meant = next((n for n in names if near and n.lower() == near[0]), None)
-    hint = f", did you mean {meant}?" if meant else ";"
-    return f"unknown {what}{hint} known: {', '.join(names) or 'none'}"
+    return f"unknown {what}{meant(name, names) or ';'} known: {', '.join(names) or 'none'}"

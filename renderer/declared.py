@@ -17,6 +17,8 @@ from typing import (
     get_type_hints,
 )
 
+from seethrough.renderer.meant import meant
+
 Value = TypeVar("Value")
 
 
@@ -146,7 +148,7 @@ def problems(
         if (value is None and _plain(hints[name])[1]) or _fits(value, hints[name], said, values):
             continue
         found.add(name)
-        yield name, value, allowed(hints[name], said, values)
+        yield name, value, allowed(hints[name], said, values) + meant(value, said.choices)
 
 
 def check(parameters: Declares, owner: str = "") -> None:

@@ -18,6 +18,7 @@ import hashlib
 import pkgutil
 import sys
 import traceback
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -97,6 +98,20 @@ def at_fault(error: BaseException) -> tuple[str, str] | None:
         if found is not None and ran & {str(path) for path in found.files}:
             return kind, name
     return None
+
+
+def place_in(error: BaseException, files: Collection[str]) -> str:
+    """ " (FILE, line N)": the innermost line of these files that an exception came from; "" where
+    there is none."""
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if f.filename in files]
+    return f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+
+
+def place_of(error: BaseException) -> str:
+    """The same, of the plug-in of others whose code ran."""
+    found = at_fault(error)
+    own = origin(*found) if found is not None else None
+    return place_in(error, {str(path) for path in own.files}) if own is not None else ""
 
 
 @cache

@@ -19,6 +19,8 @@ APART = "fewer than three items have anything in common"
 MOST_OWN = 0.99
 """An item with more has nothing in common with others. Of two items that have, nobody can tell how
 much of it is whose: the likelihood is flat."""
+SUM = "an item is the sum of others"
+TOO_FEW = "no more participants than items"
 HEYWOOD = "an item seems to have no variance of its own"
 
 
@@ -47,7 +49,7 @@ def reliability(items: Array, level: float = 0.95) -> Reliability:
         gone = Undefined(why)
         return Reliability(n, k, gone, no_interval(why), gone)
     alpha = float(k / (k - 1) * (1 - np.trace(cov) / cov.sum()))
-    return Reliability(n, k, alpha, _feldt(alpha, n, k, level), _omega(cov))
+    return Reliability(n, k, alpha, _feldt(alpha, n, k, level), _omega(cov, n))
 
 
 def _feldt(alpha: float, n: int, k: int, level: float) -> Interval:
@@ -60,8 +62,8 @@ def _feldt(alpha: float, n: int, k: int, level: float) -> Interval:
     return low, high
 
 
-def _omega(cov: Array) -> Number:
-    """Σλ² / (Σλ² + Σψ) of the one-factor model, fitted by maximum likelihood."""
+def _omega(cov: Array, n: int) -> Number:
+    """Σλ² / (Σλ² + Σψ) of the one-factor model, fitted by maximum likelihood to `n` people's."""
     from scipy.optimize import minimize
 
     sd = np.sqrt(np.diag(cov))
@@ -76,10 +78,9 @@ def _omega(cov: Array) -> Number:
         gap = np.outer(load, load) + np.diag(psi) - r
         return float(np.sum(rest - np.log(rest) - 1)), np.diag(gap) / psi**2
 
-    try:
-        start = (1 - 0.5 / len(r)) / np.diag(np.linalg.inv(r))
-    except np.linalg.LinAlgError:
-        return Undefined("an item is the sum of others")
+    if np.linalg.matrix_rank(r, hermitian=True) < len(r):  # its likelihood has no bound
+        return Undefined(TOO_FEW if n <= len(r) else SUM)
+    start = (1 - 0.5 / len(r)) / np.diag(np.linalg.inv(r))
     found = min((minimize(loss, np.clip(s, LEAST_OWN, 1.0), jac=True, method="L-BFGS-B",
                      bounds=[(LEAST_OWN, 1.0)] * len(r),
                      options={"ftol": 1e-15, "gtol": 1e-10})

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from seethrough.experiment.pages.color_plates import Plate
@@ -201,6 +201,11 @@ class Page:
     def required(self) -> tuple[str, ...]:
         """Names that need an answer."""
         return tuple(b.name for b in self.asked if not b.optional)
+
+    def insisting(self) -> Page:
+        """The page with nothing on it that may be left open."""
+        blocks = (replace(b, optional=False) if isinstance(b, Asked) else b for b in self.blocks)
+        return replace(self, blocks=tuple(blocks))
 
     @property
     def takes_time(self) -> bool:

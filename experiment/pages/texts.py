@@ -8,6 +8,7 @@ from importlib import resources
 
 from seethrough import registry
 from seethrough.experiment.errors import InputError, short, shown, unknown
+from seethrough.renderer.meant import one_of
 from seethrough.tasks.kit.own_texts import flat
 from seethrough.tasks.kit.world import Texts as OwnTexts
 
@@ -32,7 +33,7 @@ class Texts:
         file = folder.joinpath("languages", f"{language}.toml")
         if not file.is_file():
             raise InputError(
-                f"study.language = {shown(language)}: expected one of {', '.join(languages())}"
+                f"study.language = {shown(language)}: expected {one_of(language, languages())}"
             )
         self._texts = flat(tomllib.loads(file.read_text(encoding="utf-8")))
         self._texts |= _of_plugins(language)

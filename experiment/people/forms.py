@@ -80,8 +80,15 @@ class Opinions:
             elif isinstance(block, Ranking) and not block.optional:
                 answers[block.name] = ",".join(map(str, self._ranks(block)))
             elif isinstance(block, TextField):
-                answers[block.name] = ""
+                answers[block.name] = "" if block.optional else self._written(block)
         return answers
+
+    def _written(self, block: TextField) -> str:
+        """Any number that may be, or of a text, that nobody wrote it."""
+        if block.most is None:
+            return "simulated"
+        value = self.rng.uniform(block.least, block.most)
+        return str(round(value)) if block.whole else f"{value:.3f}"
 
     def _ranks(self, block: Ranking) -> list[int]:
         """What was quick comes first, where options are levels; by chance otherwise."""

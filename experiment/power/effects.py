@@ -23,6 +23,7 @@ from seethrough.experiment.power.power import implied_r
 from seethrough.experiment.power.sources import Normal, Sampled, Source
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.shown.described import design_entry
+from seethrough.renderer.meant import one_of
 
 GIVEN = re.compile(r"\s*([^=]+?)\s*=\s*([-+]?\d*\.?\d+)\s*(\S.*?)\s*")
 
@@ -91,7 +92,7 @@ def _given(
     if not chosen:
         known = sorted({n for p in design.predictions for n in (p.name, p.contrast) if n}
                        | {c.factor for c in design.contrasts()})  # fmt: skip
-        raise InputError(f"--effect = {name}: expected one of {', '.join(known)}")
+        raise InputError(f"--effect = {name}: expected {one_of(name, known)}")
     groups, k = groups_of(design), len(plans.scores)
     means, sds = np.zeros((len(groups), k)), np.ones((len(groups), k))
     for test in {t for p in chosen for t in p.tests}:

@@ -29,7 +29,7 @@ def describe_dataset(data: Path, study: str, tables: Mapping[str, tuple[Column, 
         pass  # another station described it first: checked below
     except OSError as error:
         raise InputError(f"{data}: cannot be written: {error.strerror}") from None
-    _check_name(path, study)
+    check_name(path, study)
 
 
 def description(study: str, text: str, columns: Mapping[str, Column]) -> dict[str, object]:
@@ -51,7 +51,8 @@ def description(study: str, text: str, columns: Mapping[str, Column]) -> dict[st
     }
 
 
-def _check_name(path: Path, study: str) -> None:
+def check_name(path: Path, study: str) -> None:
+    """Raises InputError where a description is that of another study."""
     name = read_object(path).get("name")
     if name != study:
         raise InputError(f"{path}: name = {name!r}: expected {study!r}; choose another folder")

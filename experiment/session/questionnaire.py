@@ -210,7 +210,9 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
             now = replace(asking, given=known)
             page = its("pages", lambda: kind.pages(parameters, now)[number])
             page = words.named(study, page, pairs, language)
-            simulate = partial(kind.simulate, parameters, page)
+            # Whoever is asked because of an earlier answer has something to say to it.
+            met = page.insisting() if planned.given else page
+            simulate = partial(kind.simulate, parameters, met)
             page = replace(
                 page, simulate=lambda someone: its("simulate", partial(simulate, someone))
             )

@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import signal
 import threading
-import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from types import FrameType, UnionType
 from typing import TypeVar
 
@@ -53,8 +51,9 @@ def limited(seconds: float, what: str) -> Iterator[None]:
     left, _ = signal.setitimer(signal.ITIMER_REAL, seconds)  # of whoever limits this as well
     try:
         yield
-    except _TookTooLong:
-        raise PluginFailed(f"{what}: did not come back within {seconds:.0f} s") from None
+    except _TookTooLong as error:
+        where = registry.place_of(error)
+        raise PluginFailed(f"{what}: did not come back within {seconds:.0f} s{where}") from None
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
@@ -84,9 +83,7 @@ def called(kind: str, name: str, what: str, call: Callable[[], Made]) -> Made:
 def said(kind: str, name: str, error: Exception) -> str:
     """An exception in a line: what, and where in the plug-in's own code."""
     origin = registry.origin(kind, name)
-    own = {str(path) for path in origin.files} if origin else set()
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if f.filename in own]
-    where = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    where = registry.place_in(error, {str(path) for path in origin.files} if origin else ())
     return f"raised {one_line(f'{type(error).__name__}: {error}')}{where}"
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from importlib import resources
 from pathlib import Path
 
@@ -17,14 +17,17 @@ from seethrough.experiment.study.beside.toml_file import read_toml
 from seethrough.experiment.study.design.design import number_of, scene_names
 from seethrough.experiment.study.migrate import is_old, migrated
 from seethrough.experiment.study.parser import Parser
+from seethrough.experiment.study.predicted import unfit_predictions
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_items import lacking_items
 from seethrough.experiment.study.tables.study_errors import study_error
+from seethrough.experiment.study.task_clashes import clashing_tasks
 from seethrough.experiment.study.translations import (
     unshowable_names,
     unshowable_texts,
     with_translations,
 )
+from seethrough.renderer.meant import one_of
 
 __all__ = ["Study", "find", "load", "parse", "shipped"]
 
@@ -45,9 +48,28 @@ def find(name: str) -> Path:
         return shipped()[name]
     if path.parent == Path("configs") and path.stem in shipped() and path.suffix == ".toml":
         return shipped()[path.stem]
+    if os.path.isdir(path):  # of a name that no disk can have, too: it is none
+        there = ", ".join(short(file.name) for file in _studies_in(path)) or "none"
+        raise InputError(
+            f"{short(name)}: a folder, expected a study's file; in it there are: {there}"
+        )
     raise InputError(
-        f"{short(name)}: no such file; expected a TOML file or one of: {', '.join(shipped())}"
+        f"{short(name)}: no such file; expected a TOML file or {one_of(name, shipped())}"
     )
+
+
+def _studies_in(folder: Path) -> list[Path]:
+    """The files in a folder that have a [study] with a name: texts have one without."""
+    return [path for path in sorted(folder.glob("*.toml"))
+            if path.is_file() and _names_a_study(path)]  # fmt: skip
+
+
+def _names_a_study(path: Path) -> bool:
+    try:
+        about = read_toml(path).get("study")
+    except InputError:
+        return True  # who asks for it is told what is wrong with it
+    return isinstance(about, Mapping) and "name" in about
 
 
 def _is_there(path: Path) -> bool:
@@ -84,10 +106,17 @@ def load(name: str, translated: bool = True) -> Study:
         raise gathered(lines)
     study = with_translations(study, path) if translated else study
     study = study.with_places(lambda place: beside(place, path))
-    lacking = [f"{path}: {line}" for line in lacking_items(study)]
+    lacking = [f"{path}: {line}" for line in _of_all(study)]
     if lines := lacking + unshowable_names(study, str(path)):
         raise gathered(lines)
     return study
+
+
+def _of_all(study: Study) -> Iterator[str]:
+    """What neither tables nor records have to keep to, but who begins with a study."""
+    yield from clashing_tasks(study)
+    yield from unfit_predictions(study)
+    yield from lacking_items(study)
 
 
 def _files(table: Mapping[str, object]) -> list[tuple[str, str]]:

@@ -13,6 +13,7 @@ from typing import TypeVar
 from seethrough import registry
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import parse
+from seethrough.renderer.meant import meant, one_of
 from seethrough.tasks.kit.world import ANYWHERE
 
 LONGEST_TITLE = 200
@@ -40,7 +41,7 @@ STUDY = """# {title}
 # `seethrough design {name}.toml`, `seethrough simulate {name}.toml --participants 4 --out data`.
 
 [study]
-name = "{plain}"
+name = "{name}"
 title = {quoted}
 description = "A study of how people see past what is in the way." # yours: what it is about
 participants = {people}
@@ -97,7 +98,7 @@ def new_study(name: str, folder: Path, yes: bool, ask: Ask | None = None) -> int
     people = _until(said, "How many people?", str(4 * len(chosen)), _people)
     title = _until(said, "What is it called?", f"{', '.join(chosen)} compared", _title)
     levels = "\n".join(f'levels.{view} = {{ technique.use = "{view}" }}' for view in chosen)
-    words = {"name": name, "plain": name.replace("_", ""), "title": title, "people": people,
+    words = {"name": name, "title": title, "people": people,
              "quoted": json.dumps(title, ensure_ascii=False), "levels": levels,
              "world": _world(task), "task": task}  # fmt: skip
     text = STUDY.format(**words)
@@ -142,7 +143,7 @@ def _of(known: tuple[str, ...]) -> str:
 def _task(said: str) -> str:
     known = registry.known("task")
     if said not in known:
-        raise InputError(f"task = {said}: expected one of {', '.join(known)}")
+        raise InputError(f"task = {said}: expected {one_of(said, known)}")
     return said
 
 
@@ -155,7 +156,10 @@ def _world(task: str) -> str:
 def _techniques(known: tuple[str, ...], said: str) -> list[str]:
     chosen = said.replace(",", " ").split()
     if len(chosen) < 2 or len(set(chosen)) < len(chosen) or not set(chosen) <= set(known):
-        raise InputError(f"techniques = {said}: expected two or more of {', '.join(known)}")
+        raise InputError(
+            f"techniques = {said}: expected two or more of {', '.join(known)}"
+            + meant(chosen, known)
+        )
     return chosen
 
 

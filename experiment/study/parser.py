@@ -23,6 +23,7 @@ from seethrough.experiment.study.tables.question_checks import unfit_questions
 from seethrough.experiment.study.tables.reading import read
 from seethrough.experiment.study.tables.scopes import sections
 from seethrough.experiment.study.tables.study_tables import DesignTable
+from seethrough.renderer.meant import one_of
 
 MOST_CELLS = 10_000
 DESCRIBED = ("plugins", "translations")  # what a sidecar says besides
@@ -113,7 +114,7 @@ class Parser:
                 if own is None:
                     self.faults.append(Fault(f"{where}.{name}", value, known=tuple(names)))
                 elif level not in own.names:
-                    expected = f"one of {', '.join(own.names)}"
+                    expected = one_of(level, own.names)
                     self.faults.append(Fault(f"{where}.{name}", value, expected))
                 else:
                     levels[name] = level
@@ -139,11 +140,12 @@ class Parser:
         faults += unfit_questions(factors, found["questions"], parts)
         for number, name in enumerate(found["analysis"].pairwise):
             if name not in names:
-                faults.append(Fault(f"analysis.pairwise[{number}]", name, known=tuple(names)))
+                faults.append(Fault(f"analysis.pairwise[{number}]", name, one_of(name, names)))
         for number, said in enumerate(found["analysis"].predictions):
             where = f"analysis.predictions[{number}]"
             if said.contrast and said.contrast not in names:
-                faults.append(Fault(f"{where}.contrast", said.contrast, known=tuple(names)))
+                expected = one_of(said.contrast, names)
+                faults.append(Fault(f"{where}.contrast", said.contrast, expected))
         return faults
 
 

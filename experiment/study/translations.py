@@ -187,9 +187,10 @@ def own_words(study: Study, language: str) -> dict[str, str]:
     return {text: given[k] for k, text in own_texts(study).items() if k in given} if given else {}
 
 
-def template(study: Study, given: Mapping[str, str]) -> str:
+def template(study: Study, given: Mapping[str, str], stale: Mapping[str, str]) -> str:
     """What is to be translated, as a file of texts: each text with its English, and what there is
-    of it already."""
+    of it already. What is `stale` (name → what it was translated from) is to be translated again,
+    with what it was beside it."""
     parts = [f"# Texts of the study {study.study.name}: fill in what stands between the quotes."]
     tables: dict[str, list[str]] = {}
     texts = needed(study)
@@ -199,13 +200,20 @@ def template(study: Study, given: Mapping[str, str]) -> str:
             table, _, more = table.rpartition(".")
             name = f"{more}.{name}"
         name = json.dumps(name) if "." in name else name
-        entry = f"# {json.dumps(text, ensure_ascii=False)}\n"
-        entry += f"{name} = {json.dumps(given.get(key, ''), ensure_ascii=False)}"
+        said = given.get(key, "")
+        entry = f"# {_quoted(text)}\n"
+        if key in stale:
+            entry, said = f"# before: {_quoted(said)}, of {_quoted(stale[key])}\n{entry}", ""
+        entry += f"{name} = {_quoted(said)}"
         tables.setdefault(table, []).append(entry)
     for table in sorted(tables, key=lambda name: (name != "", name.startswith(OWN[:-1]))):
         head = [f"[{table}]"] if table else []
         parts.append("\n".join([*head, *tables[table]]))
     return "\n\n".join(parts) + "\n"
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)
 
 
 def unshowable(text: str) -> str:

@@ -54,7 +54,8 @@ def _tried(rule: Rule[Plugin], plugin: Plugin) -> list[str]:
     except PluginFailed as error:
         found.append(str(error))
     except Exception as error:  # a stranger's code may raise anything
-        found.append(one_line(f"raised {type(error).__name__}: {error}"))
+        said = one_line(f"raised {type(error).__name__}: {error}")
+        found.append(f"{said}{registry.place_of(error)}")
     return found
 
 

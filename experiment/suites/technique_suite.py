@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough import registry
 from seethrough.experiment.display.display import MEANT
 from seethrough.experiment.suites import technique_hard as hard
 from seethrough.experiment.suites import technique_scenes as scenes
@@ -67,7 +68,7 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
         try:
             yield step()
         except Exception as error:  # a stranger's code may raise anything
-            yield Finding(name, False, f"{type(error).__name__}: {error}")
+            yield Finding(name, False, f"{type(error).__name__}: {error}{registry.place_of(error)}")
 
 
 def check_all(technique: Technique, context: Context) -> Iterator[Finding]:

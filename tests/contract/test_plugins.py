@@ -191,7 +191,11 @@ def test_toys_are_short(kind: str, root: Path) -> None:
 def test_what_cannot_be_begun_or_checked_is_said_in_a_line(tmp_path, capsys):
     (tmp_path / "there").mkdir()
     for words, message in (
-        (["new", "task", "Bad Name", str(tmp_path / "x")], "expected small letters"),
+        (["new", "task", "Bad Name", str(tmp_path / "x")], "expected 1 to 40 small letters"),
+        (["new", "task", "Mine", str(tmp_path / "x")], "expected 1 to 40 small letters"),
+        (["new", "task", "limit", str(tmp_path / "x")], "expected another name, a study says"),
+        (["new", "technique", "use", str(tmp_path / "x")], "expected another name, a study says"),
+        (["new", "question", "sus", str(tmp_path / "x")], "expected another name, a study says"),
         (["new", "task", "count", str(tmp_path / "x")], "there is one of this name already"),
         (["new", "task", "mine", str(tmp_path / "there")], "expected a folder that can be made"),
         (["task", "check", "cuont"], "did you mean count?"),

@@ -155,15 +155,17 @@ def test_code_runs_only_once_somebody_trusts_it(own, capsys, monkeypatch):
 
 
 WRONG = [
-    ("raise ValueError('no')", 'task.toy_task.file = "toy_task.py": cannot be loaded (ValueError'),
+    ("x = 1\n\nraise ValueError('no')", "cannot be loaded (ValueError: no) (toy_task.py, line 3)"),
     ("x = 1", "expected a TASK in it"),
     ("import math\nmath.none", "cannot be loaded (AttributeError: module 'math' has no attribute"),
     ("TASK = 1", "cannot be loaded (AttributeError: 'int' object has no attribute 'name')"),
     ("class T:\n    name = 'other'\nTASK = T()", "calls itself 'other', expected 'toy_task'"),
+    ("def f():\n    raise OSError\nf()", "cannot be loaded (OSError: ) (toy_task.py, line 2)"),
     ("def f(:", "cannot be loaded (SyntaxError"),
-    ("class T:\n    name = 'toy_task'\nTASK = T()", "expected what its suite demands: FAIL"),
+    ("class T:\n    name = 'toy_task'\nTASK = T()",
+     "expected what its suite demands: It says what it is"),
     ("import os\nos._exit(3)", "expected what its suite demands: it ended by itself"),
-]
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("code", "words"), WRONG)
@@ -177,6 +179,19 @@ def test_a_file_that_is_no_plugin_is_refused_in_a_line(own, code, words, capsys)
             plugin_files.provide(plugin, own / "toy_task.py", where)
         plugin_files._demand_suite(plugin, own / "toy_task.py", where)
     assert words in str(error.value) and "\n" not in str(error.value)
+
+
+def test_what_a_suite_could_not_read_is_said_once(own, monkeypatch):
+    """In the study's words, not in those of the command that tried it, and with the line."""
+    code = "x = 1\nraise ValueError('no')\n"
+    (own / "toy_task.py").write_text(code, "utf-8")
+    trust.trust_everything()
+    plugin = plugin_files.PluginFile("task", "toy_task", "toy_task.py", code.encode())
+    with pytest.raises(plugin_files.InputError) as error:
+        plugin_files._demand_suite(plugin, own / "toy_task.py", "toys.toml: task.toy_task.file")
+    assert str(error.value) == (
+        "toys.toml: task.toy_task.file: cannot be loaded (ValueError: no) (toy_task.py, line 2)"
+    )
 
 
 ENTRIES = [
@@ -241,8 +256,10 @@ class Mine(Count):
 TASK = Mine()
 """
 BAD = {
-    "raises": ("def on_event(self, state, event):\n        raise KeyError('x')", "raised KeyError"),
-    "blocks": ("def on_event(self, state, event):\n        time.sleep(99)", "did not come back"),
+    "raises": ("def on_event(self, state, event):\n        raise KeyError('x')",
+               "raised KeyError: 'x' (mine.py, line 11)"),
+    "blocks": ("def on_event(self, state, event):\n        time.sleep(99)",
+               "did not come back within 0 s (mine.py, line 11)"),
     "loops": ("def view(self, state):\n        while True: pass", "did not come back"),
     "nonsense": ("def view(self, state):\n        return 7", "expected a View"),
     "answers nonsense": ("def outcome(self, state):\n        return 'yes'", "an Outcome"),
@@ -278,7 +295,7 @@ def test_the_suite_finds_what_is_wrong_with_a_task(own, fault, monkeypatch):
 
 AT_RUN = {
     "raises": ("raise KeyError('x')", "on_event: raised KeyError: 'x' (mine.py, line 15)"),
-    "blocks": ("time.sleep(99)", "on_event: did not come back within 0 s"),
+    "blocks": ("time.sleep(99)", "on_event: did not come back within 0 s (mine.py, line 15)"),
     "nonsense": ("return 7", "gave"),
 }
 

@@ -155,4 +155,37 @@ def test_a_folder_of_another_study_is_refused(tables, tmp_path, capsys):
     out.mkdir()
     (out / "dataset_description.json").write_text('{"name": "other"}')
     assert data_mode(tables, out, "--participants", "2") == 2
-    assert "holds study other: expected demo" in capsys.readouterr().err
+    assert "name = 'other': expected 'demo'; choose another folder" in capsys.readouterr().err
+
+
+def test_people_are_put_among_no_other_things(tables, tmp_path, capsys):
+    """What is there stays as it is, in either mode."""
+    (tmp_path / "notes.txt").write_text("mine")
+    words = ["simulate", "demo", "--participants", "1", "--out"]
+    expected = (
+        f"seethrough: --out = {tmp_path}: holds notes.txt, which no study recorded: expected a new "
+        "or empty folder, or a study's data\n"
+    )
+    assert cli.main([*words, str(tmp_path)]) == data_mode(tables, tmp_path) == 2
+    assert capsys.readouterr().err == 2 * expected
+    assert cli.main([*words, str(tmp_path / "notes.txt")]) == 2
+    assert "expected a folder, it is a file" in capsys.readouterr().err
+    assert [p.name for p in tmp_path.iterdir()] == ["notes.txt"]
+
+
+def test_each_mode_has_folders_of_its_own(tables, tmp_path, capsys):
+    assert data_mode(tables, tmp_path / "data", "--participants", "2") == 0
+    words = ["simulate", "demo", "--participants", "1", "--out"]
+    before = rows(tmp_path / "data")
+    assert cli.main([*words, str(tmp_path / "data")]) == 2
+    assert "holds S00001-S00002 of data mode: visual mode expects" in capsys.readouterr().err
+    assert rows(tmp_path / "data") == before
+    # What a check or a ledger may have put there before is no other thing.
+    (tmp_path / "drawn").mkdir()
+    (tmp_path / "drawn" / "certificate.csv").write_text("")
+    assert cli.main([*words, str(tmp_path / "drawn")]) == 0
+    assert cli.main([*words, str(tmp_path / "drawn")]) == 2
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        f"seethrough: --out = {tmp_path / 'drawn'}: holds S01 already, who are never played twice: "
+        "expected a folder without them"
+    )

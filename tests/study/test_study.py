@@ -100,7 +100,7 @@ def test_simulating_into_the_same_folder_is_refused_and_changes_nothing(data, ca
     before = {p: p.read_bytes() for p in data.rglob("*") if p.is_file()}
     assert cli.main(["simulate", "demo", "--participants", "1", "--out", str(data)]) == 2
     message = capsys.readouterr().err.strip().splitlines()[-1]
-    assert "S01" in message and "exists already" in message
+    assert "S01" in message and "already, who are never played twice" in message
     assert {p: p.read_bytes() for p in data.rglob("*") if p.is_file()} == before
 
 

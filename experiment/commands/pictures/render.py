@@ -16,6 +16,7 @@ from seethrough import registry
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.outputs import check_output
 from seethrough.renderer.look.dressed import dressed
+from seethrough.renderer.meant import meant, one_of
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import SHORTCUTS
 from seethrough.renderer.scene.camera import Camera, look_at
@@ -132,7 +133,7 @@ def run(args: argparse.Namespace) -> int:
     scene = dressed(scene, _given("look", PLAIN, args.look))
     unknown = sorted(set(args.without) - set(SHORTCUTS))
     if unknown:
-        raise InputError(f"--without = {unknown[0]}: expected one of {', '.join(SHORTCUTS)}")
+        raise InputError(f"--without = {unknown[0]}: expected {one_of(unknown[0], SHORTCUTS)}")
     try:
         renderer = Renderer(standalone(), size, args.samples, frozenset(args.without))
     except RuntimeError as error:
@@ -173,7 +174,9 @@ def _given(option: str, base: Given, settings: list[str]) -> Given:
         key, equals, value = text.partition("=")
         if not equals or key not in known:
             wanted = ", ".join(sorted(known)) or "none, it has no parameters"
-            raise InputError(f"--{option} = {text}: expected KEY=VALUE with one of {wanted}")
+            raise InputError(
+                f"--{option} = {text}: expected KEY=VALUE with one of {wanted}" + meant(key, known)
+            )
         try:
             found = tomllib.loads(f"value = {value}")["value"]
             values[key] = tuple(found) if isinstance(found, list) else found

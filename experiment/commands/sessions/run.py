@@ -14,6 +14,7 @@ from seethrough.experiment.files.folders import check_participant, folder_of, ne
 from seethrough.experiment.files.private import make_folder
 from seethrough.experiment.study.config import Study, find, load, shipped
 from seethrough.experiment.study.design.factors import is_measured
+from seethrough.renderer.meant import one_of
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -64,8 +65,9 @@ def _brought(study: Study, said: Sequence[str], ask: bool) -> dict[str, str]:
     for text in said:
         name, _, level = text.partition("=")
         if name not in measured or level not in measured[name].names:
-            known = ", ".join(f"{f.name}={level}" for f in measured.values() for level in f.names)
-            expected = f"one of {known}" if known else "none: the study has no measured factor"
+            known = [f"{f.name}={level}" for f in measured.values() for level in f.names]
+            none = "none: the study has no measured factor"
+            expected = one_of(text, known) if known else none
             raise InputError(f"--set = {text}: expected {expected}")
         brings[name] = level
     for factor in (f for name, f in measured.items() if ask and name not in brings):
@@ -74,7 +76,7 @@ def _brought(study: Study, said: Sequence[str], ask: bool) -> dict[str, str]:
             raise InputError(f"--set: missing, expected {factor.name}=LEVEL, one of {levels}")
         level = input(f"{factor.text or factor.name} ({levels}): ").strip()
         if level not in factor.names:
-            raise InputError(f"{factor.name} = {level}: expected one of {levels}")
+            raise InputError(f"{factor.name} = {level}: expected {one_of(level, factor.names)}")
         brings[factor.name] = level
     return brings
 

@@ -53,6 +53,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Play the study; 0 when every participant completed it."""
+    from seethrough.experiment.people.runs.out_folder import check_folder, check_visual
+
     study = load(arguments.study)
     count = study.study.participants if arguments.participants is None else arguments.participants
     if count < 1:
@@ -64,6 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
     except ValueError as error:
         raise InputError(str(error)) from None
     profile = find(arguments.profile)
+    check_folder(arguments.out, study.study.name)
     if arguments.mode == "data":
         _data_mode(arguments, count, profile, without)
     else:
@@ -72,6 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
         workers = _workers(arguments)
         if workers > 1 and (arguments.explain or arguments.watch):
             raise InputError("--explain and --watch: expected with one worker")
+        check_visual(arguments.out, [f"S{slot:02d}" for slot in study.plan.slots(count)])
         if arguments.watch:
             return _watch(study, count, arguments.seed, arguments.out, profile, without)
         simulate(

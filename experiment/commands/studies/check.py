@@ -15,8 +15,8 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.outputs import check_output
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.session.levels import of_blocks
-from seethrough.experiment.study.beside.own_model_files import models_of
-from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.checked import brought
+from seethrough.experiment.study.config import Study, find, load
 from seethrough.experiment.study.design.design import TaskSet, session_for
 from seethrough.experiment.study.design.factors import ALONE, WITHIN
 from seethrough.experiment.study.shown.design_table import minutes
@@ -24,7 +24,6 @@ from seethrough.experiment.study.translations import demand_texts, languages_of,
 from seethrough.experiment.verdicts import FAILS, OK, WARNING, Verdicts
 from seethrough.renderer.errors import CannotDraw
 from seethrough.renderer.techniques.standard.opaque import Standard
-from seethrough.tasks.kit.world import FILES
 
 if TYPE_CHECKING:
     from moderngl import Context
@@ -85,11 +84,13 @@ def run(arguments: argparse.Namespace) -> int:
         demand_texts(study, language)
     said = Verdicts()
     said.say("config", f"{study.study.name}, {study.digest()[:12]}")
-    _models(study, said)
+    brought.texts(study, find(arguments.study), said)
+    brought.models(study, said)
     _design(study, said)
     if arguments.balance:
         _balance(study, arguments.slots, said)
         return said.sum_up()
+    brought.trial_scenes(study, said)
     if arguments.config_only:
         return said.sum_up()
     from seethrough.experiment.display.driver import describe, on_the_processor, open_context
@@ -98,8 +99,8 @@ def run(arguments: argparse.Namespace) -> int:
     for name, value in describe(context).items():
         software = name == "renderer" and on_the_processor(context)
         said.say("machine", f"{name}: {value}", *([WARNING, NO_CARD] if software else []))
-    _contact_sheet(study, context, arguments, said)
-    _scenes(study, context, arguments, said)
+    brought.model_sheet(study, context, arguments.models, arguments.study, said)
+    brought.scenes(study, context, arguments.scenes, arguments.study, said)
     measured = _measured(study, context)
     _difficulty(study, measured, context, arguments.redraw, said)
     _techniques(study, measured, context, said)
@@ -107,50 +108,6 @@ def run(arguments: argparse.Namespace) -> int:
         _write(study, measured, arguments.certificate)
     _machine(study, measured, context, arguments.seconds, said)
     return said.sum_up()
-
-
-def _models(study: Study, said: Verdicts) -> None:
-    """What the study brings along: read already, or there would be no study."""
-    models = models_of(study)
-    if models:
-        from seethrough.experiment.study.checked.contact_sheet import described, facts_of
-    for own in models:
-        first, *more = described(own, facts_of(own), study)
-        said.say("model", f"{own.name}: {own.file}, {first}, {own.sha256[:12]}")
-        for line in more:
-            print(f"{'':<11} {line}")
-
-
-def _contact_sheet(
-    study: Study, context: Context, arguments: argparse.Namespace, said: Verdicts
-) -> None:
-    """The study's own models in a picture, where it has any."""
-    if models_of(study):
-        from seethrough.experiment.study.checked import contact_sheet
-
-        path = arguments.models or contact_sheet.default_path(arguments.study)
-        contact_sheet.write(study, context, path)
-        said.say("models", f"a picture of each from several sides, in {path}", OK, "look at it")
-
-
-def _scenes(study: Study, context: Context, arguments: argparse.Namespace, said: Verdicts) -> None:
-    """The study's own scenes: how large they are, what is seen of them from where, a picture."""
-    if all(place.scenes != FILES for place in study.places()):
-        return
-    from seethrough.experiment.study.checked import scene_sheet
-
-    found = []
-    for p, file in scene_sheet.scenes_of(study):
-        seen = scene_sheet.looked_at(study, context, p, file)
-        found.append(seen)
-        text, odd = scene_sheet.described(p, seen.place)
-        said.say("scene", text, *([WARNING, odd] if odd else []))
-        for line in scene_sheet.seen_lines(seen):
-            print(f"{'':<11} {line}")
-    if found:
-        path = arguments.scenes or scene_sheet.default_path(arguments.study)
-        scene_sheet.write(found, context, path)
-        said.say("scenes", f"a picture of each from every view, in {path}", OK, "look at it")
 
 
 def _design(study: Study, said: Verdicts) -> None:

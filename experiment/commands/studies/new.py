@@ -8,10 +8,11 @@ from importlib.resources import files
 from pathlib import Path
 
 from seethrough import registry
-from seethrough.experiment.errors import InputError
+from seethrough.experiment.errors import InputError, short
 
 HELP = "write a package with a plug-in of your own, to begin with"
-NAME = re.compile(r"[a-z][a-z0-9_]{0,40}")
+LONGEST = 40
+NAME = re.compile(rf"[a-z][a-z0-9_]{{0,{LONGEST - 1}}}")
 KINDS = ("technique", "task", "world", "question", "study")
 
 
@@ -27,24 +28,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the package and say what to do with it."""
-    if not NAME.fullmatch(args.name):
-        raise InputError(
-            f"new {args.kind}: NAME = {args.name}: expected small letters, digits and _, a letter "
-            "first"
-        )
+    where = f"new {args.kind}: NAME = {short(args.name)}"
     if args.kind == "study":
         from seethrough.experiment.study.new_study import new_study
+        from seethrough.experiment.study.tables.study_tables import NAME as PLAIN
+        from seethrough.experiment.study.tables.study_tables import is_plain
 
+        if not is_plain(args.name):
+            raise InputError(f"{where}: expected {PLAIN}")
         return new_study(args.name, args.folder, args.yes)
+    if not NAME.fullmatch(args.name):
+        raise InputError(
+            f"{where}: expected 1 to {LONGEST} small letters, digits and _, a letter first"
+        )
     if args.name in registry.known(args.kind):
-        raise InputError(f"new {args.kind}: NAME = {args.name}: there is one of this name already")
+        raise InputError(f"{where}: there is one of this name already")
+    from seethrough.experiment.study.tables.plugins import taken_names
+
+    if args.name in taken_names(args.kind):
+        raise InputError(f"{where}: expected another name, a study says other things by it")
     templates = files("seethrough.experiment.suites").joinpath("templates")
-    where = registry.KINDS[args.kind]
+    found = registry.KINDS[args.kind]
     words = {
         "NAME": args.name,
         "MODULE": f"seethrough_{args.name}",
-        "GROUP": where.group.removeprefix("seethrough."),
-        "CONSTANT": where.constant,
+        "GROUP": found.group.removeprefix("seethrough."),
+        "CONSTANT": found.constant,
     }
     try:
         args.folder.mkdir(parents=True)

@@ -10,6 +10,7 @@ from pathlib import Path
 from seethrough.analysis.files.written import write_over
 from seethrough.experiment.errors import InputError, gathered, short, shown, unknown
 from seethrough.experiment.study.beside.toml_file import read_toml
+from seethrough.renderer.meant import meant
 from seethrough.tasks.kit.skills.profile import AVERAGE, PROFILES, Profile
 
 SHIPPED = Path(__file__).with_name("profiles")  # files that come with the program
@@ -28,6 +29,7 @@ def find(name: str) -> Profile:
     if not os.path.lexists(path):
         raise InputError(
             f"--profile = {name}: expected one of {', '.join(names())}, or a profile file"
+            + meant(name, names())
         )
     return read(path)
 

@@ -25,7 +25,7 @@ from seethrough.experiment.people.runs.data_mode import Played
 from seethrough.experiment.people.runs.looks import Rows
 from seethrough.experiment.record.chain import link, seal_of, start_of
 from seethrough.experiment.record.columns import Column, with_factors
-from seethrough.experiment.record.dataset import describe_dataset
+from seethrough.experiment.record.dataset import FILE, check_name, describe_dataset
 from seethrough.experiment.record.record_files import cell, csv_line, header_of
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.shown.described import design_entry
@@ -196,13 +196,9 @@ class Results(AbstractContextManager["Results"]):
 
     def _check(self, study: Study, about: Mapping[str, object]) -> None:
         """One folder holds one study, simulated in one way."""
-        described = self.out / "dataset_description.json"
+        described = self.out / FILE
         if described.exists():
-            name = read_object(described).get("name")
-            if name != study.study.name:
-                raise InputError(
-                    f"--out = {self.out}: holds study {name}: expected {study.study.name}"
-                )
+            check_name(described, study.study.name)
         list(self._there())
         sidecar = next(self._folder.glob("*/*_trials_data.json"), None)
         if sidecar is None:

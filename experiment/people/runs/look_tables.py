@@ -128,6 +128,10 @@ class TableEyes:
         self.draw = draw
         self._key, self._camera = LATTICES[moving]
 
+    def nearest(self, camera: Camera) -> Camera:
+        """The lattice's camera that answers for `camera`."""
+        return self._camera(camera, self._key(camera))
+
     def look(self, scene: Scene, camera: Camera) -> Visibility:
         """What is visible from the lattice viewpoint nearest to `camera`."""
         key = self._key(camera)
@@ -138,3 +142,22 @@ class TableEyes:
                 raise
         self.looks.put(self.name, key, self.draw(scene, self._camera(camera, key)))
         return self.looks.get(self.name, self.objects, key)
+
+
+def moved(
+    seen: Visibility, scene: Scene, lattice: Camera, camera: Camera, aspect: float
+) -> Visibility:
+    """A look from the lattice's camera with each thing where another one near it shows it, in a
+    view so wide for its height: what is clicked is what lies there, not where the lattice has it.
+    What only the lattice's view holds is not seen."""
+    shift = (camera.places(scene.centers) - lattice.places(scene.centers)) * [0.5, -0.5]
+    place = seen.position + shift  # view units: half-heights of a camera, y down
+    ahead = np.minimum(lattice.depth(scene.centers), camera.depth(scene.centers)) > 0
+    inside = ahead & (place >= 0).all(axis=1) & (place <= [aspect, 1.0]).all(axis=1)
+    return Visibility(
+        np.where(inside, seen.pixels, 0),
+        np.where(inside, seen.weight, 0.0),
+        np.where(inside[:, None], place, np.nan),
+        np.where(inside, seen.contrast, 0.0),
+        np.where(inside, seen.area, 0.0),
+    )

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from seethrough.experiment.people.runs.look_tables import Draw, TableEyes
+from seethrough.experiment.people.runs.look_tables import Draw, TableEyes, moved
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design.design import STUDY_SCENES, Trial, generator
@@ -71,8 +71,15 @@ class Pool(StudyScenes):
         return self._begun(TASKS[trial.task], trial, aspect, stream)
 
     def look(self, view: View, technique: Parameters) -> Visibility:
-        """What is seen in a view of one of the pool's scenes, with a technique."""
-        return self.eyes(view.scene, technique).look(view.scene, view.camera)
+        """What is seen in a view of one of the pool's scenes, with a technique; where one clicks,
+        at the places where it is hit."""
+        eyes = self.eyes(view.scene, technique)
+        seen = eyes.look(view.scene, view.camera)
+        if view.aim is None:
+            return seen
+        width, height = window_of(self.study)
+        lattice = eyes.nearest(view.camera)
+        return moved(seen, view.scene, lattice, view.camera, width / height)
 
     def eyes(self, scene: Scene, technique: Parameters) -> TableEyes:
         """Eyes for one of the pool's scenes with a technique."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil, floor
 
-from seethrough.experiment.pages.pages import Answers, Page, TextField
-from seethrough.experiment.questions.kit import Asking, OnOnePage, Possible, Respondent, Row, row
+from seethrough.experiment.pages.pages import Answers, TextField
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Possible, Row, row
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.own_texts import OwnTexts
 from seethrough.tasks.kit.world import Texts
@@ -71,11 +71,3 @@ class NumberQuestion(OnOnePage[NumberParameters]):
     def items(self, p: NumberParameters, name: str) -> dict[str, str]:
         """The number."""
         return {name: f"{p.text} ({p.unit})" if p.unit else p.text}
-
-    def simulate(self, p: NumberParameters, page: Page, person: Respondent) -> Answers:
-        """Any number that may be, if one has to be."""
-        answers = person.by_blocks(page)
-        if p.required:
-            value = person.rng.uniform(p.low, p.high)
-            answers[page.asked[0].name] = str(round(value)) if p.whole else f"{value:.3f}"
-        return answers

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from seethrough.experiment.pages.pages import Answers, Page, TextField
-from seethrough.experiment.questions.kit import Asking, OnOnePage, Respondent, Row, row
+from seethrough.experiment.pages.pages import Answers, TextField
+from seethrough.experiment.questions.kit import Asking, OnOnePage, Row, row
 from seethrough.renderer.declared import check, key
 from seethrough.tasks.kit.world import NO_TEXTS, Texts
 
@@ -44,8 +44,3 @@ class TextQuestion(OnOnePage[TextParameters]):
     def items(self, p: TextParameters, name: str) -> dict[str, str]:
         """What was written."""
         return {name: p.text}
-
-    def simulate(self, p: TextParameters, page: Page, person: Respondent) -> Answers:
-        """Nothing, or where something has to be, that nobody wrote it."""
-        said = {page.asked[0].name: "simulated"} if p.required else {}
-        return person.by_blocks(page) | said

@@ -20,6 +20,7 @@ from seethrough.experiment.errors import InputError, gathered, one_line, shown
 from seethrough.experiment.files import trust
 from seethrough.experiment.files.private import make_folder, write_new
 from seethrough.experiment.study.beside.study_files import LARGEST_TEXT, read_beside, read_regular
+from seethrough.experiment.study.tables.plugins import taken_names
 
 KINDS = ("technique", "world", "task", "question")
 FOLDER = "plugins"  # in a data folder
@@ -52,6 +53,10 @@ def taken(table: Mapping[str, object], path: Path) -> dict[str, object]:
               '[task.mine] file = "mine.py"'] * ("plugins" in table)  # fmt: skip
     for kind, name, file in _named(table):
         where = f"{path}: {kind}.{name}.file = {shown(file)}"
+        if name in taken_names(kind):
+            faults.append(f"{where}: expected another name than {name}, a study says other things "
+                          "by it")  # fmt: skip
+            continue
         try:
             _take(PluginFile(kind, name, file, _read(path, where, file)), path.parent / file, where)
         except InputError as error:
@@ -133,7 +138,8 @@ def provide(own: PluginFile, path: Path, where: str) -> str:
         raise InputError(f"{where}: {error}") from None
     except Exception as error:  # its code may raise anything
         said = one_line(f"{type(error).__name__}: {error}")
-        raise InputError(f"{where}: cannot be loaded ({said})") from None
+        at = registry.place_in(error, {str(path)})
+        raise InputError(f"{where}: cannot be loaded ({said}){at}") from None
 
 
 def _demand_suite(own: PluginFile, path: Path, where: str) -> None:
@@ -154,21 +160,30 @@ def _demand_suite(own: PluginFile, path: Path, where: str) -> None:
     except subprocess.TimeoutExpired:
         raise InputError(
             f"{where}: expected to be through with the suite within {SUITE_LIMIT:.0f} s; "
-            f"`seethrough {own.kind} check {path}` shows where it stands"
+            f"`seethrough {_asked_for(own.kind, path)}` shows where it stands"
         ) from None
     if run.returncode:
         lines = [*run.stdout.splitlines(), *run.stderr.splitlines()]
         found = next((line for line in lines if not line.startswith("ok")), "it ended by itself")
+        unread = found.removeprefix(f"seethrough: {_asked_for(own.kind, path)}: ")
+        if unread != found:
+            raise InputError(f"{where}: {one_line(unread)}")
+        said = one_line(" ".join(found.removeprefix("FAIL").split()))
         raise InputError(
-            f"{where}: expected what its suite demands: {one_line(' '.join(found.split()))} "
-            f"(all of it: `seethrough {own.kind} check {path}`)"
+            f"{where}: expected what its suite demands: {said} "
+            f"(all of it: `seethrough {_asked_for(own.kind, path)}`)"
         )
     trust.add_line(trust.kept_file("passed"), passed)
 
 
+def _asked_for(kind: str, path: Path) -> str:
+    """What a suite is run with, which begins what is said of a file that it cannot read."""
+    return f"{kind} check {path}"
+
+
 def from_path(kind: str, path: Path) -> str:
     """The name of a plug-in in a file, which is known from now on. Raises InputError."""
-    where = f"{kind} check {path}"
+    where = _asked_for(kind, path)
     try:
         content = read_regular(path, LARGEST_TEXT)
     except OSError as error:

@@ -11,7 +11,8 @@ from seethrough.experiment.questions.kit import Asking, Weighs
 from seethrough.experiment.questions.likert.likert_question import LikertParameters
 from seethrough.experiment.study.design.factors import ALONE, Factor
 from seethrough.experiment.study.study import Study
-from seethrough.experiment.study.tables.reading import STARTS, Question
+from seethrough.experiment.study.tables.question_table import STARTS
+from seethrough.experiment.study.tables.reading import Question
 from seethrough.experiment.study.tables.ready import Ready, question
 from seethrough.renderer.declared import Declares
 from seethrough.tasks.catalog import TASKS

@@ -27,6 +27,7 @@ from seethrough.experiment.study.tables.scopes import (
     scope_of,
     sections,
 )
+from seethrough.renderer.meant import one_of
 
 FACTOR_KEYS = {  # key → what it may be, what it means
     "levels": ("a table of levels, levels.NAME = { … }",
@@ -255,13 +256,13 @@ class _Reader:
         value = self.table.get(key, "")
         name = level_name(value) if _kind(value) else ""
         if key in self.table and name not in names:
-            self.wrong(key, value, f"one of {', '.join(names)}")
+            self.wrong(key, value, one_of(name, names))
         return name
 
     def _choice(self, key: str, known: Sequence[str], default: str) -> str:
         value = self.table.get(key, default)
         if key in self.table and value not in known and not (value == "" == default):
-            self.wrong(key, value, f"one of {', '.join(known)}")
+            self.wrong(key, value, one_of(value, known))
             return default
         return str(value)
 

@@ -15,12 +15,11 @@ from typing import Literal, TypeAlias, get_args, get_origin, get_type_hints
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from seethrough import registry
 from seethrough.experiment.errors import shown
 from seethrough.experiment.generated import write_anew
 from seethrough.experiment.study.tables import plugins
 from seethrough.experiment.study.tables.factor_tables import FACTOR_KEYS
-from seethrough.experiment.study.tables.question_table import QuestionTable
+from seethrough.experiment.study.tables.question_table import STARTS, QuestionTable
 from seethrough.experiment.study.tables.study_tables import (
     TABLES,
     MarginsTable,
@@ -43,6 +42,8 @@ ABOUT = {
     "analysis": "What is decided before anybody is invited.",
     "analysis.margins": "Differences that would not matter; a measure without one has none.",
     "analysis.predictions": "What is expected, a table `[[analysis.predictions]]` each.",
+    "technique": "What draws; a factor's levels may each name another one.",
+    "world": "Where tasks are done; a factor's levels may each name another one.",
     "look": "How the picture looks besides what the technique shows: cues of depth and contact. "
     "All are off without being set.",
     "task": "What holds for each task.",
@@ -57,6 +58,9 @@ ABOUT = {
 }
 
 
+BY_HAND = ("factors.NAME", "technique", "world")  # whose keys no class declares
+
+
 # A table of ours, the parameters of a plug-in, or what each key may be and means.
 Declaring: TypeAlias = type[BaseModel] | type[Declares] | Mapping[str, tuple[str, str]]
 
@@ -66,34 +70,50 @@ def tables() -> dict[str, Declaring]:
     """Table of a study file → what declares its keys."""
     found: dict[str, Declaring] = {"study": TABLES["study"], "factors.NAME": FACTOR_KEYS}
     found |= {name: TABLES[name] for name in ("design", "practice")}
-    for kind in ("technique", "world"):
+    for kind, said in (("technique", "what draws"), ("world", "where tasks are done")):
+        found[kind] = {"use": (f"one of {', '.join(plugins.names(kind))}", said)}
         for name in plugins.names(kind):
             cls = plugins.parameters(kind, name)
             found[f"{kind}.{name}"] = cls
             found |= {f"{kind}.{name}.{n}": c for n, c in plugins.inner_tables(cls).items()}
     found["look"] = Look
-    found |= {"task": TaskTable, "task.NAME": TaskTable, **_own("task")}
-    found |= {"questions.NAME": QuestionTable, **_own("question", "questions")}
+    found |= {"task": TaskTable, "task.NAME": TaskTable}
+    tasks = {name: plugins.parameters("task", name) for name in plugins.names("task")}
+    found |= {f"task.{name}": cls for name, cls in tasks.items() if declared(cls)}
+    found["questions.NAME"] = QuestionTable
+    kinds = plugins.names("question")
+    found |= {f"questions.{name}": plugins.parameters("question", name) for name in kinds}
     found |= {name: TABLES[name] for name in ("display", "session", "analysis")}
     return found | {"analysis.margins": MarginsTable, "analysis.predictions": PredictionTable}
-
-
-def _own(kind: str, table: str = "") -> dict[str, Declaring]:
-    """Tables of the tasks or question kinds that have parameters of their own."""
-    classes = {name: registry.get(kind, name).Parameters for name in registry.known(kind)}
-    return {f"{table or kind}.{name}": cls for name, cls in classes.items() if declared(cls)}
 
 
 def about(table: str) -> str:
     """What the reference says above a table's keys."""
     kind, _, name = table.partition(".")
     said = {"technique": "The technique", "world": "The world"}
+    if kind == "questions" and name in plugins.taken_names("question"):
+        return _about_ready(name)
     if kind == "questions" and table not in ABOUT:
-        return f'Further keys of a question with `use = "{name}"`, or of that name.'
+        of = "Further keys of a question" if keys_of(table) else "A question"
+        return f'{of} with `use = "{name}"`, or of that name.'
     if kind == "task" and table not in ABOUT:
         return f"Further keys of the task `{name}`."
     return ABOUT.get(
         table, f'{said.get(kind, "")} `{name}`: parameters of [{kind}] use = "{name}".'
+    )
+
+
+def _about_ready(name: str) -> str:
+    from seethrough.experiment.study.tables.ready import READY  # asks for pages: not for --help
+
+    block = READY[name]
+    asks = " ".join((block.parts.__doc__ or "").split()).rstrip(".")
+    source = "" if block.source == "ours" else f" Source: {block.source}."
+    items = ", ".join(f"`{item}`" for item in block.items(block.Parameters(), name))
+    when = "start" if name in STARTS else "end"
+    return (
+        f"The ready block `{name}`: {asks}.{source} It writes {items}, and is asked at the "
+        f"{when} unless `when` says another time."
     )
 
 
@@ -172,10 +192,12 @@ def reference() -> str:
     """docs/keys.md."""
     parts = [_HEAD]
     for table in tables():
-        if not keys_of(table):
-            continue
         double = table.endswith((".models", ".predictions"))
         head = f"## `[[{table}]]`" if double else f"## `[{table}]`"
+        if not keys_of(table):
+            none = "It has no keys" + " of its own" * table.startswith("questions.")
+            parts.append(f"{head}\n\n{about(table)} {none}.")
+            continue
         columns = ("| key | may be | default | unit | meaning |", "| --- | --- | --- | --- | --- |")
         rows = map(_row, keys_of(table).values())
         parts.append("\n".join([head, "", about(table), "", *columns, *rows]))
@@ -184,7 +206,7 @@ def reference() -> str:
 
 def _row(key: StudyKey) -> str:
     default = "required" if key.default is REQUIRED else _default(key.default)
-    default = "none" if default == '`""`' and key.table == "factors.NAME" else default
+    default = "none" if default == '`""`' and key.table in BY_HAND else default
     return f"| `{key.name}` | {key.allowed} | {default} | {key.unit} | {key.meaning} |"
 
 
@@ -207,7 +229,14 @@ declaration, not this page. A study file is TOML, in UTF-8; `seethrough check FI
 reads it and names every fault. What is not set has its default, which is that of the published
 study."""
 
-_TAIL = """## `[texts]`
+_TAIL = """## Code of your own
+
+A technique, world, task or kind of question that is in none of these tables is brought along:
+`[technique.NAME]`, `[world.NAME]`, `[task.NAME]` or `[question.NAME]` with its `file`, a Python
+file beside the study, as `[task.nearer]` with `file = "nearer.py"`. Its own keys stand beside
+`file`, those of a question in `[questions]`.
+
+## `[texts]`
 
 Any text that participants read, by its name in `experiment/pages/languages/en.toml` or in the
 `texts/en.toml` of a task or world, table and key with a dot between: `"welcome.text" = "Hello."`

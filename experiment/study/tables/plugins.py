@@ -8,7 +8,9 @@ from typing import get_args, get_origin, get_type_hints
 
 from seethrough import registry
 from seethrough.experiment.study.tables.parameter_tables import Fault
+from seethrough.experiment.study.tables.study_tables import TaskTable
 from seethrough.renderer.declared import Declares
+from seethrough.renderer.meant import meant
 from seethrough.tasks import catalog
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
@@ -20,6 +22,15 @@ def names(kind: str) -> tuple[str, ...]:
 
         return (*READY, *registry.known(kind))
     return registry.known(kind)
+
+
+def taken_names(kind: str) -> tuple[str, ...]:
+    """What no plug-in of a kind can be called: where a study names it, these are keys already."""
+    if kind == "question":
+        from seethrough.experiment.study.tables.ready import READY  # asks for pages: not for --help
+
+        return tuple(READY)
+    return tuple(TaskTable.model_fields) if kind == "task" else ("use",)
 
 
 def parameters(kind: str, name: str) -> type[Declares]:
@@ -69,7 +80,7 @@ def further_faults(place: object) -> list[Fault]:
     wrong = [t for t in types if t not in known or types.count(t) > 1]
     if wrong or (types and len(types) < 3 and place.objects > 1):
         expected = f"three or more of {', '.join(sorted(known))}, each once"
-        found.append(Fault("types", wrong or types, expected))
+        found.append(Fault("types", wrong or types, expected + meant(wrong, known)))
     return found
 
 

@@ -14,6 +14,7 @@ from seethrough.experiment.study.tables.question_items import (
 )
 from seethrough.experiment.study.tables.question_table import MOMENTS
 from seethrough.experiment.study.tables.reading import Question
+from seethrough.renderer.meant import one_of
 
 Questions = Mapping[str, Question]
 
@@ -40,12 +41,12 @@ def _unfit(factors: Sequence[Factor], questions: Questions) -> Iterator[Fault]:
         table, where = question.table, f"questions.{name}"
         said = {"each": table.each or (), "only": table.only, "of": (table.of,) * bool(table.of)}
         for key, own in said.items():
-            yield from (Fault(f"{where}.{key}", n, known=names) for n in own if n not in names)
+            yield from (Fault(f"{where}.{key}", n, one_of(n, names)) for n in own if n not in names)
         for own, levels in table.only.items():
             factor = next((f for f in factors if f.name == own), None)
             for level in (levels,) if isinstance(levels, str) else levels:
                 if factor is not None and level not in factor.names:
-                    yield Fault(f"{where}.only.{own}", level, known=factor.names)
+                    yield Fault(f"{where}.only.{own}", level, one_of(level, factor.names))
         yield from _asked_for_each(factors, where, question)
         yield from _given(factors, name, questions)
 

@@ -31,6 +31,9 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
+STARTS = ("consent", "demographics", "color_check")  # asked at the start unless a study says not
+
+
 class QuestionTable(Table):
     """[questions]: a named table each, asked in this order; the name is the kind or block to use,
     unless `use` says another. A kind's own keys stand beside these."""

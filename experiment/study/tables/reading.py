@@ -13,10 +13,11 @@ from pydantic import ValidationError
 
 from seethrough.experiment.study.tables import plugins
 from seethrough.experiment.study.tables.parameter_tables import MISSING, Fault, Faults, built
-from seethrough.experiment.study.tables.question_table import QuestionTable
+from seethrough.experiment.study.tables.question_table import STARTS, QuestionTable
 from seethrough.experiment.study.tables.study_errors import faults_of
 from seethrough.experiment.study.tables.study_tables import TABLES, Table, TaskTable
 from seethrough.renderer.declared import Declares
+from seethrough.renderer.meant import one_of
 from seethrough.renderer.scene.look import Look
 
 
@@ -70,7 +71,6 @@ class Question:
 
 
 Read = tuple[Any, list[Fault]]  # what a table makes depends on its section
-STARTS = ("consent", "demographics", "color_check")  # asked at the start unless a study says not
 
 
 def read(section: str, table: object, whole: bool) -> Read:
@@ -118,11 +118,10 @@ def _chosen(section: str, table: Mapping[str, object], whole: bool) -> Read:
             tables[name], found = parameters(section, name, own)
             faults += found
     use = table.get("use", "")
-    expected = f"one of {', '.join(known)}"
     if use not in known and (use or "use" in table):
-        faults.append(Fault(f"{section}.use", use, expected))
+        faults.append(Fault(f"{section}.use", use, one_of(use, known)))
     elif not use and whole:
-        faults.append(Fault(f"{section}.use", MISSING, expected))
+        faults.append(Fault(f"{section}.use", MISSING, one_of("", known)))
     if faults:
         return None, faults
     use = str(use)
@@ -146,6 +145,7 @@ def _limits(table: Mapping[str, object]) -> Read:
     known = plugins.names("task")
     plain = {k: v for k, v in table.items() if k not in known}
     value, faults = model("task", TaskTable, plain)
+    faults = [f._replace(known=(*f.known, *known)) if f.known else f for f in faults]
     said: dict[str, Mapping[str, object]] = {}
     tables: dict[str, Declares] = {}
     for name in (k for k in table if k in known):
@@ -179,8 +179,9 @@ def _questions(table: Mapping[str, object]) -> Read:
         said = own.get("use")
         use = said if isinstance(said, str) and said else name
         if use not in plugins.names("question"):
-            key = f"{where}.use" if said else where
-            faults.append(Fault(key, use, known=plugins.names("question")))
+            known = plugins.names("question")
+            faults.append(Fault(f"{where}.use", use, one_of(use, known)) if said
+                          else Fault(where, use, known=known))  # fmt: skip
             continue
         kinds, wrong = parameters(
             "question", use, {k: v for k, v in own.items() if k not in common}

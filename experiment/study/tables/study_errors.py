@@ -11,6 +11,7 @@ from pydantic_core import ErrorDetails
 from seethrough.experiment.errors import MOST, InputError, gathered, short, shown, unknown
 from seethrough.experiment.study.tables.keys import keys_of, tables
 from seethrough.experiment.study.tables.parameter_tables import MISSING, Fault
+from seethrough.renderer.meant import meant
 
 
 def study_error(faults: Sequence[Fault], file: str) -> InputError:
@@ -78,8 +79,10 @@ def _expected(error: ErrorDetails, allowed: str, item: bool) -> str:
     """A validator's own words, an item's choices, or what is declared of the key."""
     if error["type"] == "value_error":
         return error["msg"].removeprefix("Value error, ")
-    if item and error["type"] == "literal_error":
-        return str(error["ctx"]["expected"]).replace("'", '"')
+    if error["type"] == "literal_error":
+        choices = str(error["ctx"]["expected"])
+        near = meant(error["input"], choices.split("'")[1::2])
+        return (choices.replace("'", '"') if item else allowed) + near
     if item:
         return "text"
     sizes = {"too_short": "at least", "too_long": "at most"}

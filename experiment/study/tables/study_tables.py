@@ -18,6 +18,7 @@ from seethrough.experiment.errors import shown
 from seethrough.experiment.files.folders import PARTICIPANT
 from seethrough.experiment.pages.texts import languages
 from seethrough.experiment.study.tables.scopes import BLOCK, FIXED, SESSION
+from seethrough.renderer.meant import meant
 
 # What `analysis` knows by these names; a contract test holds both to each other.
 AnalysisTest = Literal["time", "accuracy", "ratings", "tradeoff", "validity", "mixed"]
@@ -39,15 +40,20 @@ def key(
     return made
 
 
+def is_plain(name: str) -> bool:
+    """Whether a study may be called so: its name is part of the names of files."""
+    return name.isascii() and name.isalnum() and len(name) <= 32
+
+
 def _plain(value: str) -> str:
-    if not (value.isascii() and value.isalnum() and len(value) <= 32):
+    if not is_plain(value):
         raise ValueError(NAME)
     return value
 
 
 def _language(value: str) -> str:
     if value not in languages() and not value.endswith(".toml"):
-        raise ValueError(LANGUAGE)
+        raise ValueError(LANGUAGE + meant(value, languages()))
     return value
 
 
@@ -63,13 +69,15 @@ def _ledger(value: str) -> str:
 def _exclusion(value: str) -> str:
     kind, _, name = value.partition(":")
     if value not in EXCLUSIONS and not (kind == "participant" and PARTICIPANT.fullmatch(name)):
-        raise ValueError(f"one of {', '.join(EXCLUSIONS)} or participant:ID")
+        expected = f"one of {', '.join(EXCLUSIONS)} or participant:ID"
+        raise ValueError(expected + meant(value, EXCLUSIONS))
     return value
 
 
 def _task(value: str) -> str:
     if value not in registry.known("task"):
-        raise ValueError(f"one of {', '.join(map(shown, registry.known('task')))}")
+        known = registry.known("task")
+        raise ValueError(f"one of {', '.join(map(shown, known))}{meant(value, known)}")
     return value
 
 

@@ -11,6 +11,8 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from math import pi
 
+from seethrough.renderer.meant import one_of
+
 
 @dataclass(frozen=True)
 class Profile:
@@ -158,5 +160,5 @@ PROFILES: Mapping[str, Profile] = {
 def profile(name: str) -> Profile:
     """The profile of that name. Raises ValueError that lists the names there are."""
     if name not in PROFILES:
-        raise ValueError(f"profile = {name}: expected one of {', '.join(PROFILES)}")
+        raise ValueError(f"profile = {name}: expected {one_of(name, PROFILES)}")
     return PROFILES[name]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 
+from seethrough.renderer.meant import meant, one_of
 from seethrough.tasks.kit.tags import fits
 from seethrough.tasks.kit.world import FileFault, FileFaults
 from seethrough.tasks.worlds.scene.kept_scene import packed
@@ -67,15 +67,16 @@ def _of_file(p: SceneParameters, number: int, error: Exception) -> FileFault:
 
 
 def _another(p: SceneParameters, said: Sequence[str], hashes: Sequence[str]) -> Iterator[FileFault]:
-    """Files that are not those that the study says, or one file by two names."""
+    """Files that are not those that the study says, or one file, or a copy of it, by two names."""
     for number, (expected, own) in enumerate(zip(said, hashes, strict=False)):
         if expected != own:
             yield FileFault(f"sha256[{number}]", expected, f"expected {own}, which the file has")
     paths = [path_of(p, file).resolve() for file in p.files]
-    for number, path in enumerate(paths):
-        if path in paths[:number]:
-            first = p.files[paths.index(path)]
-            yield FileFault(f"files[{number}]", p.files[number], f"expected another file: {first}")
+    for number, (path, digest) in enumerate(zip(paths, hashes, strict=True)):
+        first = next(i for i in range(number + 1) if paths[i] == path or hashes[i] == digest)
+        if first < number:
+            said = f"expected a file that differs from {p.files[first]}"
+            yield FileFault(f"files[{number}]", p.files[number], said)
 
 
 def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileFault]:
@@ -96,7 +97,7 @@ def _checked(p: SceneParameters, places: Sequence[ScenePlace]) -> Iterator[FileF
             )
         own = by_file.get(item.file) if item.file or len(places) > 1 else places[0]
         if own is None:
-            said = f"expected one of {', '.join(p.files)[:100]}"
+            said = f"expected {one_of(item.file, p.files)}"
             yield FileFault(f"items[{number}].file", item.file, said)
             continue
         if item.ask not in own.names:
@@ -114,10 +115,9 @@ def _no_camera(key: str, value: str, place: ScenePlace) -> FileFault:
 
 
 def _expected(what: str, name: str, known: Sequence[str]) -> str:
-    near = get_close_matches(name[:100], known, 1, 0.6)
-    meant = f", did you mean {near[0]}?" if near else ""
     more = f" … and {len(known) - SHOWN} more" if len(known) > SHOWN else ""
-    return f"expected {what}{meant or ';'} there are: {', '.join(known[:SHOWN]) or 'none'}{more}"
+    there = ", ".join(known[:SHOWN]) or "none"
+    return f"expected {what}{meant(name, known) or ';'} there are: {there}{more}"
 
 
 def keeps(p: SceneParameters) -> dict[str, Callable[[], bytes]]:

@@ -157,7 +157,7 @@ def _moved(thing: Object, by: NDArray[np.float64]) -> Object:
 def _middle(
     p: SceneParameters, found: SceneFile, scene: Scene, whole: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """(3,) what an orbit is about. Raises ValueError where there is nothing of that name."""
+    """(3,) what an orbit is about. Raises ValueError where not one thing has that name."""
     if not p.about:
         corners = scene.corners.reshape(-1, 3)
         middle: NDArray[np.float64] = (corners.min(axis=0) + corners.max(axis=0)) / 2
@@ -168,6 +168,8 @@ def _middle(
     names = [thing.name for thing in found.things]
     if p.about not in names:
         raise ValueError(f"about = {p.about[:40]!r}: nothing in it has that name")
+    if names.count(p.about) > 1:
+        raise ValueError(f"about = {p.about[:40]!r}: {names.count(p.about)} things have that name")
     center: NDArray[np.float64] = scene.centers[names.index(p.about)]
     return center
 

@@ -12,7 +12,7 @@ import pytest
 from made_designs import DESIGNS, make_design
 
 from seethrough.analysis.report import Options, make_report, tables_of
-from seethrough.analysis.stats.reliability import HEYWOOD, reliability
+from seethrough.analysis.stats.reliability import HEYWOOD, SUM, TOO_FEW, reliability
 from seethrough.analysis.stats.undefined import Undefined
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.shown.described import design_entry
@@ -54,8 +54,22 @@ def test_it_says_why_there_is_none(items: np.ndarray, why: str) -> None:
 
 
 def test_an_item_without_a_variance_of_its_own_has_no_omega() -> None:
-    x = np.column_stack([ANSWERS[:, 0], ANSWERS[:, 0] + 0.001 * ANSWERS[:, 1], ANSWERS[:, 1]])
+    own = np.random.default_rng(1).normal(size=len(ANSWERS))
+    x = np.column_stack([ANSWERS[:, 0], ANSWERS[:, 0] + 0.001 * own, ANSWERS[:, 1]])
     assert reliability(x).omega == Undefined(HEYWOOD)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("factor", [1.0, 0.1 / 3, -1.0, 1e6])
+@pytest.mark.parametrize("people", [4, 8, len(ANSWERS)])
+def test_items_that_follow_from_others_have_no_omega_and_no_warning(people, factor) -> None:
+    """Whatever rounding makes of a matrix that cannot be inverted: the likelihood has no bound."""
+    x = np.column_stack([ANSWERS, factor * ANSWERS[:, 0], ANSWERS[:, :2].sum(axis=1)])[:people]
+    found = reliability(x)
+    why = TOO_FEW if people <= x.shape[1] else SUM
+    assert found.omega == Undefined(why) and isinstance(found.alpha, float)
+    alike = reliability(np.repeat(ANSWERS[:people, :1], 5, axis=1))
+    assert alike.alpha == pytest.approx(1.0) and not isinstance(alike.omega, float)
 
 
 def test_the_sidecar_says_which_items_a_sum_is_made_of() -> None:

@@ -243,6 +243,21 @@ def test_a_file_that_is_not_toml_or_not_there_is_one_line(tmp_path):
         load("nothing.toml")
 
 
+def test_a_folder_is_named_as_one_with_the_studies_in_it(tmp_path):
+    (tmp_path / "mine.toml").write_bytes(find("demo").read_bytes())
+    (tmp_path / "broken.toml").write_text("a = [1,\n2", encoding="utf-8")
+    (tmp_path / "fr.toml").write_text("[study]\ntitle = 'Texte'\n", encoding="utf-8")
+    (tmp_path / "demo").mkdir()
+    assert find("demo").is_file()  # a study that ships, whatever folders there are
+    with pytest.raises(InputError) as error:
+        load(str(tmp_path))
+    assert str(error.value).endswith(
+        ": a folder, expected a study's file; in it there are: broken.toml, mine.toml"
+    )
+    with pytest.raises(InputError, match=r"in it there are: none$"):
+        load(str(tmp_path / "demo"))
+
+
 def test_the_digest_tells_studies_apart_and_ignores_the_order_of_keys():
     one = parse(PUBLISHED, "x")
     reordered = dict(reversed(list(copy.deepcopy(PUBLISHED).items())))

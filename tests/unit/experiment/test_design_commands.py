@@ -131,13 +131,17 @@ def test_an_old_file_is_rewritten_beside_itself(tmp_path, capsys):
 
 
 def test_a_new_study_is_one_that_can_be_checked(tmp_path, capsys):
-    assert cli.main(["new", "study", "my_views", str(tmp_path), "--yes"]) == 0
-    study = load(str(tmp_path / "my_views.toml"))
+    assert cli.main(["new", "study", "myViews2", str(tmp_path), "--yes"]) == 0
+    study = load(str(tmp_path / "myViews2.toml"))
+    assert study.study.name == "myViews2"  # as it was typed
     assert study.factor("view").names == ("standard", "dynamic")
     workflow = (tmp_path / ".github" / "workflows" / "study.yml").read_text("utf-8")
-    assert "seethrough check my_views.toml --balance" in workflow
-    assert cli.main(["new", "study", "my_views", str(tmp_path), "--yes"]) == 2
+    assert "seethrough check myViews2.toml --balance" in workflow
+    assert cli.main(["new", "study", "myViews2", str(tmp_path), "--yes"]) == 2
     assert "exists already" in capsys.readouterr().err
+    assert cli.main(["new", "study", "my_views", str(tmp_path / "no"), "--yes"]) == 2
+    said = "new study: NAME = my_views: expected 1 to 32 letters and digits (A–Z, a–z, 0–9)\n"
+    assert capsys.readouterr().err.endswith(said) and not (tmp_path / "no").exists()
 
 
 @pytest.mark.parametrize("task", registry.known("task"))

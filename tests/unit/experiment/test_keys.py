@@ -9,8 +9,10 @@ import pytest
 from seethrough.experiment.cli import main
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.study.config import find, parse
+from seethrough.experiment.study.tables import plugins
 from seethrough.experiment.study.tables.keys import REFERENCE, REQUIRED, keys_of, reference, tables
 from seethrough.experiment.study.tables.merge import nested
+from seethrough.experiment.study.tables.ready import READY
 from seethrough.experiment.study.tables.scopes import sections
 from seethrough.experiment.study.tables.study_tables import TABLES
 from seethrough.renderer.declared import Of, declared
@@ -46,6 +48,19 @@ def test_every_table_and_key_of_a_study_is_there():
     page = reference()
     for name in ("language", "fullscreen", "mask", "tolerance", "redraw", "stale_after", "layers"):
         assert f"| `{name}` | " in page
+
+
+def test_every_question_and_technique_has_its_section():
+    """Those without keys of their own as well: nobody has to guess what there is."""
+    page = reference()
+    for kind, table in (("question", "questions"), ("technique", "technique"), ("world", "world")):
+        for name in plugins.names(kind):
+            (part,) = re.findall(rf"(?ms)^## `\[{table}\.{name}\]`$(.*?)(?=^## )", page)
+            assert ("| key |" in part) != ("It has no keys" in part)
+    for name, block in READY.items():
+        (part,) = re.findall(rf"(?ms)^## `\[questions\.{name}\]`$(.*?)(?=^## )", page)
+        assert all(f"`{item}`" in part for item in block.items(block.Parameters(), name))
+        assert ("asked at the start" in part) == (name in ("consent", "demographics"))
 
 
 def test_every_key_says_what_it_means_and_may_be():

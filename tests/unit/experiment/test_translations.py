@@ -15,6 +15,7 @@ from seethrough.experiment.session import questionnaire
 from seethrough.experiment.session.moments import moments_of
 from seethrough.experiment.study.config import find, load, parse
 from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.translated_from import sources
 from seethrough.experiment.study.translations import (
     demand_texts,
     needed,
@@ -169,11 +170,62 @@ def test_what_is_to_be_translated_is_written_and_nothing_is_lost(beside, tmp_pat
     assert made == before
     assert '# "Welcome"' in out.read_text("utf-8")
     for words, message in (
-        (["--language", "fr"], "exists already"), (["--language", "f/r"], "expected letters"),
+        (["--language", "fr"], "exists already"), (["--language", "f/r"], "expected a language"),
+        (["--language", "xx9"], "--language = xx9: expected a language tag, as fr, pt-BR"),
+        (["--language", "f"], "expected a language tag"), (["--language", "fr-"], "expected a l"),
     ):  # fmt: skip
         assert cli.main(["texts", path, *words]) == 2
         said = capsys.readouterr().err
         assert message in said and said.count("\n") == 1
+
+
+def test_a_text_that_was_changed_after_it_was_translated_is_noticed(beside, tmp_path, capsys):
+    """By check, and by who asks for the texts again: the old translation stands beside it."""
+    path = beside()
+    assert cli.main(["check", path, "--config-only"]) == 0
+    assert "translated from" not in capsys.readouterr().out
+    study = tmp_path / "french.toml"
+    old = "I missed some things."
+    study.write_text(study.read_text("utf-8").replace(old, "I found all things."), "utf-8")
+    assert cli.main(["check", path, "--config-only"]) == 0
+    (line,) = (x for x in capsys.readouterr().out.splitlines() if x.startswith("texts"))
+    assert line.endswith(
+        'fr.toml: study.questions.view.items_4: translated from "I missed some things.", which is '
+        '"I found all things." now: WARNING, expected a translation of that, with it in the '
+        "comment above"
+    )
+    out = tmp_path / "new.toml"
+    assert cli.main(["texts", path, "--language", "fr", "--out", str(out)]) == 0
+    assert "1 to be filled in, 1 of them again: the study has other" in capsys.readouterr().out
+    text = out.read_text("utf-8")
+    assert (
+        '# before: "J’ai manqué certaines choses.", of "I missed some things."\n'
+        '# "I found all things."\nitems_4 = ""\n'
+    ) in text
+    filled = text.replace('items_4 = ""', 'items_4 = "J’ai tout trouvé."')
+    (tmp_path / "fr.toml").write_text(filled, "utf-8")
+    assert cli.main(["check", path, "--config-only"]) == 0
+    assert "translated from" not in capsys.readouterr().out
+
+
+def test_what_a_text_was_translated_from_stands_right_above_it():
+    """However a file is written by hand; where nothing is said, nothing is known."""
+    text = (
+        'a.b = "x"\n# "c"\nd.e = "y"\n# "q"\n"f.g" = """\nz"""\n[h]\n# "i"\n\nj = "k"\n# no\n'
+        'l = "m"\n# "first"\n# "second"\nn = "o"\n[p.q]\n# "r"\ns = "t" # "x"\n[p]\n# "u\\n"\n'
+        'v = "w"\n# 3\nw = "x"\n'
+    )
+    expected = {"d.e": "c", "f.g": "q", "h.n": "second", "p.q.s": "r", "p.v": "u\n"}
+    assert sources(text) == expected
+    plain = "\n".join(line for line in text.splitlines() if not line.startswith("#"))
+    assert sources(plain) == {} and sources("") == {}
+
+
+@pytest.mark.parametrize("tag", ["pt-BR", "zh-Hant-TW", "es-419", "sl-rozaj", "de-1996", "haw"])
+def test_languages_are_called_by_their_tags(tmp_path, tag):
+    shutil.copy(find("demo"), tmp_path / "demo.toml")
+    assert cli.main(["texts", str(tmp_path / "demo.toml"), "--language", tag]) == 0
+    assert (tmp_path / f"{tag}.toml").is_file()
 
 
 def test_a_new_template_names_every_text_with_nothing_in_it(tmp_path):

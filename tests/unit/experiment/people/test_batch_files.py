@@ -189,7 +189,7 @@ def test_folders_of_others_are_refused_in_a_line(tmp_path):
         assert "\n" not in str(error.value)
     (tmp_path / "b").mkdir()
     (tmp_path / "b" / "dataset_description.json").write_text('{"name": "other"}')
-    with pytest.raises(InputError, match=r"holds study other: expected demo"):
+    with pytest.raises(InputError, match=r"name = 'other': expected 'demo'; choose another"):
         fill(tmp_path / "b", 1)
     (tmp_path / "c" / "data" / "simulated" / "S01").mkdir(parents=True)
     with pytest.raises(InputError, match=r"holds S01 of visual mode: data mode expects a folder"):
