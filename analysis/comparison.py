@@ -14,7 +14,7 @@ from seethrough.analysis.equivalence import Margin
 from seethrough.analysis.page.blocks import Cited, Column, Table
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.arrays import Array
-from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.paired import paired, ratio_of_means, within_halfwidths
 from seethrough.analysis.stats.ties import is_constant
 from seethrough.analysis.stats.undefined import (
@@ -193,7 +193,7 @@ def compare(measures: Sequence[Pair]) -> Table:
             **equivalence.equivalence(m.first, m.second, m.margin),
         }
         rows.append(row)
-    add_holm(rows, measures)
+    add_holm(rows, [m.family for m in measures])
     return Table(
         "tests", "Levels against their baseline", headed(COLUMNS, measures), tuple(rows), SHOWN
     )
@@ -224,7 +224,7 @@ def compare_logs(measures: Sequence[Pair]) -> Table:
                 **equivalence.log_equivalence(first, second, m.margin),
             }
         )
-    add_holm(rows, [m for m in measures if m.logs is not None])
+    add_holm(rows, [m.family for m in measures if m.logs is not None])
     return Table(
         "tests_log",
         "On the log scale",
@@ -238,20 +238,6 @@ def compare_logs(measures: Sequence[Pair]) -> Table:
 
 def _exp(value: Number) -> Number:
     return float(np.exp(-value)) if is_defined(value) else value
-
-
-def add_holm(
-    rows: Sequence[dict[str, object]], measures: Sequence[Pair], column: str = "p"
-) -> None:
-    """Holm's p of `column` within each family; empty for a measure of no family."""
-    by_key = {m.key: m.family for m in measures}
-    for row in rows:
-        row["p_holm"] = row[column] if by_key[str(row["measure"])] else None
-    for family in {f for f in by_key.values() if f}:
-        own = [r for r in rows if by_key[str(r["measure"])] == family]
-        inside = [r for r in own if is_defined(r[column])]
-        for row, p in zip(inside, holm([number_in(r, column) for r in inside]), strict=True):
-            row["p_holm"] = p
 
 
 def headed(columns: Sequence[Column], pairs: Sequence[Pair]) -> tuple[Column, ...]:

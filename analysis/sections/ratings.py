@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.comparison import Pair, add_holm, pair_of
+from seethrough.analysis.comparison import Pair, pair_of
 from seethrough.analysis.design import Item
 from seethrough.analysis.figures.comparison import ratings_figure
 from seethrough.analysis.measures import ratings
@@ -29,6 +29,7 @@ from seethrough.analysis.sections.tests.ordinal import (
     friedman_sentence,
     friedman_table,
 )
+from seethrough.analysis.stats.multiplicity import add_holm
 
 
 def ratings_section(context: Context) -> Section | None:
@@ -77,7 +78,7 @@ def _ratings(context: Context, cells: Cells, group: Alike, number: int) -> list[
             for i, m in enumerate([*means, *found])]  # fmt: skip
     if not rows:
         return []
-    add_holm(rows, [*means, *found], "p_exact")
+    add_holm(rows, [m.family for m in (*means, *found)], "p_exact")
     scale = _points(items)
     title = f"{name[:1].upper()}{name[1:]}{f' ({scale})' if scale else ''}: Friedman tests"
     tests = friedman_table(f"friedman_{name}", title, rows, [*means, *found])

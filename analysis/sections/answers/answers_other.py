@@ -9,7 +9,8 @@ from seethrough.analysis.page.blocks import Cited, Table, say
 from seethrough.analysis.page.numbers import p_value
 from seethrough.analysis.sections.answers.answers import Answer, depends, on_average, rows_of
 from seethrough.analysis.sections.base.context import Context
-from seethrough.analysis.stats.distributions import holm, t_upper
+from seethrough.analysis.stats.distributions import t_upper
+from seethrough.analysis.stats.multiplicity import holm
 from seethrough.analysis.stats.undefined import Number, either_in, is_defined, number_in
 
 
@@ -71,7 +72,7 @@ def compared(
         said = say(f"{start}not answered: a test of it is undefined.", kind="answer")
         return Answer(prediction, said, "not answered", None, len(tests))
     several = prediction.combine == "any"
-    used = holm(known) if several else known
+    used = holm(known).tolist() if several else known
     shown = [p < alpha for p in used]
     fitting = [fit for *_, fit in tests]
     reached = [s and f for s, f in zip(shown, fitting, strict=True)]

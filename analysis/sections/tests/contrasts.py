@@ -19,7 +19,7 @@ from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import design_at
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.contrasts import FEW, Estimate, estimate, trend, within_margin
-from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.undefined import Number, Undefined, is_defined, number_in
 
 COLUMNS = (
@@ -107,7 +107,7 @@ def contrast_blocks(
                 families.append(f"{asked.family}{' overall' if where == 'overall' else ''}")
     if not rows:
         return [], {}
-    _correct(rows, families)
+    add_holm(rows, families)
     shown = ["label", "kind", "n", "estimate", "t", "df", "p", "p_holm"]
     shown += ["ratio"] if log else []
     shown += ["tost_p"] if any(isinstance(r["tost_p"], float) for r in rows) else []
@@ -339,17 +339,6 @@ def _margin(found: Estimate, measure: Measured, kind: str) -> Row:
     above, below, both = within_margin(found, margin)
     worse = below if measure.direction == "more" else above
     return {"tost_margin": measure.margin, "tost_p": both, "noninferior_p": worse}
-
-
-def _correct(rows: Sequence[Row], families: Sequence[str]) -> None:
-    """Holm's p within each family."""
-    for row in rows:
-        row["p_holm"] = row["p"]
-    for family in dict.fromkeys(families):
-        inside = [r for r, f in zip(rows, families, strict=True) if f == family]
-        known = [r for r in inside if is_defined(r["p"])]
-        for row, p in zip(known, holm([number_in(r, "p") for r in known]), strict=True):
-            row["p_holm"] = p
 
 
 def _sentences(context: Context, table: Table, measure: Measured, log: bool) -> list[Prose]:

@@ -25,11 +25,11 @@ from seethrough.analysis.sections.tests.contrasts import (
     row_of,
 )
 from seethrough.analysis.stats.arrays import Array
-from seethrough.analysis.stats.distributions import holm
 from seethrough.analysis.stats.groups import kruskal_wallis
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.ranks import signed_rank
 from seethrough.analysis.stats.ties import slack
-from seethrough.analysis.stats.undefined import is_defined, number_in
+from seethrough.analysis.stats.undefined import is_defined
 
 KIND = "pair"
 NOTE = (
@@ -83,7 +83,7 @@ def pairwise_blocks(context: Context, measure: Measured, cells: Cells, log: bool
                 families.append(f"{where} {factor.name}")
     if not rows:
         return []
-    _correct(rows, families)
+    add_holm(rows, families)
     shown = ("label", "n", "estimate", "t", "df", "p", "p_holm", *(["ratio"] if log else []))
     gone = ("kind", "tost_margin", "tost_p", "noninferior_p")
     columns = tuple(c for c in COLUMNS if c.name not in gone)
@@ -104,15 +104,6 @@ def _scores(
     first, second = cells.both(factor.name, c.baseline, c.level)
     scale = float(np.nanmax(np.abs([first, second]), initial=0.0))
     return first - second, equal_weights(design), scale
-
-
-def _correct(rows: list[Row], families: list[str]) -> None:
-    for row in rows:
-        row["p_holm"] = row["p"]
-    for family in dict.fromkeys(families):
-        own = [r for r, f in zip(rows, families, strict=True) if f == family and is_defined(r["p"])]
-        for row, p in zip(own, holm([number_in(r, "p") for r in own]), strict=True):
-            row["p_holm"] = p
 
 
 def _note(context: Context) -> str:
@@ -146,7 +137,7 @@ def ranked_pairwise(context: Context, measure: Measured, cells: Cells) -> list[B
                 families.append(f"{where} {factor.name}")
     if not rows:
         return []
-    _correct(rows, families)
+    add_holm(rows, families)
     title = f"{measure.said[:1].upper()}{measure.said[1:]}: all pairs, by ranks"
     table = Table(f"pairwise_{measure.name}", title, RANKED, tuple(rows),
                   tuple("label n statistic p p_holm method".split()), _note(context))  # fmt: skip

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.comparison import Pair, add_holm
+from seethrough.analysis.comparison import Pair
 from seethrough.analysis.design import Factor, Measured
 from seethrough.analysis.measures import TASK, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
@@ -23,6 +23,7 @@ from seethrough.analysis.sections.tests.ordinal import (
 )
 from seethrough.analysis.sections.tests.pairwise import ranked_pairwise
 from seethrough.analysis.stats.groups import kruskal_wallis
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.undefined import is_defined
 
 GROUPS = (
@@ -56,7 +57,7 @@ def ranked_blocks(context: Context, measure: Measured) -> tuple[list[Block], Tab
     tests = None
     if pairs:
         rows = [friedman_row(m, context, 10 + i) for i, m in enumerate(pairs)]
-        add_holm(rows, pairs, "p_exact")
+        add_holm(rows, [m.family for m in pairs], "p_exact")
         tests = friedman_table(f"friedman_{measure.name}", f"{what}: Friedman tests", rows, pairs,
                                binary)  # fmt: skip
         said = [friedman_sentence(tests, m, f"{what}, {m.label}", context) for m in pairs]

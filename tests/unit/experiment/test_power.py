@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from scipy import stats
 
 from seethrough.analysis.stats.contrasts import estimate
-from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.stats.multiplicity import holm
 from seethrough.analysis.stats.paired import paired, ratio_within, tost
 from seethrough.analysis.stats.ranks import friedman
 from seethrough.experiment import cli
