@@ -127,9 +127,12 @@ def _estimate(
 
 
 def _signs(test: Test, groups: Sequence[Array]) -> Results:
-    """Friedman's exact test of two levels: the sign test; groups are taken together."""
+    """Friedman's exact test of two levels: the sign test; groups are taken together.
+
+    Scores of tied levels are 0 (power_data.py).
+    """
     scores = np.concatenate([g[:, :, test.column] for g in groups], axis=1)
-    wins, losses = (scores > 1e-12).sum(axis=1), (scores < -1e-12).sum(axis=1)
+    wins, losses = (scores > 0).sum(axis=1), (scores < 0).sum(axis=1)
     p = _sign_table(scores.shape[1])[wins, losses]
     way = np.sign(wins - losses)
     known = np.isfinite(scores).sum(axis=1)
