@@ -12,6 +12,7 @@ from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast
 from seethrough.analysis.equivalence import Margin
 from seethrough.analysis.page.blocks import Cited, Column, Table
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.multiplicity import add_holm
@@ -217,8 +218,8 @@ def compare_logs(measures: Sequence[Pair]) -> Table:
                 "geometric_baseline": float(np.exp(first.mean())),
                 "geometric_level": float(np.exp(second.mean())),
                 "ratio": float(np.exp(-number_in(pair, "difference"))),
-                "ratio_low": _exp(either_in(pair, "difference_high")),
-                "ratio_high": _exp(either_in(pair, "difference_low")),
+                "ratio_low": equivalence.ratio_of(either_in(pair, "difference_high")),
+                "ratio_high": equivalence.ratio_of(either_in(pair, "difference_low")),
                 **_f_columns(first, second),
                 **pair,
                 **equivalence.log_equivalence(first, second, m.margin),
@@ -234,10 +235,6 @@ def compare_logs(measures: Sequence[Pair]) -> Table:
         "Ratio: level / baseline, of geometric means: each participant's mean of the logarithms "
         "of their trials, averaged over participants.",
     )
-
-
-def _exp(value: Number) -> Number:
-    return float(np.exp(-value)) if is_defined(value) else value
 
 
 def headed(columns: Sequence[Column], pairs: Sequence[Pair]) -> tuple[Column, ...]:
@@ -342,7 +339,7 @@ def corrected(table: Table, key: str) -> list[str | Cited]:
     if table.row(key).get("p_holm") is None or not is_defined(table.row(key)["p_holm"]):
         return []
     p = table.cite(key, "p_holm")
-    return [", Holm-corrected p " if p.text.startswith(("<", ">")) else ", Holm-corrected p = ", p]
+    return [f", Holm-corrected p {equals(p.text)}", p]
 
 
 def apa_f(table: Table, key: str) -> list[str | Cited]:
@@ -358,7 +355,7 @@ def apa_f(table: Table, key: str) -> list[str | Cited]:
         table.cite(key, "df2"),
         ") = ",
         table.cite(key, "F"),
-        ", p " if p.text.startswith(("<", ">")) else ", p = ",
+        f", p {equals(p.text)}",
         p,
         ", η²p = ",
         table.cite(key, "pes", "bound2"),

@@ -15,12 +15,14 @@ from seethrough.analysis.design import Contrast, Design, Factor, Measured
 from seethrough.analysis.equivalence import NO_MARGIN
 from seethrough.analysis.measures import TASK, groups_of, over_tasks
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import design_at
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.contrasts import FEW, Estimate, estimate, trend, within_margin
 from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.undefined import Number, Undefined, is_defined, number_in
+from seethrough.analysis.words import capitalised
 
 COLUMNS = (
     Column("contrast", "contrast"),
@@ -112,7 +114,7 @@ def contrast_blocks(
     shown += ["ratio"] if log else []
     shown += ["tost_p"] if any(isinstance(r["tost_p"], float) for r in rows) else []
     name = f"contrasts_{'log_' if log else ''}{measure.name}"
-    title = f"{measure.said[:1].upper()}{measure.said[1:]}: contrasts with their own error"
+    title = f"{measure.title}: contrasts with their own error"
     table = Table(name, title + (", logarithms" if log else ""), COLUMNS, tuple(rows),
                   tuple(shown), _note(context.design, rows))  # fmt: skip
     return [*_sentences(context, table, measure, log), table], {"contrasts": table}
@@ -135,7 +137,7 @@ def _note(design: Design, rows: Sequence[Mapping[str, object]]) -> str:
     small = sorted({number_in(r, "least") for r in rows if number_in(r, "least") < FEW})
     if design.groups and small:
         notes.append(f"Groups of fewer than {FEW} people: their p are rough (.05 to .10 for .05).")
-    notes += [OBSERVED.format(f.name[:1].upper() + f.name[1:]) for f in design.groups
+    notes += [OBSERVED.format(capitalised(f.name)) for f in design.groups
               if f.kind == "measured"]  # fmt: skip
     return " ".join(notes)
 
@@ -350,7 +352,7 @@ def _sentences(context: Context, table: Table, measure: Measured, log: bool) -> 
         said.append(say(f"{len(shown) - MOST} more contrasts differ: see the table."))
     none = [str(r["label"]) for r in table.rows if r not in shown]
     if len(none) == len(table.rows) > MOST // 2:
-        said.append(say(f"{measure.said[:1].upper()}{measure.said[1:]}: none of {len(none)} "
+        said.append(say(f"{measure.title}: none of {len(none)} "
                         "contrasts with their own error shows a difference, which is no evidence "
                         "of equality."))  # fmt: skip
     elif none:
@@ -379,8 +381,8 @@ def _sentence(table: Table, row: Mapping[str, object], measure: Measured, log: b
         words.append(f" {measure.unit}")
     words += [", 95 % CI [", table.cite(key, ends[0]), ", ", table.cite(key, ends[1]), "], t(",
               table.cite(key, "df"), ") = ", table.cite(key, "t"), ", Holm-corrected p ",
-              "" if p.text.startswith(("<", ">")) else "= ", p, "."]  # fmt: skip
+              equals(p.text), p, "."]  # fmt: skip
     text = words[0]
     assert isinstance(text, str)
-    words[0] = text[:1].upper() + text[1:]
+    words[0] = capitalised(text)
     return say("{}", words)

@@ -30,6 +30,7 @@ from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.ranks import signed_rank
 from seethrough.analysis.stats.ties import slack
 from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.words import capitalised
 
 KIND = "pair"
 NOTE = (
@@ -88,7 +89,7 @@ def pairwise_blocks(context: Context, measure: Measured, cells: Cells, log: bool
     gone = ("kind", "tost_margin", "tost_p", "noninferior_p")
     columns = tuple(c for c in COLUMNS if c.name not in gone)
     name = f"pairwise_{'log_' if log else ''}{measure.name}"
-    title = f"{measure.said[:1].upper()}{measure.said[1:]}: all pairs"
+    title = f"{measure.title}: all pairs"
     table = Table(name, title + (", logarithms" if log else ""), columns, tuple(rows), shown,
                   _note(context))  # fmt: skip
     return [_sentence(context, measure, rows), table]
@@ -109,14 +110,14 @@ def _scores(
 def _note(context: Context) -> str:
     brought = [f for f in context.design.groups
                if f.kind == "measured" and f.name in context.plan.pairwise]  # fmt: skip
-    return " ".join([NOTE, *(OBSERVED.format(f.name[:1].upper() + f.name[1:]) for f in brought)])
+    return " ".join([NOTE, *(OBSERVED.format(capitalised(f.name)) for f in brought)])
 
 
 def _sentence(context: Context, measure: Measured, rows: list[Row]) -> Block:
     """Which pairs differ."""
     found = [str(r["label"]) for r in rows
              if is_defined(r["p_holm"]) and r["p_holm"] < context.plan.alpha]  # fmt: skip
-    what = f"{measure.said[:1].upper()}{measure.said[1:]}, of {len(rows)} pairs"
+    what = f"{measure.title}, of {len(rows)} pairs"
     if not found:
         return say(f"{what} none was shown to differ, which is no evidence of equality.")
     return say(f"{what} these differ: {'; '.join(found)}.")
@@ -138,7 +139,7 @@ def ranked_pairwise(context: Context, measure: Measured, cells: Cells) -> list[B
     if not rows:
         return []
     add_holm(rows, families)
-    title = f"{measure.said[:1].upper()}{measure.said[1:]}: all pairs, by ranks"
+    title = f"{measure.title}: all pairs, by ranks"
     table = Table(f"pairwise_{measure.name}", title, RANKED, tuple(rows),
                   tuple("label n statistic p p_holm method".split()), _note(context))  # fmt: skip
     return [_sentence(context, measure, rows), table]

@@ -11,6 +11,7 @@ from seethrough.analysis.comparison import Pair
 from seethrough.analysis.design import Factor, Measured
 from seethrough.analysis.measures import TASK, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import cell_table
 from seethrough.analysis.sections.tests.aligned import aligned_blocks
@@ -48,7 +49,7 @@ def ranked_blocks(context: Context, measure: Measured) -> tuple[list[Block], Tab
         return [], None
     binary = measure.scale == "binary"
     context.lacking(f"share {measure.column}" if binary else measure.said, cells)
-    what = f"{measure.said[:1].upper()}{measure.said[1:]}"
+    what = measure.title
     title = f"Share of {measure.said}" if binary else f"{what} by cell"
     table = cell_table(f"{measure.name}_cells", title, cells, context,
                        kind="bound" if binary else "fixed")  # fmt: skip
@@ -138,8 +139,7 @@ def _sentence(table: Table, key: str, what: str) -> Prose:
         return say(f"{what}, {row['label']}: {{}}.", table.cite(key, "h"))
     p = table.cite(key, "p_exact")
     return say(
-        f"{what}, {row['label']}: H({{}}) = {{}}, permutation p "
-        f"{'' if p.text.startswith(('<', '>')) else '= '}{{}}.",
+        f"{what}, {row['label']}: H({{}}) = {{}}, permutation p {equals(p.text)}{{}}.",
         table.cite(key, "df"),
         table.cite(key, "h"),
         p,
