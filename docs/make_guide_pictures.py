@@ -41,7 +41,7 @@ class Camera:
     def __init__(self) -> None:
         self.study = load("published")
         context = standalone()
-        self.stage = Stage(context, SIZE, Texts(self.study.study.language, self.study.texts), 4)
+        self.stage = Stage(context, SIZE, Texts(self.study.general.language, self.study.texts), 4)
         self.target = context.framebuffer([context.texture(SIZE, 4)])
 
     def keep(self, name: str) -> None:

@@ -54,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Play the study; 0 when every participant completed it."""
     study = load(arguments.study)
-    count = study.study.participants if arguments.participants is None else arguments.participants
+    count = study.general.participants if arguments.participants is None else arguments.participants
     if count < 1:
         raise InputError(f"--participants = {count}: expected at least 1")
     if arguments.seed < 0:

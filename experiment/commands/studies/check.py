@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
         texts_of(study, language)
         demand_texts(study, language)
     said = Verdicts()
-    said.say("config", f"{study.study.name}, {study.digest()[:12]}")
+    said.say("config", f"{study.general.name}, {study.digest()[:12]}")
     _models(study, said)
     _design(study, said)
     if arguments.balance:
@@ -198,7 +198,7 @@ def _balance(study: Study, count: int | None, said: Verdicts) -> None:
             f"--slots: missing, expected at most {MOST_PLAYED}: a complete cycle is {longest} "
             "people of each group"
         )
-    again = refilled(plan, len(slots), study.study.seed)
+    again = refilled(plan, len(slots), study.general.seed)
     for what, played in (("as they come", slots), ("after drop-outs", again)):
         for found in verdicts(study, table_of(study, played), played):
             text = f"{found.group}, {what}: {found.people} people, {', '.join(found.kept)}"

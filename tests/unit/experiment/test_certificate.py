@@ -230,7 +230,7 @@ def test_sets_that_differ_fail_but_for_the_published_study_whose_making_they_are
 ):
     """That one relied on counterbalancing alone; what it means is said of every study."""
     study = load("published")
-    study = replace(study, study=study.study.model_copy(update={"seed": seed}))
+    study = replace(study, general=study.general.model_copy(update={"seed": seed}))
     measured = [
         replace(
             difficulty("unique", level, 0.5, f"building-{which}-unique-1", path=path),
