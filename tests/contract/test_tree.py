@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 LONGEST_FILE = 400  # lines: a file holds one thing, and its reader can hold it too
+MOST_PARAMETERS = 10  # of a function: what belongs together travels as a record
 LARGEST_FILE = 2**20  # bytes: what is larger is made by a command, not kept
 CODE = {".py", ".vert", ".frag", ".geom", ".comp", ".glsl", ".css", ".js"}
 TEXT = {*CODE, ".md", ".toml", ".txt", ".cff", ".csv", ".json", ".html", ".yml", ".svg", ""}
@@ -63,6 +64,20 @@ def test_files_hold_one_thing(tree: list[Path], root: Path) -> None:
     lengths = {f.relative_to(root): len(_text(f).splitlines()) for f in tree if f.suffix in CODE}
     assert len(lengths) > 20
     assert not {str(path): n for path, n in lengths.items() if n > LONGEST_FILE}
+
+
+def test_no_function_takes_more_than_ten_parameters(tree: list[Path], root: Path) -> None:
+    """Kernels take named tuples, which cost compiled code nothing."""
+    found = {}
+    for file in (f for f in tree if f.suffix == ".py"):
+        for node in ast.walk(ast.parse(_text(file))):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                names = [a.arg for a in (*node.args.posonlyargs, *node.args.args,
+                                         *node.args.kwonlyargs)]  # fmt: skip
+                where = f"{file.relative_to(root)}:{node.lineno} {node.name}"
+                found[where] = len(names) - (names[:1] in (["self"], ["cls"]))
+    assert len(found) > 5000  # it finds what there is
+    assert {where: n for where, n in found.items() if n > MOST_PARAMETERS} == {}
 
 
 def test_files_are_small(tree: list[Path], root: Path) -> None:
