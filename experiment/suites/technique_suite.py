@@ -19,7 +19,7 @@ from seethrough.experiment.display.display import MEANT
 from seethrough.experiment.suites import technique_hands as hands
 from seethrough.experiment.suites import technique_hard as hard
 from seethrough.experiment.suites import technique_scenes as scenes
-from seethrough.experiment.suites.finding import Finding
+from seethrough.experiment.suites.finding import Finding, NothingToTest, note
 from seethrough.experiment.suites.played import no_clock
 from seethrough.experiment.suites.technique_hands import SIZE
 from seethrough.experiment.suites.technique_scenes import Case
@@ -65,6 +65,8 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
     for name, step in steps.items():
         try:
             yield step()
+        except NothingToTest as why:
+            yield note(name, f"nothing to test: {why}")
         except Exception as error:  # a stranger's code may raise anything
             yield Finding(name, False, f"{type(error).__name__}: {error}")
 
@@ -143,6 +145,8 @@ class _Tried:
                 taken.append(f"{name} = {value!r}")
             except ValueError:
                 pass
+        if not count:
+            raise NothingToTest("no parameter has limits or choices")
         said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
         return Finding("refuses", not taken, said)
 
@@ -163,7 +167,7 @@ class _Tried:
             array = getattr(seen, field.name)
             if hasattr(array, "setflags"):
                 array.setflags(write=False)
-        state, _ = hands.played(self.technique, case, self.p)
+        state = hands.played(self.technique, case, self.p)
         looks = []
         try:
             for _ in range(2):
@@ -181,7 +185,8 @@ class _Tried:
         made = getattr(state, "__dataclass_params__", None)
         frozen = made is None or made.frozen
         holds = same and np.array_equal(touched, again) and frozen
-        said = "the same twice, state frozen" if holds else "differs when asked again"
+        kind = "no state" if state is None else "state frozen"
+        said = f"the same twice, {kind}" if holds else "differs when asked again"
         return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
 
     def compared(
@@ -196,7 +201,7 @@ class _Tried:
         """One exact picture against the reference; of a hard scene `any_` share may be left out,
         since what lies in one plane is nobody's."""
         drawn = self.technique.exactly(p)
-        state = hands.played(self.technique, case, p)[0] if played else self.technique.begin(p)
+        state = hands.played(self.technique, case, p) if played else self.technique.begin(p)
         truth = exact(case.scene, case.camera, drawn, size, state)
         apart = _apart(self.picture(case, drawn, state, size), truth)
         left = float(truth.near_edge.mean())
@@ -211,7 +216,7 @@ class _Tried:
         for k in range(max(len(variants), len(self.cases))):
             p, case = variants[k % len(variants)], self.cases[k % len(self.cases)]
             drawn = self.technique.exactly(p)
-            state = self.technique.begin(p) if k % 2 else hands.played(self.technique, case, p)[0]
+            state = self.technique.begin(p) if k % 2 else hands.played(self.technique, case, p)
             truth = exact(case.scene, case.camera, drawn, SIZE, state)
             apart = _apart(self.picture(case, drawn, state), truth)
             edges = float(truth.near_edge.mean())
@@ -259,7 +264,7 @@ class _Tried:
         wrong = []
         for case in (*self.cases, *reversed(self.cases)):
             for state in (
-                hands.played(self.technique, case, self.p)[0],
+                hands.played(self.technique, case, self.p),
                 self.technique.begin(self.p),
             ):
                 renderer.draw(case.scene, case.camera, self.p, state=state)
@@ -273,7 +278,7 @@ class _Tried:
         worst = 0.0
         for case in self.cases[:4]:
             p = self.technique.exactly(self.p)
-            state = hands.played(self.technique, case, p)[0]
+            state = hands.played(self.technique, case, p)
             seen = Renderer(self.context, SIZE).look(case.scene, case.camera, p, SIZE, state)
             truth = exact(case.scene, case.camera, p, SIZE, state)
             weights = truth.weights[: len(case.scene.objects)]
@@ -303,7 +308,7 @@ class _Tried:
                 self.context.finish()
                 times.append(time.perf_counter() - start)
         standard, own = (float(np.median(times[2:])) for times in spent)
-        return Finding("cost", True, f"{own / standard:.2f} × the standard frame at 400 × 300")
+        return note("cost", f"{own / standard:.2f} × the standard frame at 400 × 300")
 
 
 def _apart(picture: NDArray[np.uint8], truth: ExactPicture) -> float:

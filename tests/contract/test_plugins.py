@@ -17,11 +17,12 @@ from plugins import seethrough
 
 from seethrough import registry
 from seethrough.experiment import cli
+from seethrough.experiment.questions.number.number_question import NumberQuestion
 from seethrough.experiment.suites import suite
 from seethrough.experiment.suites.suite import RULES, findings
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.count.count_task import Count
-from seethrough.tasks.kit.hud import Label
+from seethrough.tasks.kit.hud import Button, Entry, Label, Rect
 from seethrough.tasks.kit.measure import DISTANCE
 from seethrough.tasks.worlds.abstract.abstract_world import Abstract
 
@@ -82,6 +83,40 @@ class Random(Abstract):
         return super().make(np.random.Generator(np.random.PCG64(time.time_ns())), parameters)
 
 
+class Still(Abstract):
+    """Says that one moves in it, and nobody can."""
+
+    def viewer(self, made, parameters, aspect):
+        return Stands(super().viewer(made, parameters, aspect))
+
+
+class Stands:
+    """A viewer whom nothing moves."""
+
+    def __init__(self, viewer):
+        self.camera = viewer.camera
+
+    def on_event(self, event):
+        return self
+
+
+class Strays(Count):
+    """Shows a button outside of the view, once the first key was pressed."""
+
+    def view(self, state):
+        view = super().view(state)
+        moved = any(isinstance(e, Entry) and e.text for e in view.hud)
+        away = Button("count.title", Rect(2.0, 0.5, 0.1, 0.1))
+        return replace(view, hud=(*view.hud, away)) if moved else view
+
+
+class Careless(NumberQuestion):
+    """Forgets to say that it was answered, where it has to be."""
+
+    def rows(self, p, asking, number, answers):
+        return [] if p.required else super().rows(p, asking, number, answers)
+
+
 @pytest.mark.parametrize(
     ("kind", "name", "plugin", "words"),
     [
@@ -90,6 +125,9 @@ class Random(Abstract):
         ("task", "count", Fragile, ("raised RuntimeError: tab",)),
         ("task", "count", Mute, ("text count.nothing", "measure distance")),
         ("world", "abstract", Random, ("ReadsTheClock",)),
+        ("world", "abstract", Still, ("of 200 events nothing moves the viewer",)),
+        ("task", "count", Strays, ("lies outside of a view",)),
+        ("question", "number", Careless, ("expected one of []",)),
     ],
 )
 def test_the_suite_finds(kind, name, plugin, words, monkeypatch):
