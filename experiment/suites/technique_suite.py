@@ -22,6 +22,7 @@ from seethrough.experiment.suites import technique_scenes as scenes
 from seethrough.experiment.suites.finding import Finding, NothingToTest, note
 from seethrough.experiment.suites.played import no_clock
 from seethrough.experiment.suites.technique_hands import SIZE
+from seethrough.experiment.suites.technique_scale import at_half
 from seethrough.experiment.suites.technique_scenes import Case
 from seethrough.experiment.suites.variants import pairwise, refused
 from seethrough.renderer.declared import declared
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 
 STEP = 1.0  # of 255: what a picture may differ, half of it rounding to 8 bits
 LEFT_OUT = 0.02  # share of pixels too near an edge to be compared
+MOST_HALVED = 12  # combinations of options drawn at half size as well
 TAKES = ("pointer", "wheel", "second button")
 PAINTERS = (base.MASKS, base.PEELS, base.REMOVAL)
 
@@ -54,6 +56,7 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
         "refuses": tried.refuses,
         "pure": tried.pure,
         "exact": partial(tried.exact, most),
+        "half size": partial(tried.halved, most),
         "idle": tried.idle,
         "no state between frames": tried.kept,
         "reaches": partial(hands.reaches, technique, tried.cases[:4], tried.picture),
@@ -229,6 +232,11 @@ class _Tried:
         )
         holds = worst <= STEP and left <= LEFT_OUT
         return Finding("exact", holds, said if holds else said + where)
+
+    def halved(self, most: int) -> Finding:
+        """In a picture of half the size it shows the same, widths in pixels shrunk with it."""
+        variants = pairwise(self.p, _options())[: min(most, MOST_HALVED)]
+        return at_half(variants, self.cases, scenes.covered(), self.context)
 
     def idle(self) -> Finding:
         """Where the rule changes no surface, the frame is the standard frame, byte for byte."""
