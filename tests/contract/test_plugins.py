@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plugins import seethrough
+from toy_study import toy_study
 
 from seethrough import registry
 from seethrough.experiment import cli
@@ -166,31 +167,7 @@ def test_a_strangers_package_is_listed_and_passes(kind, whose, strangers):
         assert words[0] == "check" or name in run.stdout
 
 
-STUDY = """
-[study]
-name = "toys"
-title = "Toys"
-description = "What strangers' packages bring along."
-participants = 2
-seed = 1
-[display]
-width = 160
-height = 120
-[factors.view]
-levels.plain = { technique.use = "standard" }
-levels.xray = { technique.use = "dynamic" }
-[factors.place]
-levels.cube = { world.use = "abstract", design.tasks = ["toy_task"] }
-levels.row = { world.use = "toy_world", design.tasks = ["depth_order"] }
-[world.abstract]
-objects = 40
-[world.toy_world]
-balls = 8
-[design]
-trials = 1
-[questions]
-liked = { use = "toy_question", when = "condition", text = "Did you like it?" }
-"""
+STUDY = toy_study("xray", "dynamic")
 
 
 def test_strangers_objects_go_through_a_whole_study(strangers, tmp_path):
