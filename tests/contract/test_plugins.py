@@ -4,6 +4,8 @@ with no edit elsewhere; and the suite finds what is wrong."""
 from __future__ import annotations
 
 import csv
+import inspect
+import re
 import shutil
 import subprocess
 import sys
@@ -18,13 +20,17 @@ from toy_study import toy_study
 
 from seethrough import registry
 from seethrough.experiment import cli
+from seethrough.experiment.questions.kit import Question
 from seethrough.experiment.questions.number.number_question import NumberQuestion
 from seethrough.experiment.suites import suite
 from seethrough.experiment.suites.suite import RULES, findings
+from seethrough.renderer.techniques.base import Technique
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.count.count_task import Count
+from seethrough.tasks.kit.base import Task
 from seethrough.tasks.kit.hud import Button, Entry, Label, Rect
 from seethrough.tasks.kit.measure import DISTANCE
+from seethrough.tasks.kit.world import World
 from seethrough.tasks.worlds.abstract.abstract_world import Abstract
 
 LONGEST = 60  # lines of a toy, all its files together
@@ -37,6 +43,26 @@ def test_every_plugin_is_what_its_suite_demands(kind: str, name: str) -> None:
     found = list(findings(kind, name))
     assert len(found) >= 6
     assert [str(finding) for finding in found if not finding.holds] == []
+
+
+PROTOCOLS = {"Technique": Technique, "World": World, "Task": Task, "Question": Question}
+
+
+def test_the_decision_says_what_each_kind_is_asked(root: Path) -> None:
+    """The block at the end of decisions/0012 is the Protocols' methods, in their order."""
+    text = (root / "decisions" / "0012-what-a-plug-in-is.md").read_text("utf-8")
+    block = re.findall(r"```\n(.*?)```", text, re.DOTALL)[-1]
+    said: dict[str, list[tuple[str, ...]]] = {}
+    kind = ""
+    for line in block.splitlines():
+        kind = line.split()[0] if not line.startswith(" ") else kind
+        calls = re.findall(r"(\w+)\(([^)]*)\)", line)
+        said.setdefault(kind, []).extend((name, *args.split(", ")) for name, args in calls)
+    for kind, protocol in PROTOCOLS.items():
+        methods = {n: m for n, m in vars(protocol).items() if inspect.isfunction(m)}
+        own = {n: m for n, m in methods.items() if not n.startswith("_")}
+        assert said[kind] == [(n, *[*inspect.signature(m).parameters][1:]) for n, m in own.items()]
+    assert said.keys() == PROTOCOLS.keys()
 
 
 class Shifts(Count):
