@@ -127,6 +127,20 @@ def test_public_names_are_documented(sources: list[Path], root: Path) -> None:
     assert not silent
 
 
+MADE = {"parquet/"}  # in a study's data folder
+NAMED = re.compile(r"`([\w./-]+(?:/|\.(?:py|md|toml|txt|R|frag|rst|csv|json)))`")
+
+
+@pytest.mark.parametrize("page", ["ARCHITECTURE.md", "CONTRIBUTING.md", "CONVENTIONS.md"])
+def test_pages_name_files_that_there_are(page: str, tree: list[Path], root: Path) -> None:
+    """Each file and folder between backquotes, by its path or by the end of one."""
+    files = [f"/{f.relative_to(root).as_posix()}" for f in tree]
+    there = [*files, *{f[: i + 1] for f in files for i, c in enumerate(f) if c == "/"}]
+    named = {n for n in NAMED.findall((root / page).read_text("utf-8")) if n not in MADE}
+    assert len(named) > 2
+    assert [n for n in sorted(named) if not any(f.endswith(f"/{n}") for f in there)] == []
+
+
 def test_shaders_say_what_they_provide(tree: list[Path], root: Path) -> None:
     """A shader file begins with a comment, after its #version line if it has one."""
     shaders = [f for f in tree if f.suffix in {".vert", ".frag", ".glsl"}]
