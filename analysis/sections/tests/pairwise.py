@@ -14,16 +14,13 @@ from seethrough.analysis.measures import TASK, groups_of, over_tasks
 from seethrough.analysis.page.blocks import Block, Column, Table, say
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import design_at
-from seethrough.analysis.sections.tests.contrasts import (
-    COLUMNS,
-    OBSERVED,
+from seethrough.analysis.sections.tests.asked_contrasts import (
     Asked,
-    Row,
     equal_weights,
     group_weights,
     level_of,
-    row_of,
 )
+from seethrough.analysis.sections.tests.contrasts import COLUMNS, OBSERVED, Row, row_of
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.groups import kruskal_wallis
 from seethrough.analysis.stats.multiplicity import add_holm
