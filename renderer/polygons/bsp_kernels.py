@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from seethrough.renderer.arrays import Floats, Whole
-from seethrough.renderer.polygons.cutting import COUNT, PLANE, SOURCE, START, Pieces, Planes
+from seethrough.renderer.polygons.classification import COUNT, PLANE, SOURCE, START, Pieces, Planes
 from seethrough.renderer.polygons.predicates import loop_heights, loop_limit
 
 

@@ -6,16 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Whole
-from seethrough.renderer.polygons.cutting import (
+from seethrough.renderer.polygons.classification import (
     COUNT,
     SOURCE,
     START,
     Pieces,
     Planes,
     classify,
-    cut,
-    interpolate,
 )
+from seethrough.renderer.polygons.cutting import cut, interpolate
 from seethrough.renderer.polygons.polygons import Polygons, check
 from seethrough.renderer.polygons.predicates import (
     has_area,
