@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.session.levels import of_blocks
@@ -14,17 +13,12 @@ from seethrough.experiment.study.design.design import TaskSet, session_for
 from seethrough.experiment.study.shown.design_table import minutes
 from seethrough.experiment.verdicts import FAILS, WARNING, Verdicts
 
-if TYPE_CHECKING:
-    pass
-
-
 MOST_PLAYED = 5_000  # sessions
-
-
 MOST_ORDERS = 64  # more than a square of the conditions that there can be has rows
 
 
 def check_design(study: Study, said: Verdicts) -> None:
+    """How even the design is for each group, and whether its people fill it."""
     plan = study.plan
     for which, group in enumerate(plan.groups):
         name = "/".join(group.levels.values())

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 
 MOST_REDRAWS = 50
-
-
 SETS = (
     "each level meets every set equally often over a whole cycle, so that none gains, but what "
     "sets differ in adds to the spread between people"
@@ -49,6 +47,8 @@ def measured_scenes(study: Study, context: Context) -> list[Difficulty]:
 def check_difficulty(
     study: Study, measured: list[Difficulty], context: Context, redraw: bool, said: Verdicts
 ) -> None:
+    """Whether levels that leave scenes alone are equally hard; with `redraw` the scenes that would
+    have to be drawn again so that they are."""
     from seethrough.experiment.study.checked.certificate import matches, worst
 
     found = matches(study, measured)
@@ -136,6 +136,7 @@ def _redraw(study: Study, measured: list[Difficulty], context: Context, said: Ve
 
 
 def write_certificate(study: Study, measured: list[Difficulty], path: Path) -> None:
+    """A row a trial, into a new file."""
     from seethrough.experiment.study.checked.certificate import Difficulty
 
     values = [f.name for f in fields(Difficulty) if f.name != "trial"]
