@@ -18,7 +18,7 @@ from seethrough.analysis.design import (
     Prediction,
     Task,
 )
-from seethrough.analysis.errors import DataError
+from seethrough.analysis.errors import DataError, number_above
 
 TRANSPARENCY, SCENARIO = ("standard", "dynamic"), ("abstract", "walkthrough")
 TASKS = {"abstract": ("count", "pattern"), "walkthrough": ("unique", "count_in_building")}
@@ -105,16 +105,10 @@ def _margins(table: object) -> dict[str, float]:
     if unknown:
         raise DataError(f"analysis.margins.{unknown[0]}: expected among {', '.join(MARGINS)}")
     return {
-        name: _number(f"margins.{name}", value, MARGINS[name])
+        name: number_above(f"margins.{name}", value, MARGINS[name])
         for name, value in table.items()
         if value is not None
     }
-
-
-def _number(name: str, value: object, above: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not above < value < 1e300:
-        raise DataError(f"analysis.{name} = {value!r}: expected a number above {above:g}")
-    return float(value)
 
 
 def planned_trials(design: Mapping[str, object]) -> int | None:

@@ -12,9 +12,10 @@ from seethrough.analysis.cells import Cells
 from seethrough.analysis.design import Contrast
 from seethrough.analysis.equivalence import Margin
 from seethrough.analysis.page.blocks import Cited, Column, Table
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.stats.anova import repeated_measures
 from seethrough.analysis.stats.arrays import Array
-from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.paired import paired, ratio_of_means, within_halfwidths
 from seethrough.analysis.stats.ties import is_constant
 from seethrough.analysis.stats.undefined import (
@@ -193,7 +194,7 @@ def compare(measures: Sequence[Pair]) -> Table:
             **equivalence.equivalence(m.first, m.second, m.margin),
         }
         rows.append(row)
-    add_holm(rows, measures)
+    add_holm(rows, [m.family for m in measures])
     return Table(
         "tests", "Levels against their baseline", headed(COLUMNS, measures), tuple(rows), SHOWN
     )
@@ -217,14 +218,14 @@ def compare_logs(measures: Sequence[Pair]) -> Table:
                 "geometric_baseline": float(np.exp(first.mean())),
                 "geometric_level": float(np.exp(second.mean())),
                 "ratio": float(np.exp(-number_in(pair, "difference"))),
-                "ratio_low": _exp(either_in(pair, "difference_high")),
-                "ratio_high": _exp(either_in(pair, "difference_low")),
+                "ratio_low": equivalence.ratio_of(either_in(pair, "difference_high")),
+                "ratio_high": equivalence.ratio_of(either_in(pair, "difference_low")),
                 **_f_columns(first, second),
                 **pair,
                 **equivalence.log_equivalence(first, second, m.margin),
             }
         )
-    add_holm(rows, [m for m in measures if m.logs is not None])
+    add_holm(rows, [m.family for m in measures if m.logs is not None])
     return Table(
         "tests_log",
         "On the log scale",
@@ -234,24 +235,6 @@ def compare_logs(measures: Sequence[Pair]) -> Table:
         "Ratio: level / baseline, of geometric means: each participant's mean of the logarithms "
         "of their trials, averaged over participants.",
     )
-
-
-def _exp(value: Number) -> Number:
-    return float(np.exp(-value)) if is_defined(value) else value
-
-
-def add_holm(
-    rows: Sequence[dict[str, object]], measures: Sequence[Pair], column: str = "p"
-) -> None:
-    """Holm's p of `column` within each family; empty for a measure of no family."""
-    by_key = {m.key: m.family for m in measures}
-    for row in rows:
-        row["p_holm"] = row[column] if by_key[str(row["measure"])] else None
-    for family in {f for f in by_key.values() if f}:
-        own = [r for r in rows if by_key[str(r["measure"])] == family]
-        inside = [r for r in own if is_defined(r[column])]
-        for row, p in zip(inside, holm([number_in(r, column) for r in inside]), strict=True):
-            row["p_holm"] = p
 
 
 def headed(columns: Sequence[Column], pairs: Sequence[Pair]) -> tuple[Column, ...]:
@@ -356,7 +339,7 @@ def corrected(table: Table, key: str) -> list[str | Cited]:
     if table.row(key).get("p_holm") is None or not is_defined(table.row(key)["p_holm"]):
         return []
     p = table.cite(key, "p_holm")
-    return [", Holm-corrected p " if p.text.startswith(("<", ">")) else ", Holm-corrected p = ", p]
+    return [f", Holm-corrected p {equals(p.text)}", p]
 
 
 def apa_f(table: Table, key: str) -> list[str | Cited]:
@@ -372,7 +355,7 @@ def apa_f(table: Table, key: str) -> list[str | Cited]:
         table.cite(key, "df2"),
         ") = ",
         table.cite(key, "F"),
-        ", p " if p.text.startswith(("<", ">")) else ", p = ",
+        f", p {equals(p.text)}",
         p,
         ", η²p = ",
         table.cite(key, "pes", "bound2"),

@@ -10,6 +10,8 @@ import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from seethrough.analysis.words import capitalised
+
 WITHIN, BETWEEN, MEASURED = "within", "between", "measured"
 KINDS = (WITHIN, BETWEEN, MEASURED)
 SCALES = ("ratio", "count", "bounded", "ordinal", "binary", "censored")
@@ -111,6 +113,11 @@ class Measured:
     def said(self) -> str:
         """Its name in sentences."""
         return self.label or self.name.replace("_", " ")
+
+    @property
+    def title(self) -> str:
+        """Its name at the head of a table, a figure or a sentence."""
+        return capitalised(self.said)
 
     @property
     def ranked(self) -> bool:

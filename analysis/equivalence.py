@@ -13,6 +13,7 @@ import numpy as np
 
 from seethrough.analysis.design import Measured
 from seethrough.analysis.page.blocks import Cited, Column, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.paired import Equivalence, ratio_within, tost
 from seethrough.analysis.stats.undefined import Undefined, is_defined
@@ -62,10 +63,10 @@ def log_equivalence(first: Array, second: Array, margin: Margin | None) -> dict[
     scale = float(max(np.max(np.abs(first)), np.max(np.abs(second))))
     test = tost(first - second, float(np.log(margin.value)), scale)
     low, high = test.interval90
-    return _row(test, margin.value, margin.more, (_ratio(high), _ratio(low)))
+    return _row(test, margin.value, margin.more, (ratio_of(high), ratio_of(low)))
 
 
-def _ratio(log_gap: float | Undefined) -> float | Undefined:
+def ratio_of(log_gap: float | Undefined) -> float | Undefined:
     """level / baseline from baseline − level of logarithms."""
     return float(np.exp(-log_gap)) if is_defined(log_gap) else log_gap
 
@@ -107,7 +108,7 @@ def no_difference(table: Table, key: str, alpha: float) -> tuple[str | Cited, ..
     )
     return say(
         f" No difference was shown; equivalence within ± {{}}, the declared margin: p "
-        f"{'' if p.text.startswith(('<', '>')) else '= '}{{}} (TOST), {verdict}.",
+        f"{equals(p.text)}{{}} (TOST), {verdict}.",
         margin,
         p,
     ).runs
@@ -123,7 +124,7 @@ def no_ratio(logs: Table, key: str, alpha: float) -> tuple[str | Cited, ...]:
     verdict = "equivalence is shown" if p.value < alpha else "equivalence is not shown either"
     return say(
         f" For a ratio between 1 / {{}} and {{}}, the declared margin, p "
-        f"{'' if p.text.startswith(('<', '>')) else '= '}{{}} (TOST): {verdict}.",
+        f"{equals(p.text)}{{}} (TOST): {verdict}.",
         margin,
         margin,
         p,

@@ -26,3 +26,10 @@ def _printable(line: str) -> str:
     return "".join(
         c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in line
     )
+
+
+def number_above(key: str, value: object, above: float) -> float:
+    """A number of a study's [analysis] table. Raises DataError unless it is one above `above`."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or not above < value < 1e300:
+        raise DataError(f"analysis.{key} = {value!r}: expected a number above {above:g}")
+    return float(value)

@@ -13,14 +13,16 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from seethrough.experiment.display.display import LEAVE
 from seethrough.experiment.display.stage import Stage
 from seethrough.experiment.pages.form import Form
 from seethrough.experiment.pages.pages import Page
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.questionnaire import after, asked, before
+from seethrough.experiment.session.running import MENU
 from seethrough.experiment.session.session import _feedback, _instruction, _page
-from seethrough.experiment.session.trial import LEAVE, MENU, TrialRun
+from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design.design import Trial, session_for
 from seethrough.experiment.study.tables.ready import one_page
@@ -41,7 +43,7 @@ class Camera:
     def __init__(self) -> None:
         self.study = load("published")
         context = standalone()
-        self.stage = Stage(context, SIZE, Texts(self.study.study.language, self.study.texts), 4)
+        self.stage = Stage(context, SIZE, Texts(self.study.general.language, self.study.texts), 4)
         self.target = context.framebuffer([context.texture(SIZE, 4)])
 
     def keep(self, name: str) -> None:

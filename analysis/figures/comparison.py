@@ -25,6 +25,7 @@ from seethrough.analysis.page.style import (
     zero_line,
 )
 from seethrough.analysis.stats.undefined import Number, either_in, is_defined, number_in
+from seethrough.analysis.words import capitalised
 
 HEIGHT = 210
 
@@ -129,7 +130,7 @@ def ratings_figure(
         own = [m for m in measures if m.label.partition(", ")[2] == where]
         panels.append(_ratings(where or key, own, tests, scale))
     alt = f"Bars of mean ratings{f', {scale}' if scale else ''}. {_means(measures)}."
-    title = f"{key[:1].upper()}{key[1:]}, means and standard deviations"
+    title = f"{capitalised(key)}, means and standard deviations"
     return Figure(key, title, alt, in_rows(panels, 3))
 
 

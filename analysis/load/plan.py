@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from seethrough.analysis.before import planned_trials
-from seethrough.analysis.errors import DataError
+from seethrough.analysis.errors import DataError, number_above
 from seethrough.analysis.exclude import TOO_FAST
 from seethrough.analysis.load.study import Study, config_of
 
@@ -55,7 +55,7 @@ def make_plan(
     configs = [config_of(sidecar) for sidecar in study.sidecars.values()]
     frozen = _first(configs, "analysis")
     table = frozen or {}
-    planned_alpha = _number("alpha", table.get("alpha", 0.05), 0)
+    planned_alpha = number_above("alpha", table.get("alpha", 0.05), 0)
     planned_out = _texts("exclude", table)
     used_alpha = planned_alpha if alpha is None else alpha
     used_out = planned_out if exclude is None else tuple(exclude)
@@ -88,7 +88,7 @@ def make_plan(
         tuple(deviations),
         _whole(about.get("participants")),
         _whole(design.get("trials")),
-        _number("too_fast", table.get("too_fast", TOO_FAST), 0),
+        number_above("too_fast", table.get("too_fast", TOO_FAST), 0),
         pairs,
         aligned_ranks or table.get("aligned_ranks") is True,
     )
@@ -118,12 +118,6 @@ def _further(new: Sequence[str], aligned: bool) -> list[str]:
     if aligned:
         lines.append("Aligned ranks were not planned; they were asked for.")
     return lines
-
-
-def _number(name: str, value: object, above: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not above < value < 1e300:
-        raise DataError(f"analysis.{name} = {value!r}: expected a number above {above:g}")
-    return float(value)
 
 
 def _choices(

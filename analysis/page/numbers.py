@@ -39,6 +39,11 @@ def p_value(value: float) -> str:
     return "< .001" if value < 0.001 else bounded(value, 3)
 
 
+def equals(shown: str) -> str:
+    """`= ` before a shown number, nothing before one with a sign of its own (`< .001`)."""
+    return "" if shown.startswith(("<", ">")) else "= "
+
+
 def significant(value: float, digits: int = 3) -> str:
     """`digits` significant figures; very large and very small ones as powers of ten."""
     if value == 0:

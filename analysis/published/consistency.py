@@ -20,7 +20,8 @@ from seethrough.analysis.published.grim import (
 )
 from seethrough.analysis.published.numbers import Published, PublishedMeasure
 from seethrough.analysis.published.reconstruct import r_interval, r_of
-from seethrough.analysis.stats.distributions import f_tail, holm
+from seethrough.analysis.stats.distributions import f_tail
+from seethrough.analysis.stats.multiplicity import holm
 
 MOST_TRIALS = 12
 MOST_WEIGHT = 12
@@ -311,7 +312,7 @@ def multiplicity_finding(published: Published) -> Finding:
     df2 = published.participants - 1
     tasks = [published.measure(name) for name in published.tasks]
     raw = [f_tail(m.f.value, 1, df2) for m in tasks]
-    corrected = holm(raw)
+    corrected = holm(raw).tolist()
     bonferroni = [min(1.0, p * len(raw)) for p in raw]
     lost = [m.label for m, p in zip(tasks, bonferroni, strict=True) if p >= 0.05]
     shown = "; ".join(

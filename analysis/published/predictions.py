@@ -7,6 +7,7 @@ import numpy as np
 from seethrough.analysis.before import RATIOS
 from seethrough.analysis.comparison import apa_f
 from seethrough.analysis.page.blocks import Block, Cited, Column, Fold, Prose, Section, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.published.consistency import Finding
 from seethrough.analysis.published.numbers import Published
 from seethrough.analysis.sections.summary import places
@@ -167,8 +168,7 @@ def _faster(published: Published, tests: Table, findings: list[Finding]) -> Pros
         words = "no difference shown"
         if number_in(row, "p_holm") < ALPHA:
             words = "faster" if number_in(row, "difference") > 0 else "slower"
-        equals = "" if p.text.startswith(("<", ">")) else "= "
-        runs += ["; " if runs else "", f"{row['label']} {words}, p {equals}", p]
+        runs += ["; " if runs else "", f"{row['label']} {words}, p {equals(p.text)}", p]
     return say(
         f"P1, dynamic transparency is faster: {verdict}. Overall {{}}. By task (Holm-corrected): "
         f"{{}}; {multiple}.",
@@ -191,13 +191,14 @@ def _accurate(published: Published, tests: Table, printed: Table, equal: Table) 
     said.append(" No difference is shown in ")
     for i, row in enumerate(equal.rows):
         p = equal.cite(str(row["measure"]), "noninferior_p")
-        equals = " ≤ " if row["measure"] == "correct_T2" else " = "
-        equals = " " if p.text.startswith(("<", ">")) else equals
+        sign = equals(p.text)
+        if sign and row["measure"] == "correct_T2":
+            sign = "≤ "
         words = {
             "yes": "and that it is no worse is shown",
             "not shown": "and that it is no worse is not shown either",
         }.get(str(row["no_worse"]), "whose numbers are impossible, so that nothing follows")
-        said += ["; " if i else "", f"{row['label']}, {words} (one-sided p{equals}", p, ")"]
+        said += ["; " if i else "", f"{row['label']}, {words} (one-sided p {sign}", p, ")"]
     verdict = "contradicted" if parts["less"] else "supported"
     if any(row["no_worse"] != "yes" for row in equal.rows) and not parts["less"]:
         verdict = "not contradicted, and not shown everywhere"

@@ -12,9 +12,11 @@ from seethrough.analysis.comparison import sd_of
 from seethrough.analysis.design import Item
 from seethrough.analysis.measures import answers
 from seethrough.analysis.page.blocks import Block, Cited, Column, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.stats.ranks import share_interval, sign_test
 from seethrough.analysis.stats.undefined import Undefined, is_defined
+from seethrough.analysis.words import capitalised
 
 SINGLE = (
     Column("item", "item"),
@@ -162,7 +164,7 @@ def _share(asked: pd.DataFrame, item: Item) -> dict[str, object]:
 
 
 def _preference(context: Context, table: Table, item: Item) -> list[Block]:
-    key, said = item.name, f"{item.name[:1].upper()}{item.name[1:]}"
+    key, said = item.name, capitalised(item.name)
     factor = context.design.factor(item.of)
     words = factor.label(_sides(context, item)[1])
     row = table.row(key)
@@ -176,7 +178,7 @@ def _preference(context: Context, table: Table, item: Item) -> list[Block]:
         say(
             f"{said} (n = {{}}{{}}): of those who prefer one, a share of {{}} prefers {words}, "
             "95 % CI [{}, {}], "
-            f"sign test p {'' if p.text.startswith(('<', '>')) else '= '}{{}}.",
+            f"sign test p {equals(p.text)}{{}}.",
             table.cite(key, "n"),
             neutral,
             table.cite(key, "mean", "bound2"),

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.comparison import Pair, add_holm, pair_of
+from seethrough.analysis.comparison import Pair, pair_of
 from seethrough.analysis.design import Item
 from seethrough.analysis.figures.comparison import ratings_figure
 from seethrough.analysis.measures import ratings
@@ -29,6 +29,8 @@ from seethrough.analysis.sections.tests.ordinal import (
     friedman_sentence,
     friedman_table,
 )
+from seethrough.analysis.stats.multiplicity import add_holm
+from seethrough.analysis.words import capitalised
 
 
 def ratings_section(context: Context) -> Section | None:
@@ -77,9 +79,9 @@ def _ratings(context: Context, cells: Cells, group: Alike, number: int) -> list[
             for i, m in enumerate([*means, *found])]  # fmt: skip
     if not rows:
         return []
-    add_holm(rows, [*means, *found], "p_exact")
+    add_holm(rows, [m.family for m in (*means, *found)], "p_exact")
     scale = _points(items)
-    title = f"{name[:1].upper()}{name[1:]}{f' ({scale})' if scale else ''}: Friedman tests"
+    title = f"{capitalised(name)}{f' ({scale})' if scale else ''}: Friedman tests"
     tests = friedman_table(f"friedman_{name}", title, rows, [*means, *found])
     over_all = [
         friedman_sentence(tests, m, f"Overall rating{f' ({scale})' if scale else ''}"
@@ -89,7 +91,7 @@ def _ratings(context: Context, cells: Cells, group: Alike, number: int) -> list[
     each_said = [friedman_sentence(tests, m, _said(m, labels), context) for m in found]
     said = in_short([(m, tests.row(m.key), sentence) for m, sentence in zip(
         [*means, *found], [*over_all, *each_said], strict=True)], context,
-        name[:1].upper() + name[1:])  # fmt: skip
+        capitalised(name))  # fmt: skip
     ending = "conditions" if name == "ratings" else f"{name}_conditions"
     ordered = [main.name, *(f.name for f in others)]
     over = conditions(context, cells, ordered, ending, f"{group.stem}_conditions",

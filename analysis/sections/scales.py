@@ -6,6 +6,7 @@ from seethrough.analysis.page.blocks import Block, Section, Table, say
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.tests.measured import measured_blocks
 from seethrough.analysis.sections.tests.ranked import ranked_blocks
+from seethrough.analysis.words import capitalised
 
 Tables = dict[str, dict[str, Table]]
 """measure → its tables by what they hold: `logs`, `tests`, `ranks`, `contrasts`, `anova…`."""
@@ -22,7 +23,7 @@ def speed_section(context: Context) -> tuple[Section | None, Tables]:
     if not measures:
         return None, {}
     said = measures[0].said
-    title = f"{said[:1].upper()}{said[1:]}" if len(measures) == 1 else "Times"
+    title = capitalised(said) if len(measures) == 1 else "Times"
     blocks = blocks or [say(f"The data have no {said}.")]
     return Section("time", title, tuple(blocks)), tables
 

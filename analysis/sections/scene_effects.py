@@ -7,24 +7,27 @@ from seethrough.analysis.mixed import MixedEffect
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
 from seethrough.analysis.scenes import FEWEST, SCENE_SLOPES, SceneEffect, Scenes, scene_model
 from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.base.mixed_effects import (
+    EFFECT,
+    FITTED,
+    INTERVAL,
+    TESTED,
+    cited_ratio,
+    key_of,
+    shared_values,
+)
 from seethrough.analysis.stats.undefined import is_defined
 
 COLUMNS = (
-    Column("effect", "effect"),
+    EFFECT,
     Column("scenes", "scenes", "int", "that two people or more met"),
     Column("trials", "trials", "int"),
-    Column("estimate", "estimate", "fixed4", "log time"),
-    Column("error", "s.e.", "fixed4"),
-    Column("t", "t", "fixed2"),
-    Column("df", "df", "int"),
-    Column("p", "p", "p"),
+    *TESTED,
     Column("ratio", "ratio", "fixed3", "level / baseline", "low", "high"),
-    Column("low", "from", "fixed3", "95 % interval"),
-    Column("high", "to", "fixed3", "95 % interval"),
+    *INTERVAL,
     Column("sd_scene", "SD of scenes", "fixed3"),
     Column("sd_slope", "SD of slopes", "fixed3", "between scenes"),
-    Column("model", "random terms"),
-    Column("singular", "singular?"),
+    *FITTED,
 )
 SHOWN = tuple("scenes estimate error t df p ratio sd_scene sd_slope singular".split())
 ONLY = "so that what was found is for these scenes only."
@@ -55,10 +58,6 @@ def scene_blocks(context: Context, factor: Factor, plain: MixedEffect) -> list[B
     return [*(_sentence(context, table, e, factor, plain, several) for e in found.effects), table]
 
 
-def _key(effect: SceneEffect, factor: Factor, several: bool) -> str:
-    return f"{factor.name}={effect.level}" if several else factor.name
-
-
 def _none(found: Scenes) -> Prose:
     said = f"{found.shared} scenes were met by several people"
     if found.given_up:
@@ -72,23 +71,13 @@ def _none(found: Scenes) -> Prose:
 
 
 def _row(effect: SceneEffect, factor: Factor, several: bool) -> dict[str, object]:
-    low, high = effect.interval
     return {
-        "effect": _key(effect, factor, several),
+        "effect": key_of(effect, factor, several),
         "scenes": effect.scenes,
         "trials": effect.trials,
-        "estimate": effect.estimate,
-        "error": effect.error,
-        "t": effect.t,
-        "df": effect.df,
-        "p": effect.p,
-        "ratio": effect.ratio,
-        "low": low,
-        "high": high,
+        **shared_values(effect),
         "sd_scene": effect.sd_scene,
         "sd_slope": effect.sd_slope,
-        "model": effect.model,
-        "singular": effect.singular,
     }
 
 
@@ -96,8 +85,7 @@ def _sentence(
     context: Context, table: Table, effect: SceneEffect, factor: Factor, plain: MixedEffect,
     several: bool,
 ) -> Prose:  # fmt: skip
-    key, alpha = _key(effect, factor, several), context.plan.alpha
-    p = table.cite(key, "p")
+    key, alpha = key_of(effect, factor, several), context.plan.alpha
     shown = "" if effect.p < alpha else "no difference is shown "
     what = "effect" if effect.step == SCENE_SLOPES else "level"
     start = f"{effect.level}, for" if several else "For"
@@ -105,13 +93,6 @@ def _sentence(
     if not several and is_defined(plain.p) and (plain.p < alpha) != (effect.p < alpha):
         also = " This differs from the model without scenes: what it shows may be these scenes'."
     return say(
-        f"{start} scenes like these {shown}(each scene's {what} free): ratio {{}}, 95 % CI "
-        "[{}, {}], t({}) = {}, p "
-        f"{'' if p.text.startswith(('<', '>')) else '= '}{{}}.{also}",
-        table.cite(key, "ratio"),
-        table.cite(key, "low"),
-        table.cite(key, "high"),
-        table.cite(key, "df"),
-        table.cite(key, "t"),
-        p,
+        f"{start} scenes like these {shown}(each scene's {what} free): {{}}.{also}",
+        cited_ratio(table, key),
     )

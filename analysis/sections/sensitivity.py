@@ -6,27 +6,30 @@ from seethrough.analysis.design import Factor
 from seethrough.analysis.mixed import MODELS, MixedEffect, mixed_model
 from seethrough.analysis.page.blocks import Block, Column, Section, Table, say
 from seethrough.analysis.sections.base.context import Context
+from seethrough.analysis.sections.base.mixed_effects import (
+    EFFECT,
+    FITTED,
+    INTERVAL,
+    TESTED,
+    cited_ratio,
+    key_of,
+    shared_values,
+)
 from seethrough.analysis.sections.robust import robust_blocks
 from seethrough.analysis.sections.scene_effects import scene_blocks
 from seethrough.analysis.stats.undefined import is_defined, number_in
 from seethrough.analysis.tradeoff import speed_of
 
 COLUMNS = (
-    Column("effect", "effect"),
+    EFFECT,
     Column("n", "n", "int"),
     Column("trials", "trials", "int"),
-    Column("estimate", "estimate", "fixed4", "log time"),
-    Column("error", "s.e.", "fixed4"),
-    Column("t", "t", "fixed2"),
-    Column("df", "df", "int"),
-    Column("p", "p", "p"),
+    *TESTED,
     Column("ratio", "ratio", "fixed3", "level / baseline"),
-    Column("low", "from", "fixed3", "95 % interval"),
-    Column("high", "to", "fixed3", "95 % interval"),
+    *INTERVAL,
     Column("sd_slope", "SD of slopes", "fixed3", "between participants"),
     Column("sd_task_slope", "SD of slopes", "fixed3", "between tasks of a participant"),
-    Column("model", "random terms"),
-    Column("singular", "singular?"),
+    *FITTED,
 )
 SHOWN = tuple("n trials estimate error t df p ratio sd_slope sd_task_slope singular".split())
 
@@ -64,49 +67,28 @@ def sensitivity_section(context: Context, logs: Table | None) -> Section | None:
     )  # fmt: skip
     blocks: list[Block] = []
     for fit in fits:
-        key = _key(fit, factor, several)
+        key = key_of(fit, factor, several)
         if is_defined(fit.p):
-            p = table.cite(key, "p")
             start = f"{fit.level}: " if several else ""
             blocks.append(
                 say(
-                    f"{start}With every trial as a row and {_terms(fit)}: ratio {{}}, 95 % CI "
-                    "[{}, {}], t({}) = {}, p "
-                    f"{'' if p.text.startswith(('<', '>')) else '= '}{{}}. "
+                    f"{start}With every trial as a row and {_terms(fit)}: {{}}. "
                     f"{_same(context, fit, logs, several)}",
-                    table.cite(key, "ratio"),
-                    table.cite(key, "low"),
-                    table.cite(key, "high"),
-                    table.cite(key, "df"),
-                    table.cite(key, "t"),
-                    p,
+                    cited_ratio(table, key),
                 )
             )
     scenes = scene_blocks(context, factor, first)
     return Section("sensitivity", TITLE, (*blocks, table, *scenes, *robust_blocks(context)))
 
 
-def _key(fit: MixedEffect, factor: Factor, several: bool) -> str:
-    return f"{factor.name}={fit.level}" if several else factor.name
-
-
 def _row(fit: MixedEffect, factor: Factor, several: bool) -> dict[str, object]:
     return {
-        "effect": _key(fit, factor, several),
+        "effect": key_of(fit, factor, several),
         "n": fit.n,
         "trials": fit.trials,
-        "estimate": fit.estimate,
-        "error": fit.error,
-        "t": fit.t,
-        "df": fit.df,
-        "p": fit.p,
-        "ratio": fit.ratio,
-        "low": fit.interval[0],
-        "high": fit.interval[1],
+        **shared_values(fit),
         "sd_slope": fit.sd_slope,
         "sd_task_slope": fit.sd_task_slope,
-        "model": fit.model,
-        "singular": fit.singular,
     }
 
 

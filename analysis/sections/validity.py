@@ -14,6 +14,7 @@ from seethrough.analysis.equivalence import no_difference
 from seethrough.analysis.figures.validity import learning_figure
 from seethrough.analysis.load.plan import Plan
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Section, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import negligible, not_found
 from seethrough.analysis.sections.difficulty import difficulty_blocks
@@ -118,8 +119,7 @@ def _carried(main: Factor) -> str:
 def _order_f(table: Table, name: str) -> list[str | Cited]:
     p = table.cite(name, "p")
     df1, df2, f = (table.cite(name, column) for column in ("df1", "df2", "F"))
-    equals = ", p " if p.text.startswith(("<", ">")) else ", p = "
-    return ["F(", df1, ",\u00a0", df2, ") = ", f, equals, p]
+    return ["F(", df1, ",\u00a0", df2, ") = ", f, f", p {equals(p.text)}", p]
 
 
 def _or(names: list[str]) -> str:
@@ -168,10 +168,11 @@ def _slope(table: Table) -> Prose:
     p, start = table.cite(key, "p"), "From one trial of a task set to the next, times change by "
     if not is_defined(p.value):
         return say(f"{start}a factor of {{}}; no test: {{}}.", table.cite(key, "ratio"), p)
-    words = "p " if p.text.startswith(("<", ">")) else "p = "
     cited = [table.cite(key, name) for name in ("ratio", "low", "high", "df", "t")]
     return say(
-        f"{start}a factor of {{}}, 95 % CI [{{}}, {{}}], t({{}}) = {{}}, {words}{{}}.", *cited, p
+        f"{start}a factor of {{}}, 95 % CI [{{}}, {{}}], t({{}}) = {{}}, p {equals(p.text)}{{}}.",
+        *cited,
+        p,
     )
 
 

@@ -1,4 +1,4 @@
-"""Short names for arrays' types; shapes stand in the docstrings."""
+"""The short name of arrays' type, whose shapes stand in docstrings; and the mean of one."""
 
 from __future__ import annotations
 
@@ -8,3 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array: TypeAlias = NDArray[np.float64]
+
+
+def mean_of(x: Array) -> float:
+    """The mean of (n,) values, n ≥ 1, with the rounding of the first pass taken out."""
+    first = x.mean()
+    return float(first + (x - first).mean())

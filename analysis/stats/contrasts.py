@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.analysis.stats.arrays import Array
+from seethrough.analysis.stats.arrays import Array, mean_of
 from seethrough.analysis.stats.distributions import t_quantile, t_two_sided, t_upper
 from seethrough.analysis.stats.undefined import (
     ALL_EQUAL,
@@ -58,7 +58,7 @@ def estimate(
     if not used or any(len(g) == 0 for g, _ in used):
         raise ValueError("a group has nobody")
     n, least = sum(len(g) for g, _ in used), min(len(g) for g, _ in used)
-    value = float(sum(w * _mean(g) for g, w in used))
+    value = float(sum(w * mean_of(g) for g, w in used))
     needed = LEAST if len(used) > 1 else 2
     why = ""
     if least < needed:
@@ -79,11 +79,6 @@ def estimate(
     t = value / error
     ends = (value - half, value + half)
     return Estimate(n, least, value, error, df, t, t_two_sided(t, df), ends)
-
-
-def _mean(x: Array) -> float:
-    first = x.mean()
-    return float(first + (x - first).mean())
 
 
 def within_margin(found: Estimate, margin: float) -> tuple[Number, Number, Number]:

@@ -214,12 +214,3 @@ def _shift(df: int, alpha: float, power: float) -> float:
     """The noncentrality that t of `df` finds with this power."""
     critical = t_quantile(1 - alpha / 2, df) ** 2
     return _solve(lambda nc: noncentral_f_cdf(critical, 1, df, nc**2), 1 - power, 3.0, 1.0)
-
-
-def holm(p: list[float]) -> list[float]:
-    """Holm's step-down adjusted p values, in the order given."""
-    order = np.argsort(p, kind="stable")
-    scaled = np.asarray(p)[order] * (len(p) - np.arange(len(p)))
-    adjusted = np.empty(len(p))
-    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1.0)
-    return adjusted.tolist()

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seethrough.analysis.stats.arrays import Array
+from seethrough.analysis.stats.arrays import Array, mean_of
 from seethrough.analysis.stats.distributions import (
     bayes_factor_t,
     noncentral_t_interval,
@@ -61,7 +61,7 @@ def one_sample(scores: Array, scale: float | None = None, level: float = 0.95) -
     if n == 0:
         raise ValueError("no participants")
     scale = float(np.max(np.abs(scores))) if scale is None else scale
-    mean = _mean(scores)
+    mean = mean_of(scores)
     reason = ONE_PARTICIPANT if n < 2 else ALL_EQUAL if spread_is_noise(scores, scale) else ""
     if reason:
         gone, ends = Undefined(reason), no_interval(reason)
@@ -87,12 +87,6 @@ def one_sample(scores: Array, scale: float | None = None, level: float = 0.95) -
     )
 
 
-def _mean(x: Array) -> float:
-    """The mean, with the rounding of the first pass taken out."""
-    first = x.mean()
-    return float(first + (x - first).mean())
-
-
 def shapiro(scores: Array) -> tuple[Number, Number]:
     """Shapiro–Wilk's W and p for normality of the differences."""
     if not 3 <= len(scores) <= 5000:
@@ -110,7 +104,7 @@ def mean_interval(values: Array, level: float = 0.95) -> Interval:
     n = len(values)
     if n < 2:
         return no_interval(ONE_PARTICIPANT)
-    mean = _mean(values)
+    mean = mean_of(values)
     half = t_quantile((1 + level) / 2, n - 1) * float(np.std(values - values[0], ddof=1)) / n**0.5
     return mean - half, mean + half
 
@@ -118,7 +112,7 @@ def mean_interval(values: Array, level: float = 0.95) -> Interval:
 def ratio_of_means(first: Array, second: Array, level: float = 0.95) -> tuple[Number, Interval]:
     """mean(second) / mean(first) with Fieller's interval for paired data."""
     n = len(first)
-    a, b = _mean(second), _mean(first)
+    a, b = mean_of(second), mean_of(first)
     if b == 0:
         why = "the baseline's mean is zero"
         return Undefined(why), no_interval(why)

@@ -19,10 +19,10 @@ from scipy import special
 from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import (
     chi2_tail,
-    holm,
     normal_two_sided,
     studentized_range_tail,
 )
+from seethrough.analysis.stats.multiplicity import holm_of_defined
 from seethrough.analysis.stats.ties import STEPS, levels, signs, slack
 from seethrough.analysis.stats.undefined import (
     EPS,
@@ -228,8 +228,7 @@ def post_hoc(y: Array) -> list[Pair]:
     error = np.sqrt(k * (k + 1) / (12 * n))
     pairs = list(itertools.combinations(range(k), 2))
     tests = [signed_rank(y[:, a] - y[:, b], slack(y[:, a], y[:, b])) for a, b in pairs]
-    known = [t.p for t in tests if not isinstance(t.p, Undefined)]
-    adjusted = iter(holm(known))
+    adjusted = holm_of_defined([t.p for t in tests])
     return [
         Pair(
             a,
@@ -238,7 +237,7 @@ def post_hoc(y: Array) -> list[Pair]:
             # df → ∞: Nemenyi 1963 compares mean ranks with the studentised range
             studentized_range_tail(abs(means[a] - means[b]) / error, k),
             test,
-            test.p if isinstance(test.p, Undefined) else next(adjusted),
+            p,
         )
-        for (a, b), test in zip(pairs, tests, strict=True)
+        for (a, b), test, p in zip(pairs, tests, adjusted, strict=True)
     ]

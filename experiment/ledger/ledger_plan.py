@@ -37,7 +37,7 @@ class Plan:
 
 def plan_of(study: Study) -> Plan:
     """The plan of a study's config."""
-    table, stale_after, design = study.study, study.session.stale_after, study.plan
+    table, stale_after, design = study.general, study.session.stale_after, study.plan
     digest, resolved = study.digest(), study.resolved()
     if len(design.groups) > 1:
         resolved["groups"] = [

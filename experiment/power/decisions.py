@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from seethrough.analysis.stats.multiplicity import holm
 from seethrough.analysis.stats.ranks import sign_test
 
 Array = NDArray[np.float64]
@@ -126,9 +127,12 @@ def _estimate(
 
 
 def _signs(test: Test, groups: Sequence[Array]) -> Results:
-    """Friedman's exact test of two levels: the sign test; groups are taken together."""
+    """Friedman's exact test of two levels: the sign test; groups are taken together.
+
+    Scores of tied levels are 0 (power_data.py).
+    """
     scores = np.concatenate([g[:, :, test.column] for g in groups], axis=1)
-    wins, losses = (scores > 1e-12).sum(axis=1), (scores < -1e-12).sum(axis=1)
+    wins, losses = (scores > 0).sum(axis=1), (scores < 0).sum(axis=1)
     p = _sign_table(scores.shape[1])[wins, losses]
     way = np.sign(wins - losses)
     known = np.isfinite(scores).sum(axis=1)
@@ -160,18 +164,9 @@ def decide(planned: Planned, results: Sequence[Results], alpha: float) -> Decide
     p = np.stack([r.p for r in results])
     there = np.stack([r.there for r in results])
     fits = np.stack([r.fits for r in results])
-    used = _holm(p) if planned.any else p
+    used = holm(p) if planned.any else p
     shown = there & (used < alpha)
     reached = shown & (fits > 0)
     against = (shown & (fits < 0)).any(axis=0)
     some, every = reached.any(axis=0), (reached | ~there).all(axis=0) & there.any(axis=0)
     return Decided(np.asarray(some if planned.any else every), np.asarray(against))
-
-
-def _holm(p: Array) -> Array:
-    """(k, R) Holm's adjusted p in each column."""
-    order = np.argsort(p, axis=0, kind="stable")
-    scaled = np.take_along_axis(p, order, axis=0) * (len(p) - np.arange(len(p)))[:, None]
-    adjusted = np.empty_like(p)
-    np.put_along_axis(adjusted, order, np.minimum(np.maximum.accumulate(scaled, axis=0), 1), axis=0)
-    return adjusted

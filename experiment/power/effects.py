@@ -57,7 +57,7 @@ class Effect:
 def design_of(study: Study) -> Design:
     """The study's design as its sidecars will say it."""
     entry = json.loads(json.dumps(design_entry(study)))
-    return read_design(entry, study.study.name)
+    return read_design(entry, study.general.name)
 
 
 def effect_of(study: Study, text: str, spread: float | None, source: str | None) -> Effect:
@@ -66,7 +66,7 @@ def effect_of(study: Study, text: str, spread: float | None, source: str | None)
     plans = plans_of(design)
     if not plans.planned:
         lines = "; ".join(plans.left_out) or "it has no factor within or between people"
-        raise InputError(f"power of {study.study.name}: nothing is tested: {lines}")
+        raise InputError(f"power of {study.general.name}: nothing is tested: {lines}")
     if text == "published":
         return _published(design, plans, study.analysis.alpha)
     if match := GIVEN.fullmatch(text):

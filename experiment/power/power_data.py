@@ -17,6 +17,7 @@ from seethrough.analysis.load.plan import make_plan
 from seethrough.analysis.load.study import load_study
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.tests.measured import OVERALL, pair_key, pairs_of
+from seethrough.analysis.stats.ties import signs, slack
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.power.planned import Plans, Score, groups_of
 from seethrough.experiment.power.sources import Sampled
@@ -95,8 +96,17 @@ def _column(context: Context, score: Score, people: list[str]) -> Array:
     first, second = pair.logs if pair.logs is not None else (pair.first, pair.second)
     place = {name: k for k, name in enumerate(people)}
     at = [place[name] for name in pair.participants]
-    found[at] = score.first * first + score.second * second
+    found[at] = scores_of(score, first, second)
     return found
+
+
+def scores_of(score: Score, first: Array, second: Array) -> Array:
+    """(n,) scores of baseline and level, (n,) each: exactly 0 where the two are equal up to
+    rounding, as the report has it, so that whoever draws these people need not know what the scores
+    were made from."""
+    first, second = score.first * first, score.second * second
+    found = first + second
+    return np.where(signs(found, slack(first, second)) == 0, 0.0, found)
 
 
 def _item(context: Context, item: str, people: list[str]) -> Array:

@@ -62,7 +62,7 @@ class Recorded:
     @property
     def texts(self) -> Texts:
         """What the participant read, in their language."""
-        return texts_of(self.study, self.study.part(self.trial.levels).study.language)
+        return texts_of(self.study, self.study.part(self.trial.levels).general.language)
 
     @property
     def look(self) -> Look:

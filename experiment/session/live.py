@@ -52,9 +52,9 @@ def play_in_window(
         print(going_on(study, start), file=sys.stderr, flush=True)
     part = study.session_part(start.slot)
     if start.session == 1:  # who has begun goes on as they began
-        demand_texts(study, part.study.language)
-    texts = texts_of(study, part.study.language)
-    window = Window(part.display, texts, clock, texts.get(study.study.title))
+        demand_texts(study, part.general.language)
+    texts = texts_of(study, part.general.language)
+    window = Window(part.display, texts, clock, texts.get(study.general.title))
     window.stage.pilot = source == "pilot"
     if not refresh.fits(window.measured, window.declared):
         print(f"display: {refresh.said(window.measured, window.declared)}", file=sys.stderr)
@@ -68,7 +68,7 @@ def play_in_window(
             for line in changed:
                 print(f"since the session before: {line}", file=sys.stderr, flush=True)
         who = Who(
-            study.study.name, participant, source, start.slot, described, start.session,
+            study.general.name, participant, source, start.slot, described, start.session,
             design_entry(study),
         )  # fmt: skip
         person: Input = window if watched is None else _simulated(watched, window)

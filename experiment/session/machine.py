@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from seethrough.experiment.display.driver import samples_for
-from seethrough.experiment.session.trial import MISSED
+from seethrough.experiment.session.frames import MISSED
 from seethrough.experiment.study.config import Study
 from seethrough.experiment.study.design.design import Trial
 from seethrough.experiment.study.study_scenes import StudyScenes

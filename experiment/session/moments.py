@@ -96,6 +96,8 @@ def in_order(study: Study, slot: int, asked: Sequence[Asked], trial: int = 0) ->
         if shuffled:
             word = crc32(" ".join(one[0] for one in those).encode())
             stream = (PARTICIPANT, slot, QUESTION_STREAM, word, trial)
-            those = [those[i] for i in generator(study.study.seed, stream).permutation(len(those))]
+            those = [
+                those[i] for i in generator(study.general.seed, stream).permutation(len(those))
+            ]
         found += those
     return found

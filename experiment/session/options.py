@@ -25,7 +25,7 @@ def as_asked(task: Task, study: Study, trial: Trial) -> Task:
         if is_stranger(kind, name):
             task = Watched(task, kind, name)
             break
-    unsure = study.part(trial.levels).limits.options(trial.task).unsure
+    unsure = study.part(trial.levels).task_options.of(trial.task).unsure
     return opaque(Unsure(task)) if unsure else task
 
 
@@ -33,7 +33,7 @@ def with_confidence(record: TrialRecord, study: Study, world: Surroundings) -> T
     """The record with how sure one is, where the study asks for it and there is an answer. Raises
     Leave of who leaves the page, once the recorder has the record without it."""
     trial, outcome = record.trial, record.outcome
-    wanted = study.part(trial.levels).limits.options(trial.task).confidence
+    wanted = study.part(trial.levels).task_options.of(trial.task).confidence
     if not wanted or trial.training or outcome is None or record.repeat:
         return record
     try:

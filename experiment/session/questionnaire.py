@@ -194,14 +194,14 @@ def steps(planned: Planned, study: Study, slot: int) -> Iterator[Step]:
         planned.name,
         planned.about,
         planned.of,
-        stream=partial(generator, study.study.seed, stream),
+        stream=partial(generator, study.general.seed, stream),
         study=StudyPlaces(study, planned.cells),
     )
     at = {**planned.about, **{k: v for k, v in planned.mark.items() if k == TRIAL}}
     cell = tuple(sorted(at.items()))
     pairs = [*planned.about.items(), *((planned.factor, level) for level in planned.of)]
 
-    language = study.session_part(slot).study.language
+    language = study.session_part(slot).general.language
     its = partial(called, "question", planned.use)  # the kind may be a stranger's
 
     def step(number: int) -> Step:
@@ -271,7 +271,7 @@ class StudyPlaces:
     @property
     def seed(self) -> int:
         """The study's seed."""
-        return self.study.study.seed
+        return self.study.general.seed
 
     def place(self, world: str) -> WorldParameters:
         """The study's parameters of a world, or its defaults."""

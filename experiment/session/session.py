@@ -128,7 +128,7 @@ def _run_task_set(
     for trial in task_set.trials:
         again = True
         while again:
-            record = run.play(trial, study.part(trial.levels).limits.of(trial.task))
+            record = run.play(trial, study.part(trial.levels).task_options.limit(trial.task))
             world.recorder.trial_ends(record)
             world.progress(record)
             again = record.repeat

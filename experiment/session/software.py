@@ -46,7 +46,7 @@ def provenance(study: Study, display: Mapping[str, str], **more: object) -> dict
     return {
         "study": study.resolved(),
         "study_sha256": study.digest(),
-        "seed": study.study.seed,
+        "seed": study.general.seed,
         "program_sha256": program_sha256(),
         "versions": {name: metadata.version(name) for name in PACKAGES},
         "python": platform.python_version(),

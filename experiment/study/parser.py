@@ -153,7 +153,9 @@ def _outlast(found: Mapping[str, Any], parts: Mapping[Cell, Part]) -> list[Fault
     """Trials that may take longer than the whole session."""
     most = found["session"].limit
     longest = {
-        (task, part.limits.of(task)) for part in parts.values() for task in part.design.tasks
+        (task, part.task_options.limit(task))
+        for part in parts.values()
+        for task in part.design.tasks
     }
     return [
         Fault("task.limit", limit, f"at most session.limit ({most:g}), within which {task} ends")

@@ -40,7 +40,7 @@ def _measured(study: Study) -> tuple[str, ...]:
     found = {TIME.name: None}
     for task in study.tasks():
         found |= dict.fromkeys(measure.name for measure in TASKS[task].measures)
-        if any(part.limits.options(task).confidence for part in parts):
+        if any(part.task_options.of(task).confidence for part in parts):
             found[CONFIDENCE.name] = None
     for questions in [study.questions, *(part.questions for part in parts)]:
         for name, asked in questions.items():

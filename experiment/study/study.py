@@ -17,7 +17,7 @@ from seethrough.experiment.study.beside import plugin_files
 from seethrough.experiment.study.design.design import Design, Trial
 from seethrough.experiment.study.design.factors import Cell, Factor, Levels
 from seethrough.experiment.study.tables.cells import Part
-from seethrough.experiment.study.tables.reading import Chosen, Limits, Question
+from seethrough.experiment.study.tables.reading import Chosen, Question, TaskOptions
 from seethrough.experiment.study.tables.study_tables import (
     AnalysisTable,
     DesignTable,
@@ -37,13 +37,13 @@ from seethrough.tasks.kit.world import WorldParameters
 class Study:
     """A whole study, checked: what holds everywhere, its factors, and each cell's `parts`.
 
-    `design`, `practice`, `display`, `questions` and `study` are as the base of the study has them;
-    a level may say otherwise of its cells. `tables` are the base's technique, world and task, and
-    `look` is the base's. `translations` are the texts of languages of its own, by their files, as
-    experiment/study/translations.py reads them.
+    `general` is the [study] table. It, `design`, `practice`, `display` and `questions` are as the
+    base of the study has them; a level may say otherwise of its cells. `tables` are the base's
+    technique, world and task, and `look` is the base's. `translations` are the texts of languages
+    of its own, by their files, as experiment/study/translations.py reads them.
     """
 
-    study: StudyTable
+    general: StudyTable
     factors: tuple[Factor, ...]
     design: DesignTable
     practice: PracticeTable
@@ -52,7 +52,7 @@ class Study:
     questions: Mapping[str, Question] = field(hash=False)
     analysis: AnalysisTable
     texts: Mapping[str, str] = field(hash=False)
-    tables: Mapping[str, Chosen | Limits] = field(hash=False)
+    tables: Mapping[str, Chosen | TaskOptions] = field(hash=False)
     look: Look
     parts: Mapping[Cell, Part] = field(hash=False)
     excluded: tuple[Levels, ...] = field(hash=False)
@@ -69,7 +69,7 @@ class Study:
     @cached_property
     def plan(self) -> Design:
         """The design: which session each slot has."""
-        table = self.study
+        table = self.general
         plans = {cell: part.plan for cell, part in self.parts.items()}
         return Design(
             self.factors, plans, self.design.order, table.participants, table.seed,
@@ -84,7 +84,7 @@ class Study:
         """Where and how a trial's task is set."""
         part = self.part(trial.levels)
         plain = TASKS[trial.task].Parameters if trial.task in TASKS else NoParameters
-        own = part.limits.tables.get(trial.task) or plain()
+        own = part.task_options.tables.get(trial.task) or plain()
         return Setting(WORLDS[part.world], part.place, own)
 
     def tasks(self) -> tuple[str, ...]:
@@ -127,8 +127,15 @@ class Study:
         questions = [
             {"name": name, **_question_table(asked)} for name, asked in self.questions.items()
         ]
-        plain = ("study", "design", "practice", "display", "session", "analysis")
-        said = {name: json.loads(getattr(self, name).model_dump_json()) for name in plain}
+        plain = {
+            "study": self.general,
+            "design": self.design,
+            "practice": self.practice,
+            "display": self.display,
+            "session": self.session,
+            "analysis": self.analysis,
+        }
+        said = {name: json.loads(table.model_dump_json()) for name, table in plain.items()}
         if not self.practice.explore:
             del said["practice"]["explore"]  # so a study of before is the same study
         if not self.design.tasks:
@@ -138,7 +145,7 @@ class Study:
             "factors": [_factor_table(factor) for factor in self.factors],
             **{n: _chosen_table(t) for n, t in self.tables.items() if isinstance(t, Chosen)},
             "look": _plain(self.look),
-            "task": _limits_table(self.tables),
+            "task": _task_table(self.tables),
             "questions": questions,
             "texts": dict(self.texts),
             **({"plugins": self.plugins()} if self.plugins() else {}),
@@ -209,12 +216,13 @@ def _chosen_table(chosen: Chosen) -> dict[str, object]:
     return {**use, **{name: _plain(own) for name, own in chosen.tables.items()}}
 
 
-def _limits_table(tables: Mapping[str, Chosen | Limits]) -> dict[str, object]:
-    limits = tables["task"]
-    assert isinstance(limits, Limits)
+def _task_table(tables: Mapping[str, Chosen | TaskOptions]) -> dict[str, object]:
+    options = tables["task"]
+    assert isinstance(options, TaskOptions)
     own = {
-        name: {**_plain(limits.tables[name]), **limits.own.get(name, {})} for name in limits.tables
+        name: {**_plain(options.tables[name]), **options.own.get(name, {})}
+        for name in options.tables
     }
     # What is off is not said: so a study of before is the same study.
-    asked = limits.every.model_dump(exclude_defaults=True)
-    return {"limit": limits.every.limit, **asked, **own}
+    asked = options.every.model_dump(exclude_defaults=True)
+    return {"limit": options.every.limit, **asked, **own}

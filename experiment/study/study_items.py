@@ -80,7 +80,7 @@ class StudyItems:
 
     def _setting(self, cell: Cell, task: str) -> Setting:
         part = self.study.parts[cell]
-        own = part.limits.tables.get(task) or TASKS[task].Parameters()
+        own = part.task_options.tables.get(task) or TASKS[task].Parameters()
         return Setting(WORLDS[part.world], part.place, own)
 
     def _each(self, cell: Cell) -> int:
@@ -116,7 +116,7 @@ class StudyItems:
             order = tuple(range(count)) if count is not None else None
             if order is not None and not (isinstance(setting.place, Lists) and setting.place.items):
                 which = sorted(self.study.tasks()).index(trial.task)
-                rng = generator(self.study.study.seed, (STUDY_SCENES, ORDER, which))
+                rng = generator(self.study.general.seed, (STUDY_SCENES, ORDER, which))
                 order = tuple(rng.permutation(len(order)).tolist())
             self._orders[key] = order
         return self._orders[key]

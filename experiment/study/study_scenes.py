@@ -33,7 +33,7 @@ class StudyScenes:
         return task.begin(self._made(task, trial, setting), setting, aspect)
 
     def _made(self, task: Task, trial: Trial, setting: Setting) -> Place:
-        rng = generator(self.study.study.seed, trial.stream)
+        rng = generator(self.study.general.seed, trial.stream)
         if setting.place.scenes == OWN:
             return task.make_scene(rng, setting)
         key = (setting.place, trial.task, trial.stream)

@@ -30,7 +30,7 @@ def clashing_tasks(study: Study) -> Iterator[str]:
         first = codes.setdefault(own.code, task)
         if first != task:
             yield f"{where}: expected a code of its own, {own.code} is that of {first}"
-        asked = any(part.limits.options(task).confidence for part in study.parts.values())
+        asked = any(part.task_options.of(task).confidence for part in study.parts.values())
         sure = {CONFIDENCE.name: "what [task] confidence asks for"} if asked else {}
         for measure in own.measures:
             if said := (taken | sure).get(measure.name):

@@ -50,14 +50,14 @@ def is_own(language: str) -> bool:
 
 def languages_of(study: Study) -> tuple[str, ...]:
     """Every language that somebody in the study is spoken to in."""
-    said = [study.study.language, *(part.study.language for part in study.parts.values())]
+    said = [study.general.language, *(part.general.language for part in study.parts.values())]
     return tuple(dict.fromkeys(said))
 
 
 def own_texts(study: Study) -> dict[str, str]:
     """Where a text of the study's own stands → the text, each text once."""
     known = Texts("en").keys()
-    found = {f"{OWN}title": study.study.title}
+    found = {f"{OWN}title": study.general.title}
     for factor in study.factors:
         for level in factor.levels:
             plain = level.number is None and f"name.{level.name}" not in known
@@ -104,7 +104,7 @@ def needed(study: Study) -> dict[str, str]:
     """Every text that the study may show, by its name, in English or in the study's own words."""
     uses = {q.use for part in study.parts.values() for q in part.questions.values()}
     kinds = any(part.world != "abstract" for part in study.parts.values()) or "depth_test" in uses
-    sure = [part.limits.options(t) for part in study.parts.values() for t in part.design.tasks]
+    sure = [part.task_options.of(t) for part in study.parts.values() for t in part.design.tasks]
     texts = Texts("en", study.texts)
     plugins = texts.of_others(_used(study))
     found = {}
@@ -191,7 +191,7 @@ def template(study: Study, given: Mapping[str, str], stale: Mapping[str, str]) -
     """What is to be translated, as a file of texts: each text with its English, and what there is
     of it already. What is `stale` (name → what it was translated from) is to be translated again,
     with what it was beside it."""
-    parts = [f"# Texts of the study {study.study.name}: fill in what stands between the quotes."]
+    parts = [f"# Texts of the study {study.general.name}: fill in what stands between the quotes."]
     tables: dict[str, list[str]] = {}
     texts = needed(study)
     for key, text in texts.items():

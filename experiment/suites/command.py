@@ -1,4 +1,8 @@
-"""The commands `seethrough task|world|question`: list what there is, check one."""
+"""The commands `seethrough task|world|question`: list what there is, check one.
+
+`seethrough technique` draws what it checks, and is a command of its own
+(experiment/commands/kinds/technique.py).
+"""
 
 from __future__ import annotations
 

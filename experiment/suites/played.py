@@ -87,16 +87,16 @@ def begun(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> ob
     return task.begin(task.make_scene(np.random.default_rng(seed), setting), setting, aspect)
 
 
-def played(task: Task, setting: Setting, seed: int) -> Played:
+def played(task: Task, setting: Setting, seed: int, aspect: float = ASPECT) -> Played:
     """A trial played by a simulated person who sees all that is in the view."""
-    states, events = [begun(task, setting, seed)], list[Event]()
+    states, events = [begun(task, setting, seed, aspect)], list[Event]()
     person = SimulatedParticipant(np.random.default_rng(seed))
     person.begin_trial(task.name, 0.0)
     now, outcome = 0.0, None
     while outcome is None and len(events) < MOST_EVENTS:
         view = task.view(states[-1])
-        batch = person.events(view, partial(plain_look, view, ASPECT), now, task.name)
-        for event in (plainly_pointed(view, event) for event in batch):
+        batch = person.events(view, partial(plain_look, view, aspect), now, task.name)
+        for event in (plainly_pointed(view, event, aspect) for event in batch):
             events.append(event)
             states.append(task.on_event(states[-1], event))
         now = max(now, *(event.time for event in batch))
@@ -104,7 +104,7 @@ def played(task: Task, setting: Setting, seed: int) -> Played:
     return Played(states, events, outcome)
 
 
-def plainly_pointed(view: View, event: Event) -> Event:
+def plainly_pointed(view: View, event: Event, aspect: float = ASPECT) -> Event:
     """The event, told what it hits where the view wants to know: the thing whose middle is nearest,
     as `plain_look` has it."""
     if view.aim is None or not isinstance(event, KeyPress | PointerPress):
@@ -112,7 +112,7 @@ def plainly_pointed(view: View, event: Event) -> Event:
     if isinstance(event, KeyPress) and event.key not in ("enter", "space"):
         return event
     place = view.aim if isinstance(event, KeyPress) else (event.x, event.y)
-    away = np.hypot(*(plain_look(view, ASPECT).position - np.array(place)).T)
+    away = np.hypot(*(plain_look(view, aspect).position - np.array(place)).T)
     found = int(np.argmin(np.where(np.isfinite(away), away, np.inf)))
     return replace(event, thing=found if away[found] < NEAR else -1)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from seethrough.experiment.pages.pages import Answers, Page
 from seethrough.experiment.people.forms import Opinions
 from seethrough.experiment.people.persons.person import Person
 from seethrough.experiment.questions.kit import Asking, Question, Row
+from seethrough.experiment.suites.finding import NothingToTest
 from seethrough.experiment.suites.played import no_clock
 from seethrough.experiment.suites.suite import (
     Rule,
@@ -20,6 +22,7 @@ from seethrough.experiment.suites.suite import (
     texts_in_every_language,
     unknown_texts,
 )
+from seethrough.renderer.declared import Declares
 from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import WORLDS
@@ -51,15 +54,27 @@ def _askings() -> Iterator[Asking]:
     yield Asking("mine", {"view": "plain"}, of=LEVELS, study=_Study())
 
 
+def _tried(question: Question) -> Iterator[Declares]:
+    """Its example, and where it may be left open the example that has to be answered.
+
+    Raises NothingToTest where there is no page.
+    """
+    if not question.count(question.example):
+        raise NothingToTest("its example has no page")
+    yield question.example
+    if getattr(question.example, "required", True) is False:
+        yield replace(question.example, required=True)
+
+
 def _answered(
-    question: Question, asking: Asking, seed: int
+    question: Question, p: Declares, asking: Asking, seed: int
 ) -> Iterator[tuple[int, Page, Answers, list[Row]]]:
     """(number, page, answers, rows) of each page, by a simulated person."""
     opinions = Opinions(Person(np.random.default_rng(seed), AVERAGE))
-    for number in range(question.count(question.example)):
-        page = question.pages(question.example, asking)[number]
-        answers = question.simulate(question.example, page, opinions)
-        rows = question.rows(question.example, asking, number, answers)
+    for number in range(question.count(p)):
+        page = question.pages(p, asking)[number]
+        answers = question.simulate(p, page, opinions)
+        rows = question.rows(p, asking, number, answers)
         asking = replace(asking, given={**asking.given, **{r["item"]: r["value"] for r in rows}})
         yield number, page, answers, rows
 
@@ -78,6 +93,8 @@ def refuses_wrong_parameters(question: Question) -> Iterator[str]:
 
 def has_its_texts(question: Question) -> Iterator[str]:
     """All that it says is in every language."""
+    if not question.texts:
+        raise NothingToTest("it brings no texts")
     yield from texts_in_every_language(question, (question.name,))
     own = {key for texts in question.texts.values() for key in texts}
     yield from unknown_texts(own)
@@ -85,8 +102,7 @@ def has_its_texts(question: Question) -> Iterator[str]:
 
 def asks_the_same_again(question: Question) -> Iterator[str]:
     """One participant meets the same pages whenever they are made; their number is known."""
-    p = question.example
-    for asking in _askings():
+    for p, asking in product(_tried(question), _askings()):
         with no_clock(question):
             one, two = (question.pages(p, asking) for _ in range(2))
         if len(one) != question.count(p):
@@ -97,23 +113,23 @@ def asks_the_same_again(question: Question) -> Iterator[str]:
 
 def is_answered_by_simulated_people(question: Question) -> Iterator[str]:
     """A simulated person's answers complete every page, and the rows follow from them alone."""
-    for asking in _askings():
-        for seed in (1, 2):
-            for number, page, answers, _ in _answered(question, asking, seed):
-                form = Form(page, dict(answers))
-                if not form.complete:
-                    yield f"page {number}: {', '.join(form.missing)}: not answered"
-                if "button" not in answers:
-                    yield f"page {number}: expected a button to be pressed"
+    for p, asking, seed in product(_tried(question), _askings(), (1, 2)):
+        for number, page, answers, _ in _answered(question, p, asking, seed):
+            form = Form(page, dict(answers))
+            if not form.complete:
+                yield f"page {number}: {', '.join(form.missing)}: not answered"
+            if "button" not in answers:
+                yield f"page {number}: expected a button to be pressed"
 
 
 def writes_rows_that_it_declares(question: Question) -> Iterator[str]:
     """Rows have items that it declares, values that are numbers or nothing; one says it is done."""
-    p = question.example
-    for asking in _askings():
+    written = 0
+    for p, asking in product(_tried(question), _askings()):
         declared = set(question.items(p, asking.name))
-        for number, page, _, rows in _answered(question, asking, 1):
+        for number, page, _, rows in _answered(question, p, asking, 1):
             items = [row["item"] for row in rows]
+            written += len(rows) + bool(page.required)
             extra = set(items) - declared
             if extra:
                 yield f"page {number}: items {sorted(extra)}: not declared"
@@ -127,6 +143,8 @@ def writes_rows_that_it_declares(question: Question) -> Iterator[str]:
             last = question.last(p, asking, number)
             if page.required and not set(last) & set(items):
                 yield f"page {number}: last = {last}: expected one of {items}"
+    if not written:
+        raise NothingToTest("it writes no rows, and no page has to be answered")
 
 
 RULES: tuple[Rule[Question], ...] = (

@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from seethrough import registry
-from seethrough.experiment.suites.finding import Finding
+from seethrough.experiment.suites.finding import Finding, note
 from seethrough.experiment.suites.technique_scenes import BLUE, GREY, RED, SHAPES, Case, room
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import geometry, transforms
@@ -173,4 +173,4 @@ def asked(technique: Technique) -> Finding:
         return Finding(
             "requirements", False, f"{type(error).__name__}: {error}{registry.place_of(error)}"
         )
-    return Finding("requirements", True, ", ".join(f"{r} {found}" for r, found in words.items()))
+    return note("requirements", ", ".join(f"{r} {found}" for r, found in words.items()))

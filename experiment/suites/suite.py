@@ -1,7 +1,8 @@
 """The rules of a kind of plug-in, tried on one of them: `seethrough KIND check NAME`, our tests.
 
 A rule is a function that takes a plug-in and gives a line for everything that is wrong. One that
-raises has found something, too: a plug-in's code may do anything.
+raises has found something, too: a plug-in's code may do anything. But one that has nothing to try
+raises NothingToTest, lest it looks as if all were well.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from seethrough import registry
 from seethrough.experiment.errors import one_line
 from seethrough.experiment.pages.texts import Texts, languages
 from seethrough.experiment.session.strangers import PluginFailed, limited
-from seethrough.experiment.suites.finding import Finding
+from seethrough.experiment.suites.finding import Finding, NothingToTest, note
 from seethrough.renderer.declared import Declares, Key, declared
 
 Plugin = TypeVar("Plugin", contravariant=True)
@@ -38,12 +39,17 @@ def findings(kind: str, name: str) -> Iterator[Finding]:
     plugin = registry.get(kind, name)
     for rule in import_module(RULES[kind]).RULES:
         said = (rule.__doc__ or rule.__name__).split("\n\n")[0]
-        problems = _tried(rule, plugin)
         said = one_line(" ".join(said.split())).rstrip(".")
-        yield Finding(said, not problems, "; ".join(problems) or "nothing found")
+        try:
+            problems = _tried(rule, plugin)
+        except NothingToTest as why:
+            yield note(said, f"nothing to test: {one_line(str(why))}")
+        else:
+            yield Finding(said, not problems, "; ".join(problems) or "nothing found")
 
 
 def _tried(rule: Rule[Plugin], plugin: Plugin) -> list[str]:
+    """The first problems. Raises NothingToTest where the rule does, and had found none."""
     found = []
     try:
         with limited(RULE_LIMIT, "a rule"):
@@ -51,6 +57,9 @@ def _tried(rule: Rule[Plugin], plugin: Plugin) -> list[str]:
                 found.append(one_line(problem))
                 if len(found) == 5:
                     break
+    except NothingToTest:
+        if not found:
+            raise
     except PluginFailed as error:
         found.append(str(error))
     except Exception as error:  # a stranger's code may raise anything
@@ -71,7 +80,10 @@ def describes_itself(plugin: object, words: tuple[str, ...]) -> Iterator[str]:
 
 
 def parameters_declared(cls: type[Declares]) -> Iterator[str]:
-    """Problems with a class of parameters: frozen, each declared, and the wrong ones refused."""
+    """Problems with a class of parameters: frozen, each declared, and the wrong ones refused.
+
+    Raises NothingToTest where there is none that could be wrong.
+    """
     made = getattr(cls, "__dataclass_params__", None)
     if made is None or not made.frozen:
         yield f"Parameters = {cls!r}: expected a frozen dataclass"
@@ -81,8 +93,10 @@ def parameters_declared(cls: type[Declares]) -> Iterator[str]:
         if field.name in keys and not keys[field.name].meaning:
             yield f"{field.name}: expected to say what it means"
     given = {f.name: _some(hints[f.name]) for f in dataclasses.fields(cls) if _needed(f)}
-    for name, said in keys.items():
-        wrong = _wrong(said)
+    wrongs = {name: _wrong(said) for name, said in keys.items()}
+    if all(wrong is None for wrong in wrongs.values()):
+        raise NothingToTest("no parameter has limits or choices")
+    for name, wrong in wrongs.items():
         if wrong is None:
             continue
         try:

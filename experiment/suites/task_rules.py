@@ -8,6 +8,7 @@ from string import ascii_lowercase
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.experiment.suites.finding import NothingToTest
 from seethrough.experiment.suites.played import KEYS, anything, begun, no_clock, played, same
 from seethrough.experiment.suites.suite import (
     Rule,
@@ -29,6 +30,9 @@ BLIND = 200  # events of somebody who does not know what to do
 
 
 def _settings(task: Task) -> Iterator[Setting]:
+    """The task in each world that it names. Raises NothingToTest where that is none."""
+    if not worlds_of(task):
+        raise NothingToTest("it names no world")
     for world in worlds_of(task):
         yield setting(task, WORLDS[world].Parameters())
 
@@ -156,14 +160,24 @@ def said(task: Task, state: object) -> tuple[object, ...]:
 
 
 def fits_the_view(task: Task) -> Iterator[str]:
-    """What it draws over the view lies in the view, wide or narrow."""
+    """What it draws over the view lies in the view, wide or narrow, from a trial's first state to
+    its last."""
+    drawn = 0
     for given in _settings(task):
         for aspect in (4 / 3, 16 / 9):
-            for element in task.view(begun(task, given, SEEDS[0], aspect)).hud:
-                if isinstance(element, Button | Entry | Inset | FloorPlan):
-                    r = element.rect
-                    if min(r.x, r.y) < 0 or r.x + r.width > aspect or r.y + r.height > 1:
-                        yield f"{given.world.name}: {r} lies outside of a view {aspect:.2f} wide"
+            states = played(task, given, SEEDS[0], aspect).states
+            placed = {
+                element.rect
+                for state in (*states[:: max(1, len(states) // 10)], states[-1])
+                for element in task.view(state).hud
+                if isinstance(element, Button | Entry | Inset | FloorPlan)
+            }
+            drawn += len(placed)
+            for r in placed:
+                if min(r.x, r.y) < 0 or r.x + r.width > aspect or r.y + r.height > 1:
+                    yield f"{given.world.name}: {r} lies outside of a view {aspect:.2f} wide"
+    if not drawn:
+        raise NothingToTest("it draws no button, entry, inset or plan")
 
 
 def is_done_by_simulated_people(task: Task) -> Iterator[str]:

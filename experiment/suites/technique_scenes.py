@@ -96,6 +96,18 @@ def cases() -> tuple[Case, ...]:
     return (scattered(1), scattered(2, impenetrable=0.3), scattered(3), room(), close(), mirrored())
 
 
+def covered() -> Case:
+    """A wall across the view and, behind most of it, one large target: in the middle of the picture
+    no edge of anything, about it the borders of whatever a technique opens."""
+    at = transforms.translation
+    objects = (
+        Object(geometry.box(20, 20, 0.2), at(0, 0, 0), GREY, kind="wall"),
+        Object(geometry.box(4.2, 3.2, 0.2), at(0, 0, -1), RED, True, kind="slab"),
+    )
+    eye = np.array([0.0, 0.0, 5.0])
+    return Case("covered", Scene(objects), look_at(eye, np.zeros(3), fov_y=0.9, near=0.5, far=50))
+
+
 def fixed() -> Case:
     """A scene in which nothing may be seen through: no technique has anything to do."""
     case = scattered(4)

@@ -17,13 +17,15 @@ from numpy.typing import NDArray
 
 from seethrough import registry
 from seethrough.experiment.display.display import MEANT
+from seethrough.experiment.suites import technique_hands as hands
 from seethrough.experiment.suites import technique_hard as hard
 from seethrough.experiment.suites import technique_scenes as scenes
-from seethrough.experiment.suites.finding import Finding
+from seethrough.experiment.suites.finding import Finding, NothingToTest, note
 from seethrough.experiment.suites.played import no_clock
+from seethrough.experiment.suites.technique_hands import SIZE
+from seethrough.experiment.suites.technique_scale import at_half
 from seethrough.experiment.suites.technique_scenes import Case
 from seethrough.experiment.suites.variants import pairwise, refused
-from seethrough.renderer import events
 from seethrough.renderer.declared import declared
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.explain import explain
@@ -33,16 +35,15 @@ from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.standard.opaque import Standard
-from seethrough.tasks.kit.gestures import after as gestures_done
 
 if TYPE_CHECKING:
     from moderngl import Context
 
     from seethrough.renderer.techniques.base import Technique
 
-SIZE = (96, 72)
 STEP = 1.0  # of 255: what a picture may differ, half of it rounding to 8 bits
 LEFT_OUT = 0.02  # share of pixels too near an edge to be compared
+MOST_HALVED = 12  # combinations of options drawn at half size as well
 TAKES = ("pointer", "wheel", "second button")
 PAINTERS = (base.MASKS, base.PEELS, base.REMOVAL)
 
@@ -56,10 +57,11 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
         "refuses": tried.refuses,
         "pure": tried.pure,
         "exact": partial(tried.exact, most),
+        "half size": partial(tried.halved, most),
         "idle": tried.idle,
         "no state between frames": tried.kept,
-        "reaches": tried.reaches,
-        "replay": tried.replayed,
+        "reaches": partial(hands.reaches, technique, tried.cases[:4], tried.picture),
+        "replay": partial(hands.replayed, technique, tried.cases[0]),
         "look": tried.looked,
         "explains": tried.explained,
         "cost": tried.cost,
@@ -67,6 +69,8 @@ def check(technique: Technique, context: Context, most: int = 1000) -> Iterator[
     for name, step in steps.items():
         try:
             yield step()
+        except NothingToTest as why:
+            yield note(name, f"nothing to test: {why}")
         except Exception as error:  # a stranger's code may raise anything
             yield Finding(name, False, f"{type(error).__name__}: {error}{registry.place_of(error)}")
 
@@ -145,6 +149,8 @@ class _Tried:
                 taken.append(f"{name} = {value!r}")
             except ValueError:
                 pass
+        if not count:
+            raise NothingToTest("no parameter has limits or choices")
         said = f"{', '.join(taken)} taken" if taken else f"{count} values beyond what is allowed"
         return Finding("refuses", not taken, said)
 
@@ -156,15 +162,6 @@ class _Tried:
         renderer.draw(case.scene, case.camera, p, state=state)
         return renderer.read()
 
-    def played(self, case: Case, p: base.Parameters) -> tuple[object, list[bool]]:
-        """The state after some events of every kind, and which ones were used up."""
-        shot = base.Shot(case.scene, case.camera, SIZE)
-        state, used = self.technique.begin(p), []
-        for event in some_events():
-            state, taken = self.technique.on_event(p, state, event, shot)
-            used.append(taken)
-        return state, used
-
     def pure(self) -> Finding:
         """Asked twice, everything is the same; nothing that is passed is written into."""
         case = self.cases[0]
@@ -174,7 +171,7 @@ class _Tried:
             array = getattr(seen, field.name)
             if hasattr(array, "setflags"):
                 array.setflags(write=False)
-        state, _ = self.played(case, self.p)
+        state = hands.played(self.technique, case, self.p)
         looks = []
         try:
             for _ in range(2):
@@ -192,7 +189,8 @@ class _Tried:
         made = getattr(state, "__dataclass_params__", None)
         frozen = made is None or made.frozen
         holds = same and np.array_equal(touched, again) and frozen
-        said = "the same twice, state frozen" if holds else "differs when asked again"
+        kind = "no state" if state is None else "state frozen"
+        said = f"the same twice, {kind}" if holds else "differs when asked again"
         return Finding("pure", holds, said if frozen else "its state is no frozen dataclass")
 
     def compared(
@@ -207,7 +205,7 @@ class _Tried:
         """One exact picture against the reference; of a hard scene `any_` share may be left out,
         since what lies in one plane is nobody's."""
         drawn = self.technique.exactly(p)
-        state = self.played(case, p)[0] if played else self.technique.begin(p)
+        state = hands.played(self.technique, case, p) if played else self.technique.begin(p)
         truth = exact(case.scene, case.camera, drawn, size, state)
         apart = _apart(self.picture(case, drawn, state, size), truth)
         left = float(truth.near_edge.mean())
@@ -222,7 +220,7 @@ class _Tried:
         for k in range(max(len(variants), len(self.cases))):
             p, case = variants[k % len(variants)], self.cases[k % len(self.cases)]
             drawn = self.technique.exactly(p)
-            state = self.technique.begin(p) if k % 2 else self.played(case, p)[0]
+            state = self.technique.begin(p) if k % 2 else hands.played(self.technique, case, p)
             truth = exact(case.scene, case.camera, drawn, SIZE, state)
             apart = _apart(self.picture(case, drawn, state), truth)
             edges = float(truth.near_edge.mean())
@@ -235,6 +233,11 @@ class _Tried:
         )
         holds = worst <= STEP and left <= LEFT_OUT
         return Finding("exact", holds, said if holds else said + where)
+
+    def halved(self, most: int) -> Finding:
+        """In a picture of half the size it shows the same, widths in pixels shrunk with it."""
+        variants = pairwise(self.p, _options())[: min(most, MOST_HALVED)]
+        return at_half(variants, self.cases, scenes.covered(), self.context)
 
     def idle(self) -> Finding:
         """Where the rule changes no surface, the frame is the standard frame, byte for byte."""
@@ -269,54 +272,22 @@ class _Tried:
         renderer = Renderer(self.context, SIZE)
         wrong = []
         for case in (*self.cases, *reversed(self.cases)):
-            for state in (self.played(case, self.p)[0], self.technique.begin(self.p)):
+            for state in (
+                hands.played(self.technique, case, self.p),
+                self.technique.begin(self.p),
+            ):
                 renderer.draw(case.scene, case.camera, self.p, state=state)
                 same = np.array_equal(renderer.read(), self.picture(case, self.p, state))
                 wrong += [] if same else [case.name]
         said = f"differs on {', '.join(wrong)}" if wrong else f"{4 * len(self.cases)} frames"
         return Finding("no state between frames", not wrong, said)
 
-    def reaches(self) -> Finding:
-        """Hands that reach for a point of the world by what it takes change what it shows there."""
-        wrong, changed = [], 0
-        for case in self.cases[:4] if self.technique.active(self.p) else ():
-            shot = base.Shot(case.scene, case.camera, SIZE)
-            point = case.scene.centers[np.nonzero(case.scene.targets)[0][-1]]
-            before = self.technique.begin(self.p)
-            gestures = self.technique.reach(self.p, before, shot, point)
-            strange = {g.event for g in gestures} - self.technique.takes
-            state = gestures_done(self.p, before, shot, gestures)
-            same = np.array_equal(self.picture(case, self.p), self.picture(case, self.p, state))
-            wrong += [f"{case.name}: uses {', '.join(sorted(strange))}"] if strange else []
-            changed += not same
-        if not changed and self.technique.active(self.p):
-            wrong.append("nothing changes in any scene")
-        return Finding("reaches", not wrong, "; ".join(wrong) or f"{changed} scenes changed")
-
-    def replayed(self) -> Finding:
-        """The same events lead to the same state; only what it takes is used up."""
-        case = self.cases[0]
-        (state, used), (again, _) = self.played(case, self.p), self.played(case, self.p)
-        takes = [events.taken_as(e) in self.technique.takes for e in some_events()]
-        stolen = [
-            events.taken_as(e) for e, u, t in zip(some_events(), used, takes, strict=True) if u > t
-        ]
-        tried = pairwise(self.p, np.random.default_rng(12))
-        changes = any(self.played(case, p)[0] != self.technique.begin(p) for p in tried)
-        holds = state == again and not stolen and (changes or not self.technique.takes)
-        said = f"{sum(used)} of {len(used)} events used up, the same state again"
-        if stolen:
-            said = f"uses up {', '.join(sorted(set(stolen)))}, which it does not say it takes"
-        elif not holds:
-            said = "another state from the same events, or none from those that it takes"
-        return Finding("replay", holds, said)
-
     def looked(self) -> Finding:
         """What `look` finds of each object is the share that the reference gives it."""
         worst = 0.0
         for case in self.cases[:4]:
             p = self.technique.exactly(self.p)
-            state = self.played(case, p)[0]
+            state = hands.played(self.technique, case, p)
             seen = Renderer(self.context, SIZE).look(case.scene, case.camera, p, SIZE, state)
             truth = exact(case.scene, case.camera, p, SIZE, state)
             weights = truth.weights[: len(case.scene.objects)]
@@ -346,26 +317,7 @@ class _Tried:
                 self.context.finish()
                 times.append(time.perf_counter() - start)
         standard, own = (float(np.median(times[2:])) for times in spent)
-        return Finding("cost", True, f"{own / standard:.2f} × the standard frame at 400 × 300")
-
-
-def some_events() -> list[events.Event]:
-    """A pointer that moves, presses and drags, and keys."""
-    moves: list[events.Event] = [
-        events.PointerMove(0.1 * k, 0.5 + 0.05 * k, 0.45, 0.05, 0.0) for k in range(4)
-    ]
-    return [
-        *moves,
-        events.PointerPress(0.5, 0.65, 0.45),
-        events.Wheel(0.55, 0.65, 0.45, 2.0),
-        events.SecondPress(0.56, 0.65, 0.45),
-        events.SecondRelease(0.57, 0.65, 0.45),
-        events.PointerMove(0.6, 0.7, 0.5, 0.05, 0.05, dragging=True),
-        events.PointerRelease(0.7, 0.7, 0.5),
-        *(events.KeyPress(0.8, k) for k in ("q", "e", "up")),
-        *(events.KeyRelease(0.9, k) for k in ("q", "e", "up")),
-        events.Tick(1.0),
-    ]
+        return note("cost", f"{own / standard:.2f} × the standard frame at 400 × 300")
 
 
 def _apart(picture: NDArray[np.uint8], truth: ExactPicture) -> float:

@@ -70,7 +70,8 @@ def has_something_to_look_for(world: World) -> Iterator[str]:
 
 
 def moves_by_events_alone(world: World) -> Iterator[str]:
-    """Where one looks from follows from events, and old viewers stay where they were."""
+    """Where one looks from follows from events, as `moving` says, and old viewers stay where they
+    were."""
     p = world.Parameters()
     place = world.make(np.random.default_rng(1), p)
     start = world.viewer(place, p, ASPECT)
@@ -86,6 +87,15 @@ def moves_by_events_alone(world: World) -> Iterator[str]:
             yield f"event {number}: two ways from the same events"
         if not np.isfinite(a.eye).all():
             yield f"event {number}: the camera is nowhere"
+    cameras = [viewer.camera() for viewer in viewers]
+    moved = any(
+        not np.array_equal(a.eye, cameras[0].eye)
+        or not np.array_equal(a.rotation, cameras[0].rotation)
+        for a in cameras
+    )
+    if moved == (world.moving == "fixed"):
+        found = "something" if moved else "nothing"
+        yield f"moving = {world.moving!r}: but of {len(events)} events {found} moves the viewer"
 
 
 def says_which_keys_it_takes(world: World) -> Iterator[str]:

@@ -9,7 +9,7 @@ colours have to break at the line, and nowhere more beside it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numba import njit
@@ -59,6 +59,10 @@ class View(NamedTuple):
     b: float
     smooth: bool
     half: float
+
+
+Point: TypeAlias = tuple[float, float, float]
+"""Right, up and depth, as the camera has it."""
 
 
 class Picture(NamedTuple):
@@ -134,12 +138,12 @@ def smoothed(lines: Lines, poses: Poses, view: View, picture: Picture, room: Roo
                 px, py, pz = ends[e, 0, 0], ends[e, 0, 1], ends[e, 0, 2]
                 qx, qy, qz = ends[e, 1, 0], ends[e, 1, 1], ends[e, 1, 2]
                 _walk(
-                    xx * px + xy * py + xz * pz + xw,
-                    yx * px + yy * py + yz * pz + yw,
-                    zx * px + zy * py + zz * pz + zw,
-                    xx * qx + xy * qy + xz * qz + xw,
-                    yx * qx + yy * qy + yz * qz + yw,
-                    zx * qx + zy * qy + zz * qz + zw,
+                    (xx * px + xy * py + xz * pz + xw,
+                     yx * px + yy * py + yz * pz + yw,
+                     zx * px + zy * py + zz * pz + zw),
+                    (xx * qx + xy * qy + xz * qz + xw,
+                     yx * qx + yy * qy + yz * qz + yw,
+                     zx * qx + zy * qy + zz * qz + zw),
                     through, view.half if a != b else 0.0, view, picture, room,
                 )  # fmt: skip
     _apply(picture, room)
@@ -169,11 +173,11 @@ def _apply(picture: Picture, room: Room) -> None:
 
 @njit(cache=True, nogil=True)
 def _walk(
-    ax: float, ay: float, az: float, bx: float, by: float, bz: float,
-    through: bool, half: float, view: View, picture: Picture, room: Room,
+    a: Point, b: Point, through: bool, half: float, view: View, picture: Picture, room: Room
 ) -> None:  # fmt: skip
-    """Take what a line between two points (right, up, depth) says of the pixels that it runs
-    through; its ink reaches `half` a pixel or more to both sides, or there is none."""
+    """Take what a line between two points says of the pixels that it runs through; its ink reaches
+    `half` a pixel or more to both sides, or there is none."""
+    (ax, ay, az), (bx, by, bz) = a, b
     if az < view.near and bz < view.near:
         return
     if az < view.near:

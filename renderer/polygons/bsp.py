@@ -92,10 +92,7 @@ class _Rule:
         draws = self.rng.random((len(bounds) - 1, self.candidates))
         sample, balance = (SAMPLE, BALANCE) if self.name == "sampled" else (0, 0.0)
         f = fragments
-        best, tested = choose(
-            active, bounds, draws, sample, balance, f.shape, f.rows, f.planes, f.plane_of,
-            f.slack,
-        )  # fmt: skip
+        best, tested = choose(active, bounds, draws, sample, balance, f.pieces(), f.plane_table)
         # `fewest` has seen every polygon already; `sampled` has the splitter's row still to test.
         self.relations += tested
         if self.name == "sampled":

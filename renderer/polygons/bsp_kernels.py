@@ -6,7 +6,7 @@ import numba
 import numpy as np
 
 from seethrough.renderer.arrays import Floats, Whole
-from seethrough.renderer.polygons.cutting import COUNT, PLANE, SOURCE, START
+from seethrough.renderer.polygons.classification import COUNT, PLANE, SOURCE, START, Pieces, Planes
 from seethrough.renderer.polygons.predicates import loop_heights, loop_limit
 
 
@@ -17,11 +17,8 @@ def choose(
     draws: Floats,
     sample: int,
     balance: float,
-    shape: Whole,
-    rows: Floats,
-    planes: Floats,
-    plane_of: Whole,
-    slack: Floats,
+    pieces: Pieces,
+    planes: Planes,
 ) -> tuple[Whole, int]:
     """The best of some random candidates in each group of fragments.
 
@@ -30,6 +27,7 @@ def choose(
     difference between its sides, counted on `sample` fragments of the group, the same for all
     candidates (0: on all). Returns the positions in `active` and the number of relations tested.
     """
+    shape, rows = pieces.shape, pieces.rows
     groups = len(bounds) - 1
     k = draws.shape[1]
     best = np.empty(groups, np.int64)
@@ -56,7 +54,7 @@ def choose(
             cuts, lean = 0, 0
             for i in range(tests):
                 f = active[low + i * n // tests]
-                side = _rough_side(f, splitter, shape, rows, planes, plane_of, slack)
+                side = _rough_side(f, splitter, shape, rows, planes)
                 cuts += int(side == 3)
                 lean += int(side == 1) - int(side == 2)
             tested += min(tests, n - 1)
@@ -68,15 +66,13 @@ def choose(
 
 
 @numba.njit(inline="always")
-def _rough_side(
-    f: int, s: int, shape: Whole, rows: Floats, planes: Floats, plane_of: Whole, slack: Floats
-) -> int:
+def _rough_side(f: int, s: int, shape: Whole, rows: Floats, planes: Planes) -> int:
     """0 on, 1 front, 2 back, 3 both; corners too near to tell count as on the plane."""
-    if shape[f, PLANE] == plane_of[s]:
+    if shape[f, PLANE] == planes.plane_of[s]:
         return 0
     first = shape[f, START]
-    low, high, far = loop_heights(planes[s], rows, first, first + shape[f, COUNT])
-    limit = loop_limit(planes[s], far, slack[s])
+    low, high, far = loop_heights(planes.rows[s], rows, first, first + shape[f, COUNT])
+    limit = loop_limit(planes.rows[s], far, planes.slack[s])
     return int(high > limit) | (int(low < -limit) << 1)
 
 

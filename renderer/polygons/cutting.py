@@ -1,4 +1,4 @@
-"""Kernels that sort fragments by a plane and cut those that lie on both sides.
+"""Kernels that cut fragments which lie on both sides of a plane (classification.py).
 
 A fragment is a loop of corners in one long array of rows (x, y, z). A cut walks the loop once,
 inserts the points where it crosses the plane, and links the chains of each side along the cut
@@ -10,93 +10,27 @@ touched here: every row remembers the two rows it lies between, and `interpolate
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numba
 import numpy as np
 
 from seethrough.renderer.arrays import Bools, Floats, Real, Whole
+from seethrough.renderer.polygons.classification import COUNT, PLANE, SOURCE, START, Pieces
 from seethrough.renderer.polygons.predicates import (
-    ROUNDING,
     distance_row,
-    filtered_side,
-    loop_heights,
-    loop_limit,
 )
 
-# Columns of a fragment's shape.
-START, COUNT, SOURCE, PLANE = 0, 1, 2, 3
 
+class Ring(NamedTuple):
+    """A loop with its crossing points inserted, room for n: `corners` (n, 3), the rows each lies
+    between `ends` (n, 2), at `between` (n,), its `side` (n,), and whether it is `fresh` (n,)."""
 
-@numba.njit(cache=True)
-def classify(
-    fragments: Whole,
-    splitters: Whole,
-    shape: Whole,
-    rows: Floats,
-    fresh: Bools,
-    planes: Floats,
-    plane_of: Whole,
-    slack: Floats,
-    sign: Whole,
-    code: Whole,
-    open_: Whole,
-) -> int:
-    """Side of every corner, and of every fragment: 0 in the plane, 1 front, 2 back, 3 both.
-
-    `open_` (2, room) receives row and position of what the filter leaves undecided; returns how
-    many there are, of which only those that fit were written. Corner signs are kept for fragments
-    on both sides, or with undecided corners. Polygons of one plane lie on each other by name: a
-    fragment's rounded corners aren't asked again. `slack` (m,) is each plane's, and `fresh` marks
-    cut points, which are known to rounding only: nearer than that they are on a plane, lest
-    neighbours that were cut together cut each other once more.
-    """
-    waiting = 0
-    for i in range(len(fragments)):
-        f, s = fragments[i], splitters[i]
-        code[i] = 0
-        if shape[f, PLANE] == plane_of[s]:
-            continue
-        first = shape[f, START]
-        end = first + shape[f, COUNT]
-        low, high, far = loop_heights(planes[s], rows, first, end)
-        limit = loop_limit(planes[s], far, slack[s])
-        if low > limit:
-            code[i] = 1
-            continue
-        if high < -limit:
-            code[i] = 2
-            continue
-        seen = 0
-        for v in range(first, end):
-            side = corner_side(planes, slack, s, rows, fresh, v)
-            seen |= 1 if side == 1 else (2 if side == -1 else (4 if side == 2 else 0))
-        code[i] = seen & 3
-        if seen < 3:
-            continue
-        for v in range(first, end):
-            side = corner_side(planes, slack, s, rows, fresh, v)
-            sign[v] = side
-            if side == 2:
-                if waiting < open_.shape[1]:
-                    open_[0, waiting] = v
-                    open_[1, waiting] = i
-                waiting += 1
-    return waiting
-
-
-@numba.njit(inline="always")
-def corner_side(planes: Floats, slack: Floats, s: int, rows: Floats, fresh: Bools, v: int) -> int:
-    """What the filter makes of a corner against a plane: see `predicates.filtered_side`."""
-    x, y, z = rows[v, 0], rows[v, 1], rows[v, 2]
-    reach = slack[s]
-    if fresh[v]:
-        reach = max(reach, point_slack(x, y, z))
-    return filtered_side(planes[s], x, y, z, reach)
-
-
-@numba.njit(inline="always")
-def point_slack(x: float, y: float, z: float) -> float:
-    """What rounding a cut point costs: a distance."""
-    return ROUNDING * max(abs(x), abs(y), abs(z))
+    corners: Floats
+    ends: Whole
+    between: Floats
+    side: Whole
+    fresh: Bools
 
 
 @numba.njit(cache=True)
@@ -104,36 +38,29 @@ def cut(
     fragments: Whole,
     splitters: Whole,
     halves: bool,
-    shape: Whole,
-    rows: Floats,
-    fresh: Bools,
-    edge: Whole,
-    along: Floats,
+    pieces: Pieces,
     planes: Floats,
-    sign: Whole,
-    used: Whole,
-    parent: Whole,
-    cutter: Whole,
     out: Whole,
 ) -> int:
-    """Cut fragments by planes; append the pieces. Corner signs must be those of `classify`.
+    """Cut fragments by `planes` (m, 10); append to `pieces`, whose `used` is moved on.
 
-    `used` (2,) counts rows and fragments and is moved on. `edge` (rows, 2) and `along` (rows,)
-    say where new rows lie: on the way from one row to another, at `along`. `out` (2, room)
-    receives, for each piece, the position of its parent in `fragments` and its side (1 front,
-    -1 back). With `halves`, pieces of four corners become two triangles. Returns the number of
-    pieces.
+    Corner signs must be those of `classify`. `out` (2, room) receives, for each piece, the position
+    of its parent in `fragments` and its side (1 front, -1 back). With `halves`, pieces of four
+    corners become two triangles. Returns the number of pieces.
     """
+    shape, rows, edge, along, used = (
+        pieces.shape, pieces.rows, pieces.edge, pieces.along, pieces.used
+    )  # fmt: skip
     made = 0
     largest = 0
     for f in fragments:
         largest = max(largest, shape[f, COUNT])
     room = 2 * largest + 2
-    ring = np.empty((room, 3))
-    ends = np.empty((room, 2), np.int32)
-    between = np.empty(room)
-    side = np.empty(room, np.int8)
-    young = np.empty(room, np.bool_)
+    ring = Ring(
+        np.empty((room, 3)), np.empty((room, 2), np.int32), np.empty(room),
+        np.empty(room, np.int8), np.empty(room, np.bool_),
+    )  # fmt: skip
+    ends, between, side = ring.ends, ring.between, ring.side
     first = np.empty(room, np.int64)
     last = np.empty(room, np.int64)
     follow = np.empty(room, np.int64)
@@ -141,10 +68,19 @@ def cut(
     loop = np.empty(2 * room, np.int64)
     for i in range(len(fragments)):
         f, s = fragments[i], splitters[i]
-        size = _ring(f, s, shape, rows, fresh, planes, sign, ring, ends, between, side, young)
+        size = _ring(f, pieces, planes[s], ring)
         for wanted in (1, -1):
             chains = _chains(size, side, wanted, first, last)
-            _link(chains, first, last, ring, planes[shape[f, SOURCE]], planes[s], wanted, follow)
+            _link(
+                chains,
+                first,
+                last,
+                ring.corners,
+                planes[shape[f, SOURCE]],
+                planes[s],
+                wanted,
+                follow,
+            )
             done[:chains] = False
             for c in range(chains):
                 if done[c]:
@@ -152,21 +88,21 @@ def cut(
                 length = _loop(c, first, last, follow, done, size, loop)
                 if length < 3:
                     continue
-                pieces, corners, turn = 1, length, 0
+                parts, corners, turn = 1, length, 0
                 if halves and length == 4:
-                    pieces, corners, turn = 2, 3, _shorter_diagonal(ring, loop)
-                for half in range(pieces):
+                    parts, corners, turn = 2, 3, _shorter_diagonal(ring.corners, loop)
+                for half in range(parts):
                     for k in range(corners):
                         at = loop[(turn + 2 * half + k) % length]
                         to = used[0] + k
                         for axis in range(3):
-                            rows[to, axis] = ring[at, axis]
+                            rows[to, axis] = ring.corners[at, axis]
                         edge[to, 0], edge[to, 1], along[to] = ends[at, 0], ends[at, 1], between[at]
-                        fresh[to] = young[at]
+                        pieces.fresh[to] = ring.fresh[at]
                     piece = used[1]
                     shape[piece, START], shape[piece, COUNT] = used[0], corners
                     shape[piece, SOURCE], shape[piece, PLANE] = shape[f, SOURCE], shape[f, PLANE]
-                    parent[piece], cutter[piece] = f, s
+                    pieces.parent[piece], pieces.cutter[piece] = f, s
                     used[0] += corners
                     used[1] += 1
                     out[0, made], out[1, made] = i, wanted
@@ -175,44 +111,30 @@ def cut(
 
 
 @numba.njit()
-def _ring(
-    f: int,
-    s: int,
-    shape: Whole,
-    rows: Floats,
-    fresh: Bools,
-    planes: Floats,
-    sign: Whole,
-    ring: Floats,
-    ends: Whole,
-    between: Floats,
-    side: Whole,
-    young: Bools,
-) -> int:
-    """The loop with its crossing points inserted; returns its length."""
+def _ring(f: int, pieces: Pieces, plane: Floats, ring: Ring) -> int:
+    """The loop of fragment f with its crossing points inserted; returns its length."""
+    shape, rows, fresh, sign = pieces.shape, pieces.rows, pieces.fresh, pieces.sign
     size = 0
     begin, n = shape[f, START], shape[f, COUNT]
     for j in range(n):
         u = begin + j
         v = begin + (j + 1) % n
         for axis in range(3):
-            ring[size, axis] = rows[u, axis]
-        ends[size, 0], ends[size, 1], between[size] = u, u, 0.0
-        side[size] = sign[u]
-        young[size] = fresh[u]
+            ring.corners[size, axis] = rows[u, axis]
+        ring.ends[size, 0], ring.ends[size, 1], ring.between[size] = u, u, 0.0
+        ring.side[size] = sign[u]
+        ring.fresh[size] = fresh[u]
         size += 1
         if sign[u] * sign[v] == -1:
-            _crossing(rows, u, v, planes[s], ring, ends, between, size)
-            side[size] = 0
-            young[size] = True
+            _crossing(rows, u, v, plane, ring, size)
+            ring.side[size] = 0
+            ring.fresh[size] = True
             size += 1
     return size
 
 
 @numba.njit()
-def _crossing(
-    rows: Floats, u: int, v: int, plane: Floats, ring: Floats, ends: Whole, between: Floats, at: int
-) -> None:
+def _crossing(rows: Floats, u: int, v: int, plane: Floats, ring: Ring, at: int) -> None:
     """Where the edge from row u to row v meets the plane: the same point for v to u."""
     low, high = u, v
     for axis in range(3):
@@ -224,12 +146,12 @@ def _crossing(
     b = abs(distance_row(plane, rows[high, 0], rows[high, 1], rows[high, 2]))
     t = a / (a + b) if a + b > 0.0 else 0.5
     for k in range(3):
-        ring[at, k] = rows[low, k] + t * (rows[high, k] - rows[low, k])
-    ends[at, 0], ends[at, 1], between[at] = low, high, t
+        ring.corners[at, k] = rows[low, k] + t * (rows[high, k] - rows[low, k])
+    ring.ends[at, 0], ring.ends[at, 1], ring.between[at] = low, high, t
     # On a plane across an axis the coordinate is known without rounding.
     for axis in range(3):
         if plane[3 + (axis + 1) % 3] == 0.0 and plane[3 + (axis + 2) % 3] == 0.0:
-            ring[at, axis] = plane[axis]
+            ring.corners[at, axis] = plane[axis]
 
 
 @numba.njit(cache=True)

@@ -6,7 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Whole
-from seethrough.renderer.polygons.cutting import COUNT, SOURCE, START, classify, cut, interpolate
+from seethrough.renderer.polygons.classification import (
+    COUNT,
+    SOURCE,
+    START,
+    Pieces,
+    Planes,
+    classify,
+)
+from seethrough.renderer.polygons.cutting import cut, interpolate
 from seethrough.renderer.polygons.polygons import Polygons, check
 from seethrough.renderer.polygons.predicates import (
     has_area,
@@ -36,7 +44,8 @@ class Fragments:
 
     Fragments 0 to n - 1 are the input polygons. `source` names the polygon a fragment comes from,
     `parent` the fragment it was cut from and `cutter` the polygon that cut it (-1: none). Splitters
-    are always given as *source* polygons. `halves` cuts four-cornered pieces into triangles.
+    are always given as *source* polygons; `plane_table` has their planes. `halves` cuts
+    four-cornered pieces into triangles.
     """
 
     def __init__(
@@ -59,6 +68,7 @@ class Fragments:
         thick = thickness(polygons, self.corners)
         self.slack = np.maximum(thick, tolerance)
         self.plane_of = plane_ids(polygons, self.corners, thick)
+        self.plane_table = Planes(self.planes, self.plane_of, self.slack)
         self.rows = polygons.vertices.copy()
         self.edge = np.empty((len(self.rows), 2), np.int32)
         self.along = np.empty(len(self.rows))
@@ -86,16 +96,20 @@ class Fragments:
         """Input polygon of each fragment."""
         return self.shape[:, SOURCE]
 
+    def pieces(self) -> Pieces:
+        """The arrays as compiled code takes them: others once a cut has made room."""
+        return Pieces(
+            self.shape, self.rows, self.fresh, self.edge, self.along, self.sign, self.parent,
+            self.cutter, self.used,
+        )  # fmt: skip
+
     def classify(self, fragments: Whole, splitters: Whole) -> NDArray[np.int8]:
         """COPLANAR, IN_FRONT, BEHIND or CUT of each fragment against its splitter."""
         code = np.empty(len(fragments), np.int8)
         # Few corners are undecided as a rule; if more are, once more with room for all.
         open_ = np.empty((2, 64 + len(fragments) // 16), np.int64)
         while True:
-            waiting = classify(
-                fragments, splitters, self.shape, self.rows, self.fresh, self.planes,
-                self.plane_of, self.slack, self.sign, code, open_,
-            )  # fmt: skip
+            waiting = classify(fragments, splitters, self.pieces(), self.plane_table, code, open_)
             if waiting <= open_.shape[1]:
                 break
             open_ = np.empty((2, waiting), np.int64)
@@ -126,10 +140,7 @@ class Fragments:
         self._reserve(rows, pieces)
         out = np.empty((2, pieces), np.int64)
         begin = int(self.used[1])
-        made = cut(
-            fragments, splitters, self.halves, self.shape, self.rows, self.fresh, self.edge,
-            self.along, self.planes, self.sign, self.used, self.parent, self.cutter, out,
-        )  # fmt: skip
+        made = cut(fragments, splitters, self.halves, self.pieces(), self.planes, out)
         if self.used[1] > self.most:
             raise TooManyPieces(
                 f"{len(self.inputs)} polygons cross so densely that they fall into more than "

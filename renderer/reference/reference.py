@@ -12,7 +12,7 @@ techniques/dynamic/exact.py names.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,14 +40,16 @@ class ExactPicture:
 
 
 def exact(
-    scene: Scene, camera: Camera, technique: Parameters, size: tuple[int, int], state: object = None
-) -> ExactPicture:
+    scene: Scene, camera: Camera, technique: Parameters, size: tuple[int, int],
+    state: object = None, scale: float = 1.0,
+) -> ExactPicture:  # fmt: skip
     """The picture of `size` (width, height) as a technique with these parameters defines it,
-    without approximation. Without a `state` it is the one before the first event."""
+    without approximation. Without a `state` it is the one before the first event; `scale` is the
+    picture's size over the window's."""
     rules = technique.technique
     state = rules.begin(technique) if state is None else state
-    shot = Shot(scene, camera, size)
-    shot = Shot(rules.shown(technique, state, shot).scene, camera, size)
+    shot = Shot(scene, camera, size, scale)
+    shot = replace(shot, scene=rules.shown(technique, state, shot).scene)
     seen, edges = surfaces(shot)
     known = rules.known(technique, state, seen)
     return _composed(seen, rules.rule(technique, state, seen, known), edges)

@@ -8,16 +8,16 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Floats, Floats32, Ints
 
-
 TILE = 128, 16  # columns and rows: rows as long as this are worked through several at once
 
 
 def least_of_greatest(
     rows: Floats, starts: Ints, size: tuple[int, int], part: tuple[int, int, int, int]
 ) -> NDArray[np.float32]:
-    """(h, w), 0 beside the `part` (left, top, right, bottom), else 1 / the least, over some sets, of the greatest of a set's linear functions at the
-    middle of each pixel. Set k has the `rows` (m, 3: column, row, constant) from starts[k] (n + 1,)
-    to starts[k + 1]. Sets that can be least nowhere are left out first. To 10⁻⁶ of itself."""
+    """(h, w), 0 beside the `part` (left, top, right, bottom), else 1 / the least, over some sets,
+    of the greatest of a set's linear functions at the middle of each pixel. Set k has the `rows`
+    (m, 3: column, row, constant) from starts[k] (n + 1,) to starts[k + 1]. Sets that can be least
+    nowhere are left out first. To 10⁻⁶ of itself."""
     left, top, right, bottom = part
     corners = np.array([[left, top, 1], [right, top, 1], [left, bottom, 1], [right, bottom, 1.0]])
     values = rows @ corners.T  # (m, 4)

@@ -4,6 +4,8 @@ with no edit elsewhere; and the suite finds what is wrong."""
 from __future__ import annotations
 
 import csv
+import inspect
+import re
 import shutil
 import subprocess
 import sys
@@ -14,15 +16,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plugins import seethrough
+from toy_study import toy_study
 
 from seethrough import registry
 from seethrough.experiment import cli
+from seethrough.experiment.questions.kit import Question
+from seethrough.experiment.questions.number.number_question import NumberQuestion
 from seethrough.experiment.suites import suite
 from seethrough.experiment.suites.suite import RULES, findings
+from seethrough.renderer.techniques.base import Technique
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.count.count_task import Count
-from seethrough.tasks.kit.hud import Label
+from seethrough.tasks.kit.base import Task
+from seethrough.tasks.kit.hud import Button, Entry, Label, Rect
 from seethrough.tasks.kit.measure import DISTANCE
+from seethrough.tasks.kit.world import World
 from seethrough.tasks.worlds.abstract.abstract_world import Abstract
 
 LONGEST = 60  # lines of a toy, all its files together
@@ -35,6 +43,26 @@ def test_every_plugin_is_what_its_suite_demands(kind: str, name: str) -> None:
     found = list(findings(kind, name))
     assert len(found) >= 6
     assert [str(finding) for finding in found if not finding.holds] == []
+
+
+PROTOCOLS = {"Technique": Technique, "World": World, "Task": Task, "Question": Question}
+
+
+def test_the_decision_says_what_each_kind_is_asked(root: Path) -> None:
+    """The block at the end of decisions/0012 is the Protocols' methods, in their order."""
+    text = (root / "decisions" / "0012-what-a-plug-in-is.md").read_text("utf-8")
+    block = re.findall(r"```\n(.*?)```", text, re.DOTALL)[-1]
+    said: dict[str, list[tuple[str, ...]]] = {}
+    kind = ""
+    for line in block.splitlines():
+        kind = line.split()[0] if not line.startswith(" ") else kind
+        calls = re.findall(r"(\w+)\(([^)]*)\)", line)
+        said.setdefault(kind, []).extend((name, *args.split(", ")) for name, args in calls)
+    for kind, protocol in PROTOCOLS.items():
+        methods = {n: m for n, m in vars(protocol).items() if inspect.isfunction(m)}
+        own = {n: m for n, m in methods.items() if not n.startswith("_")}
+        assert said[kind] == [(n, *[*inspect.signature(m).parameters][1:]) for n, m in own.items()]
+    assert said.keys() == PROTOCOLS.keys()
 
 
 class Shifts(Count):
@@ -82,6 +110,40 @@ class Random(Abstract):
         return super().make(np.random.Generator(np.random.PCG64(time.time_ns())), parameters)
 
 
+class Still(Abstract):
+    """Says that one moves in it, and nobody can."""
+
+    def viewer(self, made, parameters, aspect):
+        return Stands(super().viewer(made, parameters, aspect))
+
+
+class Stands:
+    """A viewer whom nothing moves."""
+
+    def __init__(self, viewer):
+        self.camera = viewer.camera
+
+    def on_event(self, event):
+        return self
+
+
+class Strays(Count):
+    """Shows a button outside of the view, once the first key was pressed."""
+
+    def view(self, state):
+        view = super().view(state)
+        moved = any(isinstance(e, Entry) and e.text for e in view.hud)
+        away = Button("count.title", Rect(2.0, 0.5, 0.1, 0.1))
+        return replace(view, hud=(*view.hud, away)) if moved else view
+
+
+class Careless(NumberQuestion):
+    """Forgets to say that it was answered, where it has to be."""
+
+    def rows(self, p, asking, number, answers):
+        return [] if p.required else super().rows(p, asking, number, answers)
+
+
 @pytest.mark.parametrize(
     ("kind", "name", "plugin", "words"),
     [
@@ -90,6 +152,9 @@ class Random(Abstract):
         ("task", "count", Fragile, ("raised RuntimeError: tab",)),
         ("task", "count", Mute, ("text count.nothing", "measure distance")),
         ("world", "abstract", Random, ("ReadsTheClock",)),
+        ("world", "abstract", Still, ("of 200 events nothing moves the viewer",)),
+        ("task", "count", Strays, ("lies outside of a view",)),
+        ("question", "number", Careless, ("expected one of []",)),
     ],
 )
 def test_the_suite_finds(kind, name, plugin, words, monkeypatch):
@@ -128,31 +193,7 @@ def test_a_strangers_package_is_listed_and_passes(kind, whose, strangers):
         assert words[0] == "check" or name in run.stdout
 
 
-STUDY = """
-[study]
-name = "toys"
-title = "Toys"
-description = "What strangers' packages bring along."
-participants = 2
-seed = 1
-[display]
-width = 160
-height = 120
-[factors.view]
-levels.plain = { technique.use = "standard" }
-levels.xray = { technique.use = "dynamic" }
-[factors.place]
-levels.cube = { world.use = "abstract", design.tasks = ["toy_task"] }
-levels.row = { world.use = "toy_world", design.tasks = ["depth_order"] }
-[world.abstract]
-objects = 40
-[world.toy_world]
-balls = 8
-[design]
-trials = 1
-[questions]
-liked = { use = "toy_question", when = "condition", text = "Did you like it?" }
-"""
+STUDY = toy_study("xray", "dynamic")
 
 
 def test_strangers_objects_go_through_a_whole_study(strangers, tmp_path):

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 LONGEST_FILE = 400  # lines: a file holds one thing, and its reader can hold it too
+MOST_PARAMETERS = 10  # of a function: what belongs together travels as a record
 LARGEST_FILE = 2**20  # bytes: what is larger is made by a command, not kept
 CODE = {".py", ".vert", ".frag", ".geom", ".comp", ".glsl", ".css", ".js"}
 TEXT = {*CODE, ".md", ".toml", ".txt", ".cff", ".csv", ".json", ".html", ".yml", ".svg", ""}
@@ -65,6 +66,20 @@ def test_files_hold_one_thing(tree: list[Path], root: Path) -> None:
     assert not {str(path): n for path, n in lengths.items() if n > LONGEST_FILE}
 
 
+def test_no_function_takes_more_than_ten_parameters(tree: list[Path], root: Path) -> None:
+    """Kernels take named tuples, which cost compiled code nothing."""
+    found = {}
+    for file in (f for f in tree if f.suffix == ".py"):
+        for node in ast.walk(ast.parse(_text(file))):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                names = [a.arg for a in (*node.args.posonlyargs, *node.args.args,
+                                         *node.args.kwonlyargs)]  # fmt: skip
+                where = f"{file.relative_to(root)}:{node.lineno} {node.name}"
+                found[where] = len(names) - (names[:1] in (["self"], ["cls"]))
+    assert len(found) > 5000  # it finds what there is
+    assert {where: n for where, n in found.items() if n > MOST_PARAMETERS} == {}
+
+
 def test_files_are_small(tree: list[Path], root: Path) -> None:
     """No file is larger than 1 MiB."""
     sizes = {str(f.relative_to(root)): f.stat().st_size for f in tree}
@@ -110,6 +125,20 @@ def test_public_names_are_documented(sources: list[Path], root: Path) -> None:
                 name = getattr(node, "name", "the module")
                 silent.append(f"{source.relative_to(root)}: {name}")
     assert not silent
+
+
+MADE = {"parquet/"}  # in a study's data folder
+NAMED = re.compile(r"`([\w./-]+(?:/|\.(?:py|md|toml|txt|R|frag|rst|csv|json)))`")
+
+
+@pytest.mark.parametrize("page", ["ARCHITECTURE.md", "CONTRIBUTING.md", "CONVENTIONS.md"])
+def test_pages_name_files_that_there_are(page: str, tree: list[Path], root: Path) -> None:
+    """Each file and folder between backquotes, by its path or by the end of one."""
+    files = [f"/{f.relative_to(root).as_posix()}" for f in tree]
+    there = [*files, *{f[: i + 1] for f in files for i, c in enumerate(f) if c == "/"}]
+    named = {n for n in NAMED.findall((root / page).read_text("utf-8")) if n not in MADE}
+    assert len(named) > 2
+    assert [n for n in sorted(named) if not any(f.endswith(f"/{n}") for f in there)] == []
 
 
 def test_shaders_say_what_they_provide(tree: list[Path], root: Path) -> None:

@@ -57,7 +57,7 @@ from seethrough.experiment.record.recorder import FileRecorder, Who
 
 def play(study, participant, slot, source, data, guard):
     provenance = {"study_sha256": study.digest()}
-    who = Who(study.study.name, participant, source, slot, provenance)
+    who = Who(study.general.name, participant, source, slot, provenance)
     FileRecorder(data, who).close("complete")
     resource.setrlimit(resource.RLIMIT_FSIZE, (1, 1))
     return "complete"

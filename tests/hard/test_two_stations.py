@@ -53,7 +53,8 @@ def play(study, participant, slot, source, data, guard):
 
     start = starting_point(study, data, source, participant, slot)
     made = {{"study_sha256": study.digest()}}
-    who = Who(study.study.name, participant, source, slot, made, start.session, design_entry(study))
+    who = Who(study.general.name, participant, source, slot, made, start.session,
+              design_entry(study))
     recorder = FileRecorder(data, who, attempts=start.attempts, guard=asks)
     number, status = max(start.done, default=0), "left"
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
@@ -12,7 +13,9 @@ from plugins import installed, seethrough
 from seethrough import registry
 from seethrough.experiment.suites import technique_hard as hard
 from seethrough.experiment.suites.technique_suite import _Tried, check, check_all
+from seethrough.renderer.events import KeyPress
 from seethrough.renderer.techniques import removal
+from seethrough.renderer.techniques.base import Gesture
 from seethrough.renderer.techniques.cutaway.cutaway import Cutaway, CutawayParameters
 
 TOY = Path(__file__).parents[1] / "plugins" / "toy_technique"
@@ -25,7 +28,7 @@ def test_a_technique_keeps_to_what_all_must(context, name):
     """As `seethrough technique check` says it."""
     found = list(check(registry.get("technique", name), context, MOST.get(name, 100)))
     assert [str(f) for f in found if not f.holds] == []
-    assert len(found) == 11
+    assert len(found) == 12
 
 
 @pytest.mark.parametrize("name", registry.known("technique"))
@@ -97,6 +100,66 @@ def test_the_suite_notices(context, name):
     """A technique with one fault fails where that fault is."""
     wrong = [f.name for f in check(_Broken(**FAULTS[name]), context, 3) if not f.holds]
     assert name in wrong
+
+
+@pytest.mark.parametrize("name", registry.known("technique"))
+def test_what_gives_nothing_to_test_is_no_verdict(context, name):
+    """Hands that do nothing reach nothing, and that is not well done."""
+    technique = registry.get("technique", name)
+    found = {f.name: f for f in check(technique, context, 1)}
+    assert not found["cost"].tested
+    assert found["reaches"].tested == bool(technique.takes)
+    assert str(found["reaches"]).startswith("ok  " if technique.takes else "note")
+    assert found["refuses"].tested == (name != "standard")
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """How often keys were pressed."""
+
+    times: int = 0
+
+
+def _answers_to(*keys):
+    """What makes a technique count presses of these keys."""
+
+    def on_event(p, state, event, shot):
+        heard = isinstance(event, KeyPress) and event.key in keys
+        return (replace(state, times=state.times + 1), True) if heard else (state, False)
+
+    return {"begin": lambda p: Pressed(), "on_event": on_event}
+
+
+HANDS = {
+    "a key that does nothing": (
+        "replay", {"takes": frozenset({"key:q", "key:x"}), **_answers_to("q")},
+        "says it takes key:x",
+    ),
+    "a key that the suite's own events lack": (
+        "replay", {"takes": frozenset({"key:q"}), **_answers_to("q", "e")},
+        "answers to key:e",
+    ),
+    "hands that change nothing, and not by default": (
+        "reaches", {"takes": frozenset({"key:q"}), **_answers_to("q"),
+                    "active": lambda p: p.planes == 1, "reach": lambda *_: (Gesture("key:q"),)},
+        "nothing changes in any scene",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", HANDS)
+def test_the_suite_notices_hands(context, what):
+    """Each of them passed while nothing brought the key, or the parameters, that it takes."""
+    name, faults, words = HANDS[what]
+    found = {f.name: f for f in check(_Broken(**faults), context, 1)}
+    assert not found[name].holds
+    assert words in found[name].said
+
+
+def test_a_state_that_nothing_is_said_of_is_noticed(context):
+    """It takes nothing, and counts keys all the same."""
+    found = {f.name: f for f in check(_Broken(**_answers_to("up")), context, 1)}
+    assert not found["replay"].holds and "answers to key:up" in found["replay"].said
 
 
 def test_a_technique_that_paints_what_it_leaves_is_not_idle(context):

@@ -24,7 +24,7 @@ def with_open_eyes(context, study, slot, seed, without):
     clock = SimulatedClock()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
     person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), without=without)
-    played = Played(study.study.name, f"S{slot:02d}", slot, keep=True)
+    played = Played(study.general.name, f"S{slot:02d}", slot, keep=True)
     seat = SimulatedInput(person, display, clock)
     run_session(study, slot, Surroundings(display, seat, clock, played, TASKS))
     return played

@@ -13,32 +13,11 @@ import time
 import pytest
 from desktop import Desktop, wait_until
 from player import START, TRIAL, open_session, trials_of
+from small_study import small_study
 from xserver import XServer
 
 TITLE = "Known times"
-STUDY = f"""
-[study]
-name = "times"
-title = "{TITLE}"
-description = "Four short trials."
-participants = 1
-seed = 5
-[design]
-tasks = ["count", "pattern"]
-trials = 1
-[factors.transparency]
-levels.standard = {{ technique.use = "standard" }}
-levels.dynamic = {{ technique.use = "dynamic" }}
-[world.abstract]
-side = 50.0
-objects = 60
-target_share = [0.3, 0.4]
-[world]
-use = "abstract"
-[practice]
-trials = 0
-[questions] # in this order
-"""
+STUDY = small_study(TITLE, "Four short trials.")
 PERIOD = 1 / 60  # s: "right to one frame"
 STAMP = 0.002  # s: X11 counts whole milliseconds, and ours is rounded to one
 PAPER = bytes((250, 247, 247))  # a page's, as blue, green, red: 0.98, 0.97, 0.97

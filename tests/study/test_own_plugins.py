@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from scripted_session import ANSWERS, MemoryRecorder, ScriptedInput, study
 from scripted_session import FakeDisplay as Display
+from toy_study import toy_study
 
 from seethrough import registry
 from seethrough.experiment import cli
@@ -30,41 +31,7 @@ from seethrough.experiment.suites.suite import findings
 from seethrough.tasks.catalog import TASKS
 
 ROOT = Path(__file__).parents[2]
-STUDY = """
-[study]
-name = "toys"
-title = "Toys"
-description = "What one study brings along."
-participants = 2
-seed = 1
-[display]
-width = 160
-height = 120
-[factors.view]
-levels.plain = { technique.use = "standard" }
-levels.near = { technique.use = "toy" }
-[factors.place]
-levels.cube = { world.use = "abstract", design.tasks = ["toy_task"] }
-levels.row = { world.use = "toy_world", design.tasks = ["depth_order"] }
-[technique.toy]
-file = "toy_technique.py"
-distance = 9.0
-[world.abstract]
-objects = 40
-[world.toy_world]
-file = "toy_world.py"
-balls = 8
-[task.toy_task]
-file = "toy_task.py"
-unsure = true
-confidence = true
-[question.toy_question]
-file = "toy_question.py"
-[design]
-trials = 1
-[questions]
-liked = { use = "toy_question", when = "condition", text = "Did you like it?" }
-"""
+STUDY = toy_study("near", "toy", brought=True)
 
 
 @pytest.fixture

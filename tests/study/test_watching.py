@@ -9,7 +9,7 @@ from small_study import SMALL
 
 from seethrough.experiment.study.config import load
 
-TITLE = load("demo").study.title
+TITLE = load("demo").general.title
 
 
 @pytest.fixture

@@ -6,8 +6,9 @@ from types import SimpleNamespace
 from seethrough.experiment.display.display import LEAVE
 from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.session.questionnaire import after, asked, before
+from seethrough.experiment.session.running import MENU
 from seethrough.experiment.session.session import _feedback, _instruction, _page
-from seethrough.experiment.session.trial import MENU, TrialRun
+from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design.design import session_for
 from seethrough.experiment.study.study_scenes import StudyScenes

@@ -37,7 +37,7 @@ class Sight:
 def sights(renderer, seed):
     """((task, level), sight) of each instruction of a slot of the published study with a seed."""
     study = load("published")
-    study = replace(study, study=study.study.model_copy(update={"seed": seed}))
+    study = replace(study, general=study.general.model_copy(update={"seed": seed}))
     display = SimpleNamespace(aspect=PICTURE_ASPECT)
     run = TrialRun(study, SimpleNamespace(scenes=None, display=display, tasks=TASKS))
     for task_set in session_for(1 + seed % 16, study.plan):

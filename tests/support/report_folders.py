@@ -109,7 +109,7 @@ def _person(case: Case, study: Study, folder: Path, person: int) -> None:
     last = plays[-1].session
     for session in range(1, last + 1):
         who = Who(
-            study.study.name,
+            study.general.name,
             f"P{person:02d}",
             case.source,
             person,
@@ -151,7 +151,7 @@ def _simulated(case: Case, study: Study, slot: int) -> Played:
     plays, answers = played(case, study, slot)
     name = f"S{slot:05d}"
     who = {
-        "study": study.study.name,
+        "study": study.general.name,
         "participant": name,
         "session": 1,
         "source": case.source,
@@ -172,7 +172,7 @@ def _simulated(case: Case, study: Study, slot: int) -> Played:
         for number, answer in enumerate(answers, start=1)
     ]
     return Played(
-        study.study.name, name, slot, trials=trials, questions=questions, status="complete"
+        study.general.name, name, slot, trials=trials, questions=questions, status="complete"
     )
 
 

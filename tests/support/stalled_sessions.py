@@ -25,6 +25,7 @@ from pathlib import Path
 import numpy as np
 from desktop import Desktop, wait_until
 from player import has_window
+from small_study import small_study
 from xserver import XServer
 
 from seethrough.experiment import cli
@@ -35,29 +36,6 @@ from seethrough.tasks.kit.letters import LETTERS
 from seethrough.tasks.pattern import pattern_task as pattern
 
 TITLE = "Stalls"
-STUDY = f"""
-[study]
-name = "stalls"
-title = "{TITLE}"
-description = "Short trials, stopped again and again."
-participants = 1
-seed = 5
-[design]
-tasks = ["count", "pattern"]
-trials = TRIALS
-[factors.transparency]
-levels.standard = {{ technique.use = "standard" }}
-levels.dynamic = {{ technique.use = "dynamic" }}
-[world.abstract]
-side = 50.0
-objects = 60
-target_share = [0.3, 0.4]
-[world]
-use = "abstract"
-[practice]
-trials = 1
-[questions] # in this order
-"""
 SLACK = 0.003  # s: X11 counts whole milliseconds, and two processes read two clocks after another
 PART = (300, 3, 200, 240)  # pixels of the view that no text is drawn on: x, y, width, height
 PAPER, NOTHING = bytes((250, 247, 247)), bytes(3)  # of a page, and where there is no window
@@ -110,7 +88,8 @@ def play(folder, seed, trials=2, stalls=6):
     rng, done = np.random.default_rng(seed), Session()
     folder.mkdir(parents=True)
     study = folder / "stalls.toml"
-    study.write_text(STUDY.replace("TRIALS", str(trials)), encoding="utf-8")
+    said = "Short trials, stopped again and again."
+    study.write_text(small_study(TITLE, said, trials=trials, practice=1), encoding="utf-8")
     with Desktop() as desktop:
         server = XServer(desktop.env["DISPLAY"])
         server.move(400, 300)

@@ -288,7 +288,7 @@ def main(folder):
     pictures.mkdir(parents=True)
     began = time.monotonic()
     with Desktop() as desktop:
-        played = killed_twice(desktop, data, pictures, load(STUDY).study.title)
+        played = killed_twice(desktop, data, pictures, load(STUDY).general.title)
     minutes = (time.monotonic() - began) / 60
     rows = rows_of(data, "trials")
     attempts = Counter(int(r["trial"]) for r in rows)

@@ -9,6 +9,7 @@ from seethrough.analysis.design import Contrast, Prediction
 from seethrough.analysis.equivalence import no_ratio
 from seethrough.analysis.measures import TASK
 from seethrough.analysis.page.blocks import Cited, Prose, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.answers.answers import Answer, depends, on_average, p_runs
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import cited_f
@@ -113,7 +114,7 @@ def by_task(logs: Table, tasks: Sequence[Mapping[str, object]], alpha: float) ->
         p = logs.cite(str(row["measure"]), "p_holm")
         runs += ["; " if i else "", f"{row['label']} {words}, ratio "]
         runs += [logs.cite(str(row["measure"]), "ratio"), ", p "]
-        runs += ["" if p.text.startswith(("<", ">")) else "= ", p]
+        runs += [equals(p.text), p]
         if words == "no difference shown" and is_defined(row["tost_p"]):
             runs += p_runs(logs, row, "tost_p")
     return [*runs, "."]

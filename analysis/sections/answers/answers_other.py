@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 
 from seethrough.analysis.design import Contrast, Measured, Prediction
 from seethrough.analysis.page.blocks import Cited, Table, say
-from seethrough.analysis.page.numbers import p_value
+from seethrough.analysis.page.numbers import equals, p_value
 from seethrough.analysis.sections.answers.answers import Answer, depends, on_average, rows_of
 from seethrough.analysis.sections.base.context import Context
-from seethrough.analysis.stats.distributions import holm, t_upper
+from seethrough.analysis.stats.distributions import t_upper
+from seethrough.analysis.stats.multiplicity import holm
 from seethrough.analysis.stats.undefined import Number, either_in, is_defined, number_in
 
 
@@ -40,7 +41,7 @@ def at_least(
     shown = p_value(p)
     said = say(
         f"{start}{verdict}. {{}} on average (n = {{}}), {prediction.value:g} was "
-        f"to be reached (one-sided p {'' if shown.startswith(('<', '>')) else '= '}{shown}).",
+        f"to be reached (one-sided p {equals(shown)}{shown}).",
         mean,
         n,
         kind="answer",
@@ -71,7 +72,7 @@ def compared(
         said = say(f"{start}not answered: a test of it is undefined.", kind="answer")
         return Answer(prediction, said, "not answered", None, len(tests))
     several = prediction.combine == "any"
-    used = holm(known) if several else known
+    used = holm(known).tolist() if several else known
     shown = [p < alpha for p in used]
     fitting = [fit for *_, fit in tests]
     reached = [s and f for s, f in zip(shown, fitting, strict=True)]
@@ -85,10 +86,10 @@ def compared(
     for i, (column, table, row, _, _) in enumerate(tests):
         key = str(row[table.columns[0].name])
         p = table.cite(key, column)
-        sign = "" if p.text.startswith(("<", ">")) else "= "
         estimate = "ratio" if row.get("ratio") is not None and "logs" in key else _estimate(row)
         runs += ["; " if i else "", f"{row['label']}: {_named(estimate)} "]
-        runs += [table.cite(key, estimate), *_interval(table, key, estimate), f", p {sign}", p]
+        runs += [table.cite(key, estimate), *_interval(table, key, estimate)]
+        runs += [f", p {equals(p.text)}", p]
     decides = min(used) if several else max(used)
     runs.append("." if len(tests) == 1 else f" ({_combined(several, decides)}).")
     runs += unlike
@@ -99,10 +100,8 @@ def _combined(several: bool, decides: float) -> str:
     if not several:
         return "all are needed, the largest p decides"
     p = p_value(decides)
-    equals = "" if p.startswith(("<", ">")) else "= "
-    return (
-        f"one is enough; these p are uncorrected, the least by Holm's correction is p {equals}{p}"
-    )
+    corrected = f"the least by Holm's correction is p {equals(p)}{p}"
+    return f"one is enough; these p are uncorrected, {corrected}"
 
 
 def _is_overall(row: Mapping[str, object]) -> bool:

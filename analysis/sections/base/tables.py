@@ -13,7 +13,7 @@ from seethrough.analysis.comparison import Pair
 from seethrough.analysis.design import Design, Factor
 from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Cited, Column, Prose, Table, say
-from seethrough.analysis.page.numbers import bounded
+from seethrough.analysis.page.numbers import bounded, equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.stats.anova import Effect
 from seethrough.analysis.stats.arrays import Array
@@ -121,7 +121,7 @@ def cited_f(table: Table, effect: str) -> list[str | Cited]:
         table.cite(effect, "df2"),
         ") = ",
         table.cite(effect, "F"),
-        ", p " if p.text.startswith(("<", ">")) else ", p = ",
+        f", p {equals(p.text)}",
         p,
         *([" by the lower bound, for participants are too few to estimate ε"] if few else []),
     ]

@@ -34,7 +34,7 @@ def aligned_blocks(context: Context, measure: Measured, cells: Cells) -> list[Bl
             continue
         several = f"_in_{task}" if len(cells.factors[TASK]) > 1 else ""
         effects = aligned_ranks(whole.values, tuple(whole.factors))
-        title = f"{measure.said[:1].upper()}{measure.said[1:]}, {context.design.task_said(task)}: "
+        title = f"{measure.title}, {context.design.task_said(task)}: "
         found.append(
             Table(f"aligned_{measure.name}{several}", f"{title}aligned ranks", EFFECTS,
                   tuple(effect_row(e) for e in effects.values()), SHOWN, gone)

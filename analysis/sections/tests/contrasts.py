@@ -4,23 +4,31 @@ trends. Where nobody is in a group, the plain contrasts stand in the pairs' tabl
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.design import Contrast, Design, Factor, Measured
+from seethrough.analysis.design import Design, Measured
 from seethrough.analysis.equivalence import NO_MARGIN
 from seethrough.analysis.measures import TASK, groups_of, over_tasks
 from seethrough.analysis.page.blocks import Block, Cited, Column, Prose, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import design_at
-from seethrough.analysis.stats.arrays import Array
-from seethrough.analysis.stats.contrasts import FEW, Estimate, estimate, trend, within_margin
-from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.sections.tests.asked_contrasts import (
+    BETWEEN,
+    CONTRAST,
+    SIMPLE,
+    TRENDS,
+    Asked,
+    asked_of,
+)
+from seethrough.analysis.stats.contrasts import FEW, Estimate, estimate, within_margin
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.undefined import Number, Undefined, is_defined, number_in
+from seethrough.analysis.words import capitalised
 
 COLUMNS = (
     Column("contrast", "contrast"),
@@ -62,25 +70,6 @@ OBSERVED = (
 )
 Row = dict[str, object]
 """A row of the table: what a column has, numbers or why there are none."""
-CONTRAST, BETWEEN, DIFFERENCE, SIMPLE = "contrast", "between", "interaction", "simple effect"
-TRENDS = {1: "linear trend", 2: "quadratic trend"}
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """A row to be: scores of everybody, the groups' weights, and what it is called.
-
-    `span`: what a slope is taken times for a ratio of the last level to the first.
-    """
-
-    key: str
-    label: str
-    kind: str
-    family: str
-    scores: Array
-    weights: Mapping[str, float]
-    scale: float
-    span: float | None = None
 
 
 def contrast_blocks(
@@ -99,7 +88,7 @@ def contrast_blocks(
     for where, own in places:
         found = _anova_of(anova, where)
         said = where if where == "overall" else context.design.task_said(where)
-        for asked in _asked(context, own, where, found):
+        for asked in asked_of(context, own, where, found):
             label = f"{said}{asked.label.removeprefix(where)}"
             made = row_of(context, own, replace(asked, label=label), measure, log)
             if made is not None:
@@ -107,12 +96,12 @@ def contrast_blocks(
                 families.append(f"{asked.family}{' overall' if where == 'overall' else ''}")
     if not rows:
         return [], {}
-    _correct(rows, families)
+    add_holm(rows, families)
     shown = ["label", "kind", "n", "estimate", "t", "df", "p", "p_holm"]
     shown += ["ratio"] if log else []
     shown += ["tost_p"] if any(isinstance(r["tost_p"], float) for r in rows) else []
     name = f"contrasts_{'log_' if log else ''}{measure.name}"
-    title = f"{measure.said[:1].upper()}{measure.said[1:]}: contrasts with their own error"
+    title = f"{measure.title}: contrasts with their own error"
     table = Table(name, title + (", logarithms" if log else ""), COLUMNS, tuple(rows),
                   tuple(shown), _note(context.design, rows))  # fmt: skip
     return [*_sentences(context, table, measure, log), table], {"contrasts": table}
@@ -135,147 +124,9 @@ def _note(design: Design, rows: Sequence[Mapping[str, object]]) -> str:
     small = sorted({number_in(r, "least") for r in rows if number_in(r, "least") < FEW})
     if design.groups and small:
         notes.append(f"Groups of fewer than {FEW} people: their p are rough (.05 to .10 for .05).")
-    notes += [OBSERVED.format(f.name[:1].upper() + f.name[1:]) for f in design.groups
+    notes += [OBSERVED.format(capitalised(f.name)) for f in design.groups
               if f.kind == "measured"]  # fmt: skip
     return " ".join(notes)
-
-
-def _asked(context: Context, cells: Cells, where: str, anova: Table | None) -> Iterator[Asked]:
-    """Every contrast that the design asks of a place, of those who did it."""
-    design = design_at(context, cells)
-    within = [f for f in design.crossed if len(cells.factors.get(f.name, ())) > 1]
-    if context.design.groups:
-        for factor in within:
-            for c in _there(factor, cells):
-                yield from _within(design, cells, where, factor, c)
-        for factor in design.groups:
-            for c in factor.contrasts():
-                weights = group_weights(design, factor, c)
-                level, scale = level_of(cells)
-                yield Asked(f"{where}/{c.key}", f"{where}: {_words(c)}", BETWEEN,
-                            f"{BETWEEN} {factor.name}", level, weights, scale)  # fmt: skip
-    for factor in within:
-        yield from _trends(design, cells, where, factor)
-    yield from _simple(design, cells, where, within, anova, context.plan.alpha)
-
-
-def _words(c: Contrast) -> str:
-    return f"{c.factor}, {c.baseline} − {c.level}"
-
-
-def _there(factor: Factor, cells: Cells) -> list[Contrast]:
-    known = cells.factors[factor.name]
-    return [c for c in factor.contrasts() if c.level in known and c.baseline in known]
-
-
-def level_of(cells: Cells) -> tuple[Array, float]:
-    """Each person's mean over the cells that are there, and the largest value."""
-    flat = cells.values.reshape(len(cells.values), -1)
-    flat = flat[:, np.isfinite(flat).any(axis=0)]
-    return flat.mean(axis=1), float(np.nanmax(np.abs(flat), initial=0.0))
-
-
-def _within(
-    design: Design, cells: Cells, where: str, factor: Factor, c: Contrast
-) -> Iterator[Asked]:
-    """A within contrast over all groups, each weighing the same, and its differences between."""
-    first, second = cells.both(factor.name, c.baseline, c.level)
-    scores, scale = first - second, float(np.nanmax(np.abs([first, second]), initial=0.0))
-    yield Asked(f"{where}/{c.key}", f"{where}: {_words(c)}", CONTRAST,
-                f"{CONTRAST} {factor.name}", scores, equal_weights(design), scale)  # fmt: skip
-    for group in design.groups:
-        for g in group.contrasts():
-            yield Asked(
-                f"{where}/{c.key}×{g.key}", f"{where}: ({_words(c)}) × ({_words(g)})", DIFFERENCE,
-                f"{DIFFERENCE} {factor.name} {group.name}", scores,
-                group_weights(design, group, g), scale,
-            )  # fmt: skip
-
-
-def equal_weights(design: Design) -> dict[str, float]:
-    """Every group weighs the same."""
-    keys = [_group_key(cell) for cell in design.cells(design.groups)]
-    return dict.fromkeys(keys, 1 / len(keys))
-
-
-def _group_key(cell: Mapping[str, str]) -> str:
-    return "\x1f".join(cell.values())
-
-
-def group_weights(design: Design, factor: Factor, c: Contrast) -> dict[str, float]:
-    """Baseline less level, over the other group factors' cells, each weighing the same."""
-    cells = list(design.cells(design.groups))
-    counts = {level: sum(cell[factor.name] == level for cell in cells) for level in factor.levels}
-    sign = {c.baseline: 1.0, c.level: -1.0}
-    return {
-        _group_key(cell): sign[cell[factor.name]] / counts[cell[factor.name]]
-        for cell in cells
-        if cell[factor.name] in sign
-    }
-
-
-def _trends(design: Design, cells: Cells, where: str, factor: Factor) -> Iterator[Asked]:
-    """Linear and quadratic trends over a within factor of numbers with three levels or more."""
-    known = cells.factors[factor.name]
-    if factor.numbers is None or len(known) < 3:
-        return
-    x = [factor.numbers[factor.levels.index(level)] for level in known]
-    axis = list(cells.factors).index(factor.name) + 1
-    moved = np.moveaxis(cells.values, axis, -1)
-    flat = moved.reshape(len(moved), -1, len(known))
-    flat = flat[:, np.all(np.any(np.isfinite(flat), axis=0), axis=1)]
-    if not flat.shape[1]:
-        return
-    for degree, kind in TRENDS.items():
-        if len(set(x)) <= degree:
-            continue
-        scores = (flat @ trend(x, degree)).mean(axis=1)
-        scale = float(np.nanmax(np.abs(flat), initial=0.0) * np.max(np.abs(trend(x, degree))))
-        yield Asked(f"{where}/{factor.name}^{degree}", f"{where}: {factor.name}, {kind}", kind,
-                    f"{kind} {factor.name}", scores, equal_weights(design), scale,
-                    x[-1] - x[0] if degree == 1 else 0.0)  # fmt: skip
-
-
-def _simple(
-    design: Design,
-    cells: Cells,
-    where: str,
-    within: Sequence[Factor],
-    anova: Table | None,
-    alpha: float,
-) -> Iterator[Asked]:
-    """Where two factors interact: each contrast of the one at every level of the other."""
-    if anova is None:
-        return
-    found = {
-        frozenset(str(r["effect"]).split(" × "))
-        for r in anova.rows
-        if is_defined(r["p_decisive"]) and r["p_decisive"] < alpha
-    }
-    for factor, other in itertools.permutations(within, 2):
-        if frozenset((factor.name, other.name)) in found:
-            for level in cells.factors[other.name]:
-                yield from _simple_rows(design, cells.pick(**{other.name: level}), where, factor,
-                                        f"{other.name} {level}", equal_weights(design))  # fmt: skip
-    for factor, group in itertools.product(within, design.groups):
-        if frozenset((factor.name, group.name)) in found:
-            for level in group.levels:
-                own = [c for c in design.cells(design.groups) if c[group.name] == level]
-                weights = {_group_key(c): 1 / len(own) for c in own}
-                yield from _simple_rows(design, cells, where, factor,
-                                        f"{group.name} {level}", weights)  # fmt: skip
-
-
-def _simple_rows(
-    design: Design, cells: Cells, where: str, factor: Factor, at: str, weights: Mapping[str, float]
-) -> Iterator[Asked]:
-    for c in _there(factor, cells):
-        first, second = cells.both(factor.name, c.baseline, c.level)
-        if not (np.isfinite(first) & np.isfinite(second)).any():
-            continue
-        scale = float(np.nanmax(np.abs([first, second]), initial=0.0))
-        yield Asked(f"{where}/{c.key}@{at.replace(' ', '=', 1)}", f"{where}, {at}: {_words(c)}",
-                    SIMPLE, f"{SIMPLE} {factor.name}", first - second, weights, scale)  # fmt: skip
 
 
 def row_of(
@@ -341,17 +192,6 @@ def _margin(found: Estimate, measure: Measured, kind: str) -> Row:
     return {"tost_margin": measure.margin, "tost_p": both, "noninferior_p": worse}
 
 
-def _correct(rows: Sequence[Row], families: Sequence[str]) -> None:
-    """Holm's p within each family."""
-    for row in rows:
-        row["p_holm"] = row["p"]
-    for family in dict.fromkeys(families):
-        inside = [r for r, f in zip(rows, families, strict=True) if f == family]
-        known = [r for r in inside if is_defined(r["p"])]
-        for row, p in zip(known, holm([number_in(r, "p") for r in known]), strict=True):
-            row["p_holm"] = p
-
-
 def _sentences(context: Context, table: Table, measure: Measured, log: bool) -> list[Prose]:
     """What was found, each with its interval; what was not in one line."""
     alpha = context.plan.alpha
@@ -361,7 +201,7 @@ def _sentences(context: Context, table: Table, measure: Measured, log: bool) -> 
         said.append(say(f"{len(shown) - MOST} more contrasts differ: see the table."))
     none = [str(r["label"]) for r in table.rows if r not in shown]
     if len(none) == len(table.rows) > MOST // 2:
-        said.append(say(f"{measure.said[:1].upper()}{measure.said[1:]}: none of {len(none)} "
+        said.append(say(f"{measure.title}: none of {len(none)} "
                         "contrasts with their own error shows a difference, which is no evidence "
                         "of equality."))  # fmt: skip
     elif none:
@@ -390,8 +230,8 @@ def _sentence(table: Table, row: Mapping[str, object], measure: Measured, log: b
         words.append(f" {measure.unit}")
     words += [", 95 % CI [", table.cite(key, ends[0]), ", ", table.cite(key, ends[1]), "], t(",
               table.cite(key, "df"), ") = ", table.cite(key, "t"), ", Holm-corrected p ",
-              "" if p.text.startswith(("<", ">")) else "= ", p, "."]  # fmt: skip
+              equals(p.text), p, "."]  # fmt: skip
     text = words[0]
     assert isinstance(text, str)
-    words[0] = text[:1].upper() + text[1:]
+    words[0] = capitalised(text)
     return say("{}", words)

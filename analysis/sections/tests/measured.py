@@ -113,7 +113,7 @@ def measured_blocks(context: Context, measure: Measured) -> tuple[list[Block], d
     table = _cells(context, measure, cells, logs)
     pairs = [] if context.design.groups else pairs_of(context, measure, cells, logs)
     if not pairs and not context.design.groups:
-        blocks.append(say(f"{_start(measure)}: nobody has a task under two levels."))
+        blocks.append(say(f"{measure.title}: nobody has a task under two levels."))
         return [*blocks, table], {}
     found: dict[str, Table] = {}
     if pairs:
@@ -127,22 +127,18 @@ def measured_blocks(context: Context, measure: Measured) -> tuple[list[Block], d
     return [*blocks, table, *factorial, *extra, *asked], found | further
 
 
-def _start(measure: Measured) -> str:
-    return measure.said[:1].upper() + measure.said[1:]
-
-
 def _cells(context: Context, measure: Measured, cells: Cells, logs: Cells | None) -> Table:
     own = [TASK, *(f.name for f in context.design.groups), *list(cells.factors)[1:]]
     names = " and ".join([", ".join(own[:-1]), own[-1]]) if len(own) > 1 else TASK
     note = "Mean and SD over participants' values of their trials in the cell."
     if logs is not None:
         note = (
-            f"{_start(measure)} in {measure.unit}; mean and SD over participants' means of their "
+            f"{measure.title} in {measure.unit}; mean and SD over participants' means of their "
             "trials; geometric mean over participants' means of the logarithms of their trials."
         )
     kind = "bound" if measure.scale in ("binary", "bounded") else "fixed"
     return cell_table(
-        f"{measure.name}_cells", f"{_start(measure)} by {names}", cells, context, note, kind, logs,
+        f"{measure.name}_cells", f"{measure.title} by {names}", cells, context, note, kind, logs,
         2 if measure.log or kind == "bound" else measure.digits,
     )  # fmt: skip
 
@@ -152,27 +148,29 @@ def _pairs(
 ) -> tuple[list[Block], dict[str, Table]]:
     """The sentences and tables of the contrasts; of a log measure those of logarithms decide."""
     tests = replace(
-        compare(pairs), key=f"tests_{measure.name}", title=f"{_start(measure)}: contrasts",
+        compare(pairs), key=f"tests_{measure.name}", title=f"{measure.title}: contrasts",
         note=_note(measure) + _shared(context),
     )  # fmt: skip
     if not measure.log:
         said = in_short(
             [(m, tests.row(m.key), _sentence(tests, m, measure, context)) for m in pairs],
-            context, _start(measure),
+            context, measure.title,
         )  # fmt: skip
         return list(said), {"tests": tests}
     unit = f" in {measure.unit}" if measure.unit else ""
     tests = replace(
-        tests, title=f"{_start(measure)}{unit}, on the raw scale", note=RAW + _shared(context)
+        tests,
+        title=f"{measure.title}{unit}, on the raw scale",
+        note=RAW + _shared(context),
     )
     logs = replace(
         compare_logs(pairs), key=f"tests_log_{measure.name}",
-        title=f"{_start(measure)} on the log scale",
+        title=f"{measure.title} on the log scale",
     )  # fmt: skip
     logs = replace(logs, note=logs.note + _shared(context))
     said = in_short(
         [(m, logs.row(m.key), _log_sentence(tests, logs, m, context)) for m in pairs],
-        context, _start(measure),
+        context, measure.title,
     )  # fmt: skip
     return list(said), {"logs": logs, "tests": tests}
 
@@ -246,15 +244,15 @@ def _figure(
 ) -> list[Block]:  # fmt: skip
     axis = f"{measure.said} ({measure.unit})" if measure.unit else measure.said
     if pairs and len({p.names for p in pairs}) == 1:
-        title = f"{_start(measure)} by task"
+        title = f"{measure.title} by task"
         return [bars_and_differences(measure.name, title, axis, pairs, found["tests"])]
-    return [level_means(measure.name, f"{_start(measure)}: means and intervals", axis, cells,
+    return [level_means(measure.name, f"{measure.title}: means and intervals", axis, cells,
                         context)]  # fmt: skip
 
 
 def _sentence(tests: Table, m: Pair, measure: Measured, context: Context) -> Prose:
     row, (first, second) = tests.row(m.key), m.names
-    what = f"{_start(measure)}, {m.label}"
+    what = f"{measure.title}, {m.label}"
     if not is_defined(row["F"]):
         return say(
             f"{what}{{}}: M = {{}} {first}, {{}} {second}; no test: {{}}.",

@@ -24,6 +24,7 @@ from seethrough.analysis.sections.base.tables import (
 )
 from seethrough.analysis.stats.split_plot import split_plot
 from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.words import capitalised
 
 UNLIKE = 2.0
 """Ratio of the groups' s.d. from which a pooled error is warned of."""
@@ -97,7 +98,7 @@ def _variants(
 
 def _title(factors: Sequence[str], measure: Measured) -> str:
     words = " × ".join(factors)
-    return f"{words[:1].upper()}{words[1:]}, {measure.said}"
+    return f"{capitalised(words)}, {measure.said}"
 
 
 UNCORRECTED = "The p of these effects are not corrected for one another."
@@ -225,7 +226,7 @@ def _sentences(
         said.append(effect_sentence(table, str(r["effect"]), (words, words), alpha))
     none = [str(r["effect"]) for r in table.rows if r not in found and is_defined(r["F"])]
     if none:
-        said.append(say(f"{measure.said[:1].upper()}{measure.said[1:]}, not shown: "
+        said.append(say(f"{measure.title}, not shown: "
                         f"{', '.join(none)}."))  # fmt: skip
     return said
 

@@ -13,6 +13,7 @@ from seethrough.analysis.comparison import Pair, corrected, decisive, headed, sd
 from seethrough.analysis.equivalence import COLUMNS as EQUIVALENCE
 from seethrough.analysis.equivalence import equivalence, no_difference
 from seethrough.analysis.page.blocks import Column, Prose, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import of_people
 from seethrough.analysis.stats.ranks import friedman, post_hoc
@@ -107,7 +108,7 @@ def friedman_sentence(table: Table, m: Pair, what: str, context: Context) -> Pro
             table.cite(key, "chi2"),
         )
     p, exact = table.cite(key, "p"), table.cite(key, "p_exact")
-    signs = ["" if c.text.startswith(("<", ">")) else "= " for c in (p, exact)]
+    signs = [equals(c.text) for c in (p, exact)]
     said = say(
         f"{what}{{}}: M = {{}} {first}, {{}} {second}; Friedman χ²({{}}) = {{}}, "
         f"p {signs[0]}{{}}, exact p (sign test) {signs[1]}{{}}, Kendall's W = {{}}.",

@@ -14,22 +14,20 @@ from seethrough.analysis.measures import TASK, groups_of, over_tasks
 from seethrough.analysis.page.blocks import Block, Column, Table, say
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import design_at
-from seethrough.analysis.sections.tests.contrasts import (
-    COLUMNS,
-    OBSERVED,
+from seethrough.analysis.sections.tests.asked_contrasts import (
     Asked,
-    Row,
     equal_weights,
     group_weights,
     level_of,
-    row_of,
 )
+from seethrough.analysis.sections.tests.contrasts import COLUMNS, OBSERVED, Row, row_of
 from seethrough.analysis.stats.arrays import Array
-from seethrough.analysis.stats.distributions import holm
 from seethrough.analysis.stats.groups import kruskal_wallis
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.ranks import signed_rank
 from seethrough.analysis.stats.ties import slack
-from seethrough.analysis.stats.undefined import is_defined, number_in
+from seethrough.analysis.stats.undefined import is_defined
+from seethrough.analysis.words import capitalised
 
 KIND = "pair"
 NOTE = (
@@ -83,12 +81,12 @@ def pairwise_blocks(context: Context, measure: Measured, cells: Cells, log: bool
                 families.append(f"{where} {factor.name}")
     if not rows:
         return []
-    _correct(rows, families)
+    add_holm(rows, families)
     shown = ("label", "n", "estimate", "t", "df", "p", "p_holm", *(["ratio"] if log else []))
     gone = ("kind", "tost_margin", "tost_p", "noninferior_p")
     columns = tuple(c for c in COLUMNS if c.name not in gone)
     name = f"pairwise_{'log_' if log else ''}{measure.name}"
-    title = f"{measure.said[:1].upper()}{measure.said[1:]}: all pairs"
+    title = f"{measure.title}: all pairs"
     table = Table(name, title + (", logarithms" if log else ""), columns, tuple(rows), shown,
                   _note(context))  # fmt: skip
     return [_sentence(context, measure, rows), table]
@@ -106,26 +104,17 @@ def _scores(
     return first - second, equal_weights(design), scale
 
 
-def _correct(rows: list[Row], families: list[str]) -> None:
-    for row in rows:
-        row["p_holm"] = row["p"]
-    for family in dict.fromkeys(families):
-        own = [r for r, f in zip(rows, families, strict=True) if f == family and is_defined(r["p"])]
-        for row, p in zip(own, holm([number_in(r, "p") for r in own]), strict=True):
-            row["p_holm"] = p
-
-
 def _note(context: Context) -> str:
     brought = [f for f in context.design.groups
                if f.kind == "measured" and f.name in context.plan.pairwise]  # fmt: skip
-    return " ".join([NOTE, *(OBSERVED.format(f.name[:1].upper() + f.name[1:]) for f in brought)])
+    return " ".join([NOTE, *(OBSERVED.format(capitalised(f.name)) for f in brought)])
 
 
 def _sentence(context: Context, measure: Measured, rows: list[Row]) -> Block:
     """Which pairs differ."""
     found = [str(r["label"]) for r in rows
              if is_defined(r["p_holm"]) and r["p_holm"] < context.plan.alpha]  # fmt: skip
-    what = f"{measure.said[:1].upper()}{measure.said[1:]}, of {len(rows)} pairs"
+    what = f"{measure.title}, of {len(rows)} pairs"
     if not found:
         return say(f"{what} none was shown to differ, which is no evidence of equality.")
     return say(f"{what} these differ: {'; '.join(found)}.")
@@ -146,8 +135,8 @@ def ranked_pairwise(context: Context, measure: Measured, cells: Cells) -> list[B
                 families.append(f"{where} {factor.name}")
     if not rows:
         return []
-    _correct(rows, families)
-    title = f"{measure.said[:1].upper()}{measure.said[1:]}: all pairs, by ranks"
+    add_holm(rows, families)
+    title = f"{measure.title}: all pairs, by ranks"
     table = Table(f"pairwise_{measure.name}", title, RANKED, tuple(rows),
                   tuple("label n statistic p p_holm method".split()), _note(context))  # fmt: skip
     return [_sentence(context, measure, rows), table]

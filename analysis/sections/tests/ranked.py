@@ -7,10 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from seethrough.analysis.cells import Cells
-from seethrough.analysis.comparison import Pair, add_holm
+from seethrough.analysis.comparison import Pair
 from seethrough.analysis.design import Factor, Measured
 from seethrough.analysis.measures import TASK, cells_of, groups_of
 from seethrough.analysis.page.blocks import Block, Column, Prose, Table, say
+from seethrough.analysis.page.numbers import equals
 from seethrough.analysis.sections.base.context import Context
 from seethrough.analysis.sections.base.tables import cell_table
 from seethrough.analysis.sections.tests.aligned import aligned_blocks
@@ -23,6 +24,7 @@ from seethrough.analysis.sections.tests.ordinal import (
 )
 from seethrough.analysis.sections.tests.pairwise import ranked_pairwise
 from seethrough.analysis.stats.groups import kruskal_wallis
+from seethrough.analysis.stats.multiplicity import add_holm
 from seethrough.analysis.stats.undefined import is_defined
 
 GROUPS = (
@@ -47,7 +49,7 @@ def ranked_blocks(context: Context, measure: Measured) -> tuple[list[Block], Tab
         return [], None
     binary = measure.scale == "binary"
     context.lacking(f"share {measure.column}" if binary else measure.said, cells)
-    what = f"{measure.said[:1].upper()}{measure.said[1:]}"
+    what = measure.title
     title = f"Share of {measure.said}" if binary else f"{what} by cell"
     table = cell_table(f"{measure.name}_cells", title, cells, context,
                        kind="bound" if binary else "fixed")  # fmt: skip
@@ -56,7 +58,7 @@ def ranked_blocks(context: Context, measure: Measured) -> tuple[list[Block], Tab
     tests = None
     if pairs:
         rows = [friedman_row(m, context, 10 + i) for i, m in enumerate(pairs)]
-        add_holm(rows, pairs, "p_exact")
+        add_holm(rows, [m.family for m in pairs], "p_exact")
         tests = friedman_table(f"friedman_{measure.name}", f"{what}: Friedman tests", rows, pairs,
                                binary)  # fmt: skip
         said = [friedman_sentence(tests, m, f"{what}, {m.label}", context) for m in pairs]
@@ -137,8 +139,7 @@ def _sentence(table: Table, key: str, what: str) -> Prose:
         return say(f"{what}, {row['label']}: {{}}.", table.cite(key, "h"))
     p = table.cite(key, "p_exact")
     return say(
-        f"{what}, {row['label']}: H({{}}) = {{}}, permutation p "
-        f"{'' if p.text.startswith(('<', '>')) else '= '}{{}}.",
+        f"{what}, {row['label']}: H({{}}) = {{}}, permutation p {equals(p.text)}{{}}.",
         table.cite(key, "df"),
         table.cite(key, "h"),
         p,

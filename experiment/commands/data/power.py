@@ -70,9 +70,9 @@ def run(arguments: argparse.Namespace) -> int:
         if put.interval is not None:
             low, high = ("∞" if isinf(n) else f"{n:.0f}" for n in put.interval)
             print(f"  {put.test.name:40s} {put.said:16s} n {low} to {high}")
-    title = f"How many participants does “{study.study.title}” need?"
+    title = f"How many participants does “{study.general.title}” need?"
     settings = f"α = {alpha:g}, {arguments.replications} replications, seed {arguments.seed}."
-    planned = study.study.participants
+    planned = study.general.participants
     smallest = (planned, effects.smallest(effect, planned, alpha))
     command = _command(arguments)
     text = page(title, effect, points, tests, least, smallest, settings, command)

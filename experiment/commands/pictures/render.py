@@ -162,7 +162,7 @@ def _study(args: argparse.Namespace, size: tuple[int, int], out: Path) -> int:
         plates(study, open_context(), size, args.samples).save(out)
     except ValueError as error:
         raise InputError(f"{args.scene}: {error}") from None
-    print(f"{out}: {len(first_trials(study))} plates of {study.study.name}")
+    print(f"{out}: {len(first_trials(study))} plates of {study.general.name}")
     return 0
 
 

@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _run(arguments: argparse.Namespace) -> int:
     study = load(arguments.study)
-    data = arguments.data or Path("data") / study.study.name
+    data = arguments.data or Path("data") / study.general.name
     if arguments.participant is not None:
         check_participant(arguments.participant)
     if arguments.slot is not None and arguments.slot < 1:
@@ -98,7 +98,9 @@ def _pilot(study: Study, data: Path, arguments: argparse.Namespace) -> tuple[str
     participant = arguments.participant or next_free(data, "pilot")
     slot = arguments.slot or len(taken(data, "pilot")) + 1
     make_folder(data)
-    locks = Locks(store.connect(store.sqlite_url(data / place.LOCKS)), f"{study.study.name} pilot")
+    locks = Locks(
+        store.connect(store.sqlite_url(data / place.LOCKS)), f"{study.general.name} pilot"
+    )
     with playing(locks, participant) as guard:
         return participant, _play(study, participant, slot, "pilot", data, guard)
 

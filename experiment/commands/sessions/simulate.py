@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     from seethrough.experiment.people.runs.out_folder import check_folder, check_visual
 
     study = load(arguments.study)
-    count = study.study.participants if arguments.participants is None else arguments.participants
+    count = study.general.participants if arguments.participants is None else arguments.participants
     if count < 1:
         raise InputError(f"--participants = {count}: expected at least 1")
     if arguments.seed < 0:
@@ -66,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
     except ValueError as error:
         raise InputError(str(error)) from None
     profile = find(arguments.profile)
-    check_folder(arguments.out, study.study.name)
+    check_folder(arguments.out, study.general.name)
     if arguments.mode == "data":
         _data_mode(arguments, count, profile, without)
     else:

@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
         if path is not None and str(path) != "-" and path.exists():
             raise InputError(f"{path}: exists already; expected a new file")
     study = load(arguments.study)
-    count = study.study.participants if arguments.slots is None else arguments.slots
+    count = study.general.participants if arguments.slots is None else arguments.slots
     if not 1 <= count <= 100_000:
         raise InputError(f"--slots = {count}: expected a number from 1 to 100000")
     if arguments.csv is not None:

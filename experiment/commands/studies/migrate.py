@@ -36,5 +36,5 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"{path}: expected a study that can be rewritten as it is")
     out.write_text(text, "utf-8")
     load(str(out))
-    print(f"{out}: {new.study.name}, {len(new.parts)} cells; {path} stays as it was")
+    print(f"{out}: {new.general.name}, {len(new.parts)} cells; {path} stays as it was")
     return 0

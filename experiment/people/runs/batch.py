@@ -44,7 +44,7 @@ class Batch:
             "provenance": {
                 "study": study.resolved(),
                 "study_sha256": study.digest(),
-                "seed": study.study.seed,
+                "seed": study.general.seed,
                 "versions": {name: metadata.version(name) for name in ("seethrough", "numpy")},
                 "simulation_seed": self.seed,
                 "profile": asdict(self.profile),

@@ -55,7 +55,7 @@ def render(
     about: Mapping[str, object], study: Study, slots: Slots, played: Sequence[Played]
 ) -> Chunk:
     """A chunk's files: `about` is its sidecar, the same for every chunk of a run."""
-    stem = stem_of(study.study.name, chunk_name(slots).replace("-", "to"))
+    stem = stem_of(study.general.name, chunk_name(slots).replace("-", "to"))
     columns = columns_of(study)
     start = start_of({**about, "chain": {}}, header_of(columns["trials"]))
     trials, last = _chained([row for p in played for row in p.trials], columns["trials"], start)
@@ -115,7 +115,7 @@ class Results(AbstractContextManager["Results"]):
         self.out = out
         self._folder = out / "data" / "simulated"
         self._check(study, about)
-        describe_dataset(out, study.study.name, columns_of(study))
+        describe_dataset(out, study.general.name, columns_of(study))
         try:
             self._parquet: ParquetWriter | nullcontext[None] = ParquetWriter()
             self.note = ""
@@ -198,7 +198,7 @@ class Results(AbstractContextManager["Results"]):
         """One folder holds one study, simulated in one way."""
         described = self.out / FILE
         if described.exists():
-            check_name(described, study.study.name)
+            check_name(described, study.general.name)
         list(self._there())
         sidecar = next(self._folder.glob("*/*_trials_data.json"), None)
         if sidecar is None:

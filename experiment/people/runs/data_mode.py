@@ -141,7 +141,7 @@ def play_session(
 ) -> Played:
     """A participant's whole session; `keep` its records and events as well as the rows."""
     person = SimulatedParticipant(generator(seed, (SIMULATED, slot)), profile, without)
-    played = Played(study.study.name, f"S{slot:02d}", slot, keep)
+    played = Played(study.general.name, f"S{slot:02d}", slot, keep)
     run_session(study, slot, _world(person, pool, study, played))
     return played
 
@@ -150,7 +150,7 @@ def play_trial(
     person: SimulatedParticipant, pool: Pool, trial: Trial
 ) -> tuple[TrialRecord, list[Event]]:
     """One trial alone, and its events."""
-    played = Played(pool.study.study.name, "S01", 1, keep=True)
+    played = Played(pool.study.general.name, "S01", 1, keep=True)
     world = _world(person, pool, pool.study, played)
     record = TrialRun(pool.study, world).play(trial, 0.0)
     return record, played.events[-1]

@@ -59,7 +59,7 @@ class Pool(StudyScenes):
 
     def begin(self, task: Task, trial: Trial, aspect: float) -> object:
         """The first state of a trial."""
-        rng = generator(self.study.study.seed, trial.stream)
+        rng = generator(self.study.general.seed, trial.stream)
         stream = trial.stream
         if self.size and self.study.setting(trial).place.scenes == OWN:
             stream = self._stream(trial.task, int(rng.integers(self.size)))
@@ -95,7 +95,7 @@ class Pool(StudyScenes):
         setting = self.setting(trial)
         name = f"{trial.task}-" + "-".join(map(str, stream))
         if (name, setting.place) not in self._scenes:
-            made = task.make_scene(generator(self.study.study.seed, stream), setting)
+            made = task.make_scene(generator(self.study.general.seed, stream), setting)
             self._scenes[name, setting.place] = made
             lattice = lattice_of(setting.world, setting.place)
             # A file's scene is the same in many trials: what it is, its fingerprint says.

@@ -69,7 +69,7 @@ class Seat:
         rng = generator(job.seed, (SIMULATED, slot))
         person = SimulatedParticipant(rng, job.profile, job.without)
         described = provenance(job.study, display.describe(), **person.about(job.seed))
-        name = job.study.study.name
+        name = job.study.general.name
         who = Who(
             name, f"S{slot:02d}", "simulated", slot, described, design=design_entry(job.study)
         )

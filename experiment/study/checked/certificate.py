@@ -83,7 +83,7 @@ class Match:
 
 def trials_of(study: Study, participants: int | None = None) -> list[Trial]:
     """Every trial of the study, with its level; walkthrough scenes occur once a participant."""
-    slots = study.plan.slots(participants or study.study.participants)
+    slots = study.plan.slots(participants or study.general.participants)
     return [
         trial
         for slot in slots

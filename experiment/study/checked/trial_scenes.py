@@ -54,7 +54,7 @@ def odd_trials(study: Study) -> Iterator[Said]:
         part, task = study.part(trial.levels), TASKS[trial.task]
         least = task.least if isinstance(task, Needs) else 0
         setting = scenes.setting(trial)
-        rng = generator(study.study.seed, trial.stream)
+        rng = generator(study.general.seed, trial.stream)
         before = rng.bit_generator.state
         made = task.make_scene(rng, setting)
         there, where = int(made.scene.targets.sum()), f"{trial.task} in the world {part.world}"

@@ -119,7 +119,7 @@ def _factor(study: Study, factor: Factor) -> dict[str, object]:
 
 def _task(study: Study, name: str, margins: dict[str, float]) -> dict[str, object]:
     task = TASKS[name]
-    asked = any(part.limits.options(name).confidence for part in study.parts.values())
+    asked = any(part.task_options.of(name).confidence for part in study.parts.values())
     measures = []
     for measure in (TIME, *task.measures, *[CONFIDENCE] * asked):
         own = margins.get(measure.column, measure.margin)

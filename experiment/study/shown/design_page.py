@@ -38,11 +38,11 @@ def page(study: Study, count: int) -> str:
         for levels in plan.conditions(which)
     ))  # fmt: skip
     looks = {name: (letters(k), color(k, len(every))) for k, name in enumerate(every)}
-    title = f"{study.study.title}: the design"
+    title = f"{study.general.title}: the design"
     parts = [
         f"<!doctype html><html lang='en'><meta charset='utf-8'><title>{escape(title)}</title>",
         f"<meta name='viewport' content='width=device-width'><style>{STYLE}</style>",
-        f"<main><h1>{escape(title)}</h1><p>{escape(study.study.description)}</p>",
+        f"<main><h1>{escape(title)}</h1><p>{escape(study.general.description)}</p>",
         "<h2>Conditions</h2><ul class='legend'>",
         *(f"<li>{_square(looks[name], 'span')}{escape(name)}</li>" for name in every),
         "</ul>",

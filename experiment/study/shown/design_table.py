@@ -37,7 +37,7 @@ def rows_of(study: Study, count: int) -> Iterator[list[object]]:
 def lines_of(study: Study, count: int) -> list[str]:
     """The design for who plans the study."""
     plan = study.plan
-    lines = [f"study      {study.study.name}: {count} people, seed {plan.seed}"]
+    lines = [f"study      {study.general.name}: {count} people, seed {plan.seed}"]
     lines += [line for factor in study.factors for line in _factor(factor, study)]
     gone = every_combination(study.factors) - len(plan.cells)
     lines.append(f"cells      {len(plan.cells)}" + (f", {gone} left out" if gone else ""))

@@ -29,12 +29,12 @@ def preregistration(study: Study) -> str:
     """The text; what a study leaves open is said to be open."""
     entry = design_entry(study)
     parts = [
-        f"# Preregistration: {study.study.title}",
-        study.study.description,
-        f"Made by `seethrough prereg` from the study `{study.study.name}`, whose SHA-256 is "
+        f"# Preregistration: {study.general.title}",
+        study.general.description,
+        f"Made by `seethrough prereg` from the study `{study.general.name}`, whose SHA-256 is "
         f"`{study.digest()}`. Every session's record has the same hash, or was another study.",
         "## Design",
-        "```text\n" + "\n".join(lines_of(study, study.study.participants)) + "\n```",
+        "```text\n" + "\n".join(lines_of(study, study.general.participants)) + "\n```",
         "Who drops out is replaced by somebody in the same row of the design; sessions end at "
         f"{study.session.limit / 60:g} minutes.",
         "## Measures",
@@ -46,7 +46,7 @@ def preregistration(study: Study) -> str:
         "## Exclusions",
         *_exclusions(study),
         "## Sample size",
-        f"{study.study.participants} people. `seethrough power` says what they can find: paste "
+        f"{study.general.participants} people. `seethrough power` says what they can find: paste "
         "its table here where it was run; none is part of the study's file.",
     ]
     return "\n\n".join(parts) + "\n"

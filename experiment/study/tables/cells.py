@@ -13,7 +13,7 @@ from seethrough.experiment.study.tables import plugins
 from seethrough.experiment.study.tables.factor_tables import where_set
 from seethrough.experiment.study.tables.merge import leaves, merged
 from seethrough.experiment.study.tables.parameter_tables import MISSING, Fault
-from seethrough.experiment.study.tables.reading import Limits, Question, Read, read
+from seethrough.experiment.study.tables.reading import Question, Read, TaskOptions, read
 from seethrough.experiment.study.tables.study_tables import (
     DesignTable,
     DisplayTable,
@@ -40,20 +40,20 @@ VARIED = (
 @dataclass(frozen=True)
 class Part:
     """What holds in a cell: `technique` draws, in the `world` made with `place`, which has that
-    `look`; `limits` of trials; `design` with its tasks, `practice` and `questions`; `display` and
-    `study` of the session."""
+    `look`; `task_options` of trials; `design` with its tasks, `practice` and `questions`; `display`
+    of the session, and `general`, the [study] table."""
 
     technique: Parameters
     technique_name: str
     world: str
     place: WorldParameters
     look: Look
-    limits: Limits
+    task_options: TaskOptions
     design: DesignTable
     practice: PracticeTable
     questions: Mapping[str, Question] = field(hash=False)
     display: DisplayTable
-    study: StudyTable
+    general: StudyTable
 
     @property
     def plan(self) -> CellPlan:

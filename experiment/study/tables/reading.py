@@ -32,7 +32,7 @@ class Chosen:
 
 
 @dataclass(frozen=True)
-class Limits:
+class TaskOptions:
     """What [task] says: what holds for `every` task, what some say of themselves (`own`: keys of
     TaskTable by task), and their parameters."""
 
@@ -40,13 +40,13 @@ class Limits:
     own: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     tables: Mapping[str, Declares] = field(default_factory=dict)
 
-    def options(self, task: str) -> TaskTable:
+    def of(self, task: str) -> TaskTable:
         """What holds for a task's trials."""
         return self.every.model_copy(update=dict(self.own.get(task, {})))
 
-    def of(self, task: str) -> float:
+    def limit(self, task: str) -> float:
         """The most time for a task's trials (s; 0: no limit)."""
-        return self.options(task).limit
+        return self.of(task).limit
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def read(section: str, table: object, whole: bool) -> Read:
     if section == "look":
         return _look(table)
     if section == "task":
-        return _limits(table)
+        return _task_options(table)
     if section == "questions":
         return _questions(table)
     return model(section, TABLES[section], table)
@@ -141,7 +141,7 @@ def parameters(section: str, name: str, table: Mapping[str, object]) -> Read:
     return made, [fault._replace(key=f"{where}.{fault.key}") for fault in more]
 
 
-def _limits(table: Mapping[str, object]) -> Read:
+def _task_options(table: Mapping[str, object]) -> Read:
     known = plugins.names("task")
     plain = {k: v for k, v in table.items() if k not in known}
     value, faults = model("task", TaskTable, plain)
@@ -162,7 +162,7 @@ def _limits(table: Mapping[str, object]) -> Read:
             "task", name, {k: v for k, v in own.items() if k not in common}
         )
         faults += found
-    return (None if faults else Limits(value, said, tables)), faults
+    return (None if faults else TaskOptions(value, said, tables)), faults
 
 
 def _questions(table: Mapping[str, object]) -> Read:

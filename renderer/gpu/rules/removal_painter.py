@@ -32,6 +32,8 @@ class RemovalPainter:
         self._context.depth_func = "<="
         for part, sides in zip(runs, (False, rules.sides(technique)), strict=True):
             if part:
-                self._context.enable_only(moderngl.DEPTH_TEST | (0 if sides else moderngl.CULL_FACE))
+                self._context.enable_only(
+                    moderngl.DEPTH_TEST | (0 if sides else moderngl.CULL_FACE)
+                )
                 draw(self._context, shader, table, sequence, part, shot.camera, matrix)
         return sum(len(part) for part in runs)

@@ -15,7 +15,7 @@ import numba
 import numpy as np
 
 from seethrough.renderer.arrays import Bools, Floats, Whole
-from seethrough.renderer.polygons.cutting import COUNT, START, corner_side
+from seethrough.renderer.polygons.classification import COUNT, START, corner_side
 
 
 class Geometry(NamedTuple):

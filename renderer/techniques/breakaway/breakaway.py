@@ -64,9 +64,7 @@ class Breakaway(removal.Removal[BreakawayParameters, None, Holes]):
         """The holes."""
         return holes(seen.shot)
 
-    def rule(
-        self, p: BreakawayParameters, state: object, seen: Surfaces, known: Holes
-    ) -> Look:
+    def rule(self, p: BreakawayParameters, state: object, seen: Surfaces, known: Holes) -> Look:
         """Removed within a hole, and before its target's end."""
         from seethrough.renderer.techniques.breakaway.border import room
 

@@ -4,6 +4,10 @@ sparse.
 Targets matter. A surface in front of one, at the same pixel, keeps only the opacity `least`; in
 the style "screen door" it keeps that part of its pixels, in a fixed pattern of 4 × 4, and is opaque
 in them. Nothing gradual is about a target: its neighbourhood stays as it is.
+
+The pattern's cells are pixels of the window. In a larger picture of it they are as much larger; in
+a smaller one they are that picture's pixels, as nothing finer can be drawn: the part that is left
+is the same.
 """
 
 from __future__ import annotations
@@ -27,6 +31,7 @@ from seethrough.renderer.techniques.reaching import before_targets
 STYLES = ("opacity", "screen door")
 # Bayer's threshold matrix, 0 to 15: the pattern of a screen door of any density.
 DOOR = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
+ASIDE = 1 / 1024  # of a cell: where a pixel's middle lies between two, float32 and float64 agree
 
 
 @dataclass(frozen=True)
@@ -52,12 +57,13 @@ class Importance(Layering[ImportanceParameters, None, Floats]):
 uniform sampler2D target_depth;
 uniform float least;
 uniform bool door;
+uniform float cell;  // pixels
 const int pattern[16] = int[16]({", ".join(map(str, DOOR.ravel().tolist()))});
 float opacity_of(Surface s) {{
     if (s.depth >= texelFetch(target_depth, s.texel, 0).x) return 1.0;
     if (!door) return least;
-    int cell = pattern[(int(s.place.y) % 4) * 4 + int(s.place.x) % 4];
-    return (float(cell) + 0.5) / 16.0 < least ? 1.0 : 0.0;
+    ivec2 at = ivec2(s.place / cell + {ASIDE}) % 4;
+    return (float(pattern[at.y * 4 + at.x]) + 0.5) / 16.0 < least ? 1.0 : 0.0;
 }}
 """
 
@@ -74,15 +80,20 @@ float opacity_of(Surface s) {{
         before = seen.depth < known[seen.pixel]
         strength = np.full(len(before), p.least)
         if p.style == "screen door":
-            column, row = seen.place.astype(np.int64).T
+            column, row = (seen.place / _cell(seen.shot) + ASIDE).astype(np.int64).T
             strength = ((DOOR[row % 4, column % 4] + 0.5) / 16 < p.least).astype(float)
         near = np.abs(seen.depth - known[seen.pixel]) <= 2 * seen.slack
         return self.look(p, seen, np.where(before, strength, 1.0), near & seen.penetrable)
 
     def uniforms(self, p: ImportanceParameters, state: None, shot: Shot) -> dict[str, object]:
         """How sparse."""
-        style = {"least": p.least, "door": p.style == "screen door"}
+        style = {"least": p.least, "door": p.style == "screen door", "cell": _cell(shot)}
         return {**super().uniforms(p, state, shot), **style}
+
+
+def _cell(shot: Shot) -> float:
+    """Pixels along a side of one of the pattern's cells."""
+    return max(1.0, shot.scale)
 
 
 TECHNIQUE = Importance()

@@ -9,7 +9,6 @@ from scipy import stats
 
 from seethrough.analysis.stats.distributions import (
     bayes_factor_t,
-    holm,
     noncentral_f_interval,
     noncentral_t_cdf,
 )
@@ -94,11 +93,6 @@ def test_interval_of_f_with_more_degrees_agrees_with_scipy():
 def test_bayes_factor_of_a_huge_t_does_not_overflow():
     assert bayes_factor_t(60.0, 16) > 1e10
     assert 0 < bayes_factor_t(0.0, 10_000) < 0.05
-
-
-def test_holm_by_hand():
-    # sorted: .01·4, .02·3, .03·2 → .06 (monotone), .5·1
-    assert holm([0.02, 0.5, 0.01, 0.03]) == pytest.approx([0.06, 0.5, 0.04, 0.06])
 
 
 def test_equivalence_of_the_papers_t3_distance():

@@ -13,6 +13,8 @@ from seethrough.analysis.exclude import apply_rules, focus_lost
 from seethrough.analysis.stats.ranks import friedman, post_hoc, ranks, sign_test, signed_rank
 from seethrough.analysis.stats.ties import difference_signs, is_constant, levels, slack
 from seethrough.experiment.power.decisions import Test, run
+from seethrough.experiment.power.planned import Score
+from seethrough.experiment.power.power_data import scores_of
 
 # Ten people, three ratings each: the sums of the other condition's are smaller by D, so the means
 # differ by ±2/3, computed in many ways.
@@ -123,7 +125,8 @@ def test_power_by_ranks_takes_ties_as_the_report_does():
     first = A.mean(axis=1)
     second = np.array([(row[2] / 3 + row[1] / 3) + row[0] / 3 for row in A])
     assert (first != second).any()
-    found = run(Test("x", 0, ranked=True), [(first - second)[None, :, None]])
+    scores = scores_of(Score(None, "", None), first, second)
+    found = run(Test("x", 0, ranked=True), [scores[None, :, None]])
     assert not found.there.any()
     assert found.p.tolist() == [1.0]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from seethrough.analysis.before import design_before
-from seethrough.analysis.comparison import Pair, add_holm, compare, compare_logs, decisive
+from seethrough.analysis.comparison import Pair, compare, compare_logs, decisive
 from seethrough.analysis.equivalence import Margin, no_difference
 from seethrough.analysis.page.blocks import Prose
 from seethrough.analysis.sections.answers.answers_directed import by_task
@@ -127,11 +127,3 @@ def test_no_difference_never_stands_alone():
     assert "no evidence of equality: no margin was declared" in text(
         no_difference(table, "m", 0.05)
     )
-
-
-def test_holm_over_exact_p_leaves_out_what_has_none():
-    measures = [replace(Pair(k, k, "", 2, BASE, BASE, "tasks")) for k in "abc"]
-    rows = [{"measure": "a", "p_exact": 0.01}, {"measure": "b", "p_exact": 0.04},
-            {"measure": "c", "p_exact": 0.03}]  # fmt: skip
-    add_holm(rows, measures, "p_exact")
-    assert [r["p_holm"] for r in rows] == pytest.approx([0.03, 0.06, 0.06])

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from seethrough.experiment import cli
-from seethrough.experiment.commands.studies import check as check_command
-from seethrough.experiment.commands.studies.check import smooth
+from seethrough.experiment.commands.studies.check_difficulty import check_difficulty
+from seethrough.experiment.commands.studies.check_machine import smooth
 from seethrough.experiment.session import machine
 from seethrough.experiment.session.machine import FrameTimes
 from seethrough.experiment.study.checked.certificate import (
@@ -230,7 +230,7 @@ def test_sets_that_differ_fail_but_for_the_published_study_whose_making_they_are
 ):
     """That one relied on counterbalancing alone; what it means is said of every study."""
     study = load("published")
-    study = replace(study, study=study.study.model_copy(update={"seed": seed}))
+    study = replace(study, general=study.general.model_copy(update={"seed": seed}))
     measured = [
         replace(
             difficulty("unique", level, 0.5, f"building-{which}-unique-1", path=path),
@@ -243,7 +243,7 @@ def test_sets_that_differ_fail_but_for_the_published_study_whose_making_they_are
         for which, path in (("A", 38.0), ("B", 110.0))
     ]  # fmt: skip
     said = Verdicts()
-    check_command._difficulty(study, measured, standalone(), False, said)
+    check_difficulty(study, measured, standalone(), False, said)
     line = next(s for s in capsys.readouterr().out.splitlines() if "not matched" in s)
     assert line.startswith("difficulty  unique, sets: path 38 / 110, apart 97 %")
     assert verdict_of(line) == verdict and said.found[verdict] == 1

@@ -25,12 +25,12 @@ def changed(table, key, value):
 def test_every_shipped_study_is_valid():
     assert {"published", "demo"} <= set(shipped())
     for name in shipped():
-        assert load(name).study.name == name
+        assert load(name).general.name == name
 
 
 def test_the_published_study_is_the_published_study():
     study = load("configs/published.toml")
-    assert study.study.participants == 16
+    assert study.general.participants == 16
     assert study.design.trials == 3
     assert len(study.plan.conditions()) == 4
     abstract, building = study.places()

@@ -98,7 +98,7 @@ def test_pairs_by_hand():
 @pytest.fixture(scope="module")
 def made():
     study = load("published")
-    return depth_test(study.study.seed, "building", study.parameters("world", "building"))
+    return depth_test(study.general.seed, "building", study.parameters("world", "building"))
 
 
 def test_the_studys_own_test_asks_what_can_be_told(made):

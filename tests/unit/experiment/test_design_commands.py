@@ -33,16 +33,16 @@ def test_the_design_is_printed_written_and_drawn(tmp_path, capsys, name):
         rows = list(csv.DictReader(file))
     expected = [
         (str(slot), str(t.number), t.scene, *t.levels.values())
-        for slot in study.plan.slots(study.study.participants)
+        for slot in study.plan.slots(study.general.participants)
         for s in session_for(slot, study.plan)
         for t in s.trials
     ]
     names = ("slot", "trial", "scene", *study.plan.names)
     assert [tuple(r[n] for n in names) for r in rows] == expected
     text = page.read_text("utf-8")
-    assert text.count("<th scope='row'>") == study.study.participants
+    assert text.count("<th scope='row'>") == study.general.participants
     blocks = len(study.plan.conditions(0))
-    assert text.count("<td ") == study.study.participants * blocks
+    assert text.count("<td ") == study.general.participants * blocks
     assert "http" not in text and "<script" not in text
     assert cli.main(["design", name, "--csv", str(out)]) == 2  # never overwritten
 
@@ -133,7 +133,7 @@ def test_an_old_file_is_rewritten_beside_itself(tmp_path, capsys):
 def test_a_new_study_is_one_that_can_be_checked(tmp_path, capsys):
     assert cli.main(["new", "study", "myViews2", str(tmp_path), "--yes"]) == 0
     study = load(str(tmp_path / "myViews2.toml"))
-    assert study.study.name == "myViews2"  # as it was typed
+    assert study.general.name == "myViews2"  # as it was typed
     assert study.factor("view").names == ("standard", "dynamic")
     workflow = (tmp_path / ".github" / "workflows" / "study.yml").read_text("utf-8")
     assert "seethrough check myViews2.toml --balance" in workflow
@@ -158,8 +158,8 @@ def test_a_new_study_of_any_task_can_be_checked(task, tmp_path, monkeypatch):
 
     assert new_study("mine", tmp_path, False, answer) == 0
     study = load(str(tmp_path / "mine.toml"))
-    assert next(answers, None) is None and study.study.title == title
-    assert (study.study.participants, study.design.tasks) == (12, (task,))
+    assert next(answers, None) is None and study.general.title == title
+    assert (study.general.participants, study.design.tasks) == (12, (task,))
 
 
 def test_a_new_study_nobody_answers_for_is_not_written(tmp_path, monkeypatch, capsys):

@@ -33,7 +33,7 @@ def sessions(monkeypatch, tmp_path):
         came.append((participant, slot, source))
         number = sum(c[0] == participant for c in came)
         made = {"study_sha256": study.digest()}
-        who = Who(study.study.name, participant, source, slot, made, number)
+        who = Who(study.general.name, participant, source, slot, made, number)
         FileRecorder(data, who).close(how)
         return how
 
@@ -200,7 +200,7 @@ def test_status_names_the_study_as_run_takes_it(sessions, tmp_path, capsys):
 
 def left_by(data, source, participant):
     """The files of a session without a slot."""
-    who = Who(STUDY.study.name, participant, source, 1, {"study_sha256": STUDY.digest()}, 1)
+    who = Who(STUDY.general.name, participant, source, 1, {"study_sha256": STUDY.digest()}, 1)
     FileRecorder(data, who).close("complete")
     return data / "data" / source / participant
 

@@ -203,8 +203,8 @@ def test_a_study_that_asks_for_no_option_is_the_study_that_it_was():
     again = parse(asked.resolved(), "again")
     assert again.digest() == asked.digest()
     levels = {"transparency": "dynamic"}
-    assert again.part(levels).limits.options("count").confidence
-    assert not again.part(levels).limits.options("pattern").confidence
+    assert again.part(levels).task_options.of("count").confidence
+    assert not again.part(levels).task_options.of("pattern").confidence
 
 
 CHOICE = {"use": "choice", "when": "end", "text": "?", "options": ["a", "b"]}

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from scipy import stats
 
 from seethrough.analysis.stats.contrasts import estimate
-from seethrough.analysis.stats.distributions import holm
+from seethrough.analysis.stats.multiplicity import holm
 from seethrough.analysis.stats.paired import paired, ratio_within, tost
 from seethrough.analysis.stats.ranks import friedman
 from seethrough.experiment import cli
@@ -17,8 +17,9 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.power import effects
 from seethrough.experiment.power.closed import interval_of, needed, signed_power
 from seethrough.experiment.power.decisions import Part, Planned, Results, Test, decide, run
-from seethrough.experiment.power.planned import plans_of
+from seethrough.experiment.power.planned import Score, plans_of
 from seethrough.experiment.power.power import Point, curve, enough
+from seethrough.experiment.power.power_data import scores_of
 from seethrough.experiment.power.sources import Normal, Sampled, sizes
 from seethrough.experiment.study.config import load
 
@@ -101,6 +102,19 @@ def test_order_alone_is_friedmans_exact_test():
     d = (pairs[:, 0] - pairs[:, 1])[None, :, None]
     ranked = Test("x", 0, 1.0, ranked=True)
     assert_allclose(run(ranked, [d]).p[0], friedman(pairs, RNG).exact, rtol=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-14, 1.0, 1e9])
+def test_levels_are_tied_by_the_size_of_what_they_were_made_from(size):
+    """4/3 − 8/3 and 2/3 − 2 differ in the last bit, whose size is that of the values: no fixed
+    bound tells a tie from a difference of any measure."""
+    first = size * np.array([4 / 3 - 8 / 3, 0.1 + 0.2, 1.0, 0.9, 0.8, 0.7, 0.6, 0.5])
+    second = size * np.array([2 / 3 - 2, 0.3, 0.0, 0.1, 0.2, 0.3, 0.2, 0.1])
+    found = scores_of(Score(None, "", None), first, second)
+    assert np.sign(found).tolist() == [0, 0, 1, 1, 1, 1, 1, 1]
+    tested = run(Test("x", 0, 1.0, ranked=True), [found[None, :, None]])
+    assert_allclose(tested.p[0], friedman(np.stack([first, second], axis=1), RNG).exact, rtol=1e-12)
+    assert_allclose(tested.p[0], 2 / 2**6, rtol=1e-12)
 
 
 def test_people_who_lack_a_score_are_left_out_of_that_test_alone():

@@ -18,7 +18,7 @@ def test_the_sidecar_holds_the_whole_study_and_where_it_ran():
     plain = json.dumps(told["study"], sort_keys=True)
     assert hashlib.sha256(plain.encode()).hexdigest() == told["study_sha256"] == STUDY.digest()
     assert told["study"]["practice"]["limit"] == STUDY.practice.limit
-    assert told["seed"] == STUDY.study.seed
+    assert told["seed"] == STUDY.general.seed
     assert told["display"] == display and told["speed"] == 1.0
     for name in ("seethrough", "moderngl", "pyglet", "numpy"):
         assert told["versions"][name] == metadata.version(name)

@@ -199,7 +199,7 @@ def test_tlx_has_six_scales_of_21_steps_for_each_level():
 
 
 def test_the_depth_test_asks_three_disjoint_clear_pairs_and_scores_them():
-    test = depth_test(PUBLISHED.study.seed, "building", BUILDING)
+    test = depth_test(PUBLISHED.general.seed, "building", BUILDING)
     assert len(test.pairs) == 3 and len({k for pair in test.pairs for k in pair}) == 6
     scene, camera = test.view.scene, test.view.camera
     for (a, b), near in zip(test.pairs, test.nearer, strict=True):
@@ -226,9 +226,9 @@ def _in_picture(camera, point):
 
 
 def test_the_same_study_has_the_same_depth_test():
-    one = depth_test(PUBLISHED.study.seed, "building", BUILDING)
+    one = depth_test(PUBLISHED.general.seed, "building", BUILDING)
     depth_test.cache_clear()
-    two = depth_test(PUBLISHED.study.seed, "building", BUILDING)
+    two = depth_test(PUBLISHED.general.seed, "building", BUILDING)
     assert one.pairs == two.pairs and one.nearer == two.nearer
 
 
@@ -282,7 +282,7 @@ def test_optional_questions_do_not_hold_a_page_up():
 
 
 def test_simulated_participants_judge_the_depth_of_what_is_in_the_picture():
-    test = depth_test(PUBLISHED.study.seed, "building", BUILDING)
+    test = depth_test(PUBLISHED.general.seed, "building", BUILDING)
     scores = []
     for seed in range(20):
         person = SimulatedParticipant(np.random.default_rng(seed))

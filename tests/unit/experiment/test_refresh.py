@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seethrough.experiment.commands.studies import check
+from seethrough.experiment.commands.studies import check_machine
 from seethrough.experiment.display import refresh, system_window, window
 from seethrough.experiment.study.config import load
 from seethrough.experiment.verdicts import Verdicts
@@ -87,7 +87,7 @@ def test_the_check_compares_the_measured_rate_with_the_declared_one(
     monkeypatch.setattr(system_window, "available", lambda: True)
     monkeypatch.setattr(window, "Window", type("Fixed", (Measured,), {"rate": rate}))
     verdicts = Verdicts()
-    check._refresh(STUDY, verdicts)
+    check_machine._refresh(STUDY, verdicts)
     assert capsys.readouterr().out == f"machine     refresh: {said}\n"
     assert verdicts.sum_up() == (0 if fit else 1)
 

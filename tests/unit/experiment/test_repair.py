@@ -25,8 +25,8 @@ TRIALS = [t for s in session_for(1, STUDY.plan) for t in s.trials]
 
 def began(data):
     start = starting_point(STUDY, data, "human", "P01", 1)
-    who = Who(STUDY.study.name, "P01", "human", 1, {"study_sha256": STUDY.digest()}, start.session,
-              design_entry(STUDY))  # fmt: skip
+    made = {"study_sha256": STUDY.digest()}
+    who = Who(STUDY.general.name, "P01", "human", 1, made, start.session, design_entry(STUDY))
     return FileRecorder(data, who, attempts=start.attempts), start
 
 

@@ -90,7 +90,7 @@ def test_the_instruction_shows_an_item_that_nobody_meets(tmp_path):
 
 def test_the_order_of_items_comes_from_the_seed(tmp_path):
     made = study(tmp_path)
-    other = replace(made, study=made.study.model_copy(update={"seed": 6}))
+    other = replace(made, general=made.general.model_copy(update={"seed": 6}))
     first, second = ([i for *_, i in met(s, 1)] for s in (made, other))
     assert first == [i for *_, i in met(made, 1)] and first != second
 

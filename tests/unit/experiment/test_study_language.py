@@ -134,7 +134,7 @@ def test_every_shipped_study_is_whole_and_its_record_makes_it_again(name):
     entry = design_entry(made)
     assert [f["name"] for f in entry["factors"]] == list(made.plan.names)
     assert {t["name"] for t in entry["tasks"]} == set(made.tasks())
-    assert sum(g.people for g in made.plan.groups) == made.study.participants
+    assert sum(g.people for g in made.plan.groups) == made.general.participants
 
 
 def test_the_sidecars_design_is_what_the_analysis_was_promised():
@@ -259,7 +259,8 @@ def test_an_old_file_gets_one_line_and_is_rewritten_with_its_comments():
     assert one.digest() == two.digest()
     assert one.factor("transparency").names == ("dynamic", "standard")
     assert (one.practice.trials, one.session.limit) == (3, 600.0)
-    assert one.part({"transparency": "dynamic", "scenario": "abstract"}).limits.of("count") == 60.0
+    part = one.part({"transparency": "dynamic", "scenario": "abstract"})
+    assert part.task_options.limit("count") == 60.0
     assert list(one.questions) == ["consent", "ratings", "tlx", "depth_test"]
 
 

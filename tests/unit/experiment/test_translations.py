@@ -80,7 +80,7 @@ def test_no_page_of_a_french_study_says_anything_in_english():
     assert [text for text in said if text and text.lower() not in french] == []
     titles = [texts.get(page.title) for page in person.pages if page.name.startswith("view")]
     assert titles == ["À propos de ce que vous venez de faire"] * 2
-    assert texts.get(study.study.title) == "Compter à travers les choses"
+    assert texts.get(study.general.title) == "Compter à travers les choses"
 
 
 def texts_in(table):
