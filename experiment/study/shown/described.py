@@ -33,7 +33,7 @@ def design_entry(study: Study) -> dict[str, Any]:
             for said in analysis["predictions"]
         ],
         "items": [item for name, asked in study.questions.items()
-                  for item in _items(study, name, asked)],
+                  for item in items_of(study, name, asked)],
     }  # fmt: skip
 
 
@@ -52,7 +52,7 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
     return ()
 
 
-def _items(study: Study, name: str, asked: Question) -> list[dict[str, object]]:
+def items_of(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
     """A question's items, but of what is asked at the start: for which levels, together with which,
     of how many points. What is added up stands for its parts; items of one scale are together."""
     if asked.use in STARTS:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from seethrough.experiment.study.shown.described import design_entry
+from seethrough.experiment.study.shown.described import design_entry, each_of, items_of
 from seethrough.experiment.study.shown.design_table import lines_of
 from seethrough.experiment.study.study import Study
 
@@ -39,6 +39,8 @@ def preregistration(study: Study) -> str:
         f"{study.session.limit / 60:g} minutes.",
         "## Measures",
         *_measures(entry),
+        "## Questions",
+        _questions(study),
         "## Predictions",
         *_predictions(study, entry),
         "## Planned tests",
@@ -63,6 +65,24 @@ def _measures(entry: Mapping[str, Any]) -> Iterator[str]:
             rows.append(f"| {task['code']} {task['name']} | {label} (`{m['name']}`) | {m['unit']} "
                         f"| {m['direction']} | {adds} | {margin} |")  # fmt: skip
     yield "\n".join(rows)
+
+
+def _questions(study: Study) -> str:
+    """What is asked besides the tasks, when, for which levels, with the items' points."""
+    rows = ["| question | kind | asked | once for each | items |",
+            "| --- | --- | --- | --- | --- |"]  # fmt: skip
+    for name, asked in study.questions.items():
+        items = []
+        for item in items_of(study, name, asked):
+            low, points = item.get("low"), item.get("points")
+            scale = f" ({low} to {low + points - 1})" if points is not None else ""
+            turned = ", ".join(f"`{own}`" for own in item.get("reverse", ()))
+            items.append(f"`{item['name']}`{scale}" + (f", turned: {turned}" if turned else ""))
+        each = " × ".join(each_of(study, asked)) or "session"
+        when = asked.when_asked.replace("_", " ")
+        said = "; ".join(items) or "no scale"
+        rows.append(f"| {name} | {asked.use} | {when} | {each} | {said} |")
+    return "\n".join(rows) if study.questions else "Nothing is asked besides the tasks."
 
 
 def _predictions(study: Study, entry: Mapping[str, Any]) -> Iterator[str]:

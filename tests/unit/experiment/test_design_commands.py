@@ -96,9 +96,14 @@ def test_a_preregistration_says_what_is_decided(tmp_path, capsys):
     assert cli.main(["prereg", "published", "--out", str(out)]) == 0
     text = out.read_text("utf-8")
     assert load("published").digest() in text
-    for said in ("**P1**: `time` is less than at the baseline (transparency: standard).",
-                 "| T3 unique | distance (`distance`) | units | less | mean",
-                 "- trials answered sooner than 0.2 s", "16 people"):  # fmt: skip
+    for said in (
+        "**P1**: `time` is less than at the baseline (transparency: standard).",
+        "| T3 unique | distance (`distance`) | units | less | mean",
+        "- trials answered sooner than 0.2 s",
+        "16 people",
+        "| ratings | ratings | end | transparency × scenario | `efficiency` (0 to 4); ",
+        "| comparison | comparison | end | session | `preference`; `depth_self_report` ",
+    ):
         assert said in text
     assert cli.main(["prereg", "published", "--out", str(out)]) == 2
     asked = tmp_path / "asked.toml"
@@ -110,6 +115,9 @@ def test_a_preregistration_says_what_is_decided(tmp_path, capsys):
     assert "are tested by aligned ranks, too." in said
     assert cli.main(["prereg", "training"]) == 0
     assert "None is stated: every comparison is exploratory." in capsys.readouterr().out
+    assert cli.main(["prereg", "liao2023"]) == 0
+    said = "`sus`, turned: `sus_2`, `sus_4`, `sus_6`, `sus_8`, `sus_10`"
+    assert f"| sus | sus | end | interface | {said} |" in capsys.readouterr().out
 
 
 def test_an_old_file_is_rewritten_beside_itself(tmp_path, capsys):
