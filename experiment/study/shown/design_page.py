@@ -52,11 +52,21 @@ def page(study: Study, count: int) -> str:
         slots = [s for s in plan.slots(count) if plan.group_of(s)[0] == which]
         parts.append(f"<h2>{escape(name or 'Who meets what when')}: {len(slots)} people</h2>")
         parts.append(_table(study, slots[:MOST_SLOTS], looks))
+        parts += [f"<p>{escape(said)}</p>" for said in _mixed(study)]
         if len(slots) > MOST_SLOTS:
             parts.append(f"<p>… and {len(slots) - MOST_SLOTS} more.</p>")
     lines = escape("\n".join(lines_of(study, count)))
     parts.append(f"<h2>In words</h2><pre tabindex='0'>{lines}</pre></main></html>")
     return "\n".join(parts)
+
+
+def _mixed(study: Study) -> list[str]:
+    """What no colour shows: levels that change from trial to trial within a block."""
+    return [
+        f"Within a block its trials mix the levels of {factor.name}: {', '.join(factor.names)}."
+        for factor in study.factors
+        if factor.mixed
+    ]
 
 
 def _table(study: Study, slots: list[int], looks: dict[str, tuple[str, str]]) -> str:

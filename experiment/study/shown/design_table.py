@@ -40,7 +40,9 @@ def lines_of(study: Study, count: int) -> list[str]:
     lines = [f"study      {study.general.name}: {count} people, seed {plan.seed}"]
     lines += [line for factor in study.factors for line in _factor(factor, study)]
     gone = every_combination(study.factors) - len(plan.cells)
-    lines.append(f"cells      {len(plan.cells)}" + (f", {gone} left out" if gone else ""))
+    which_gone = "; ".join("/".join(left.values()) for left in study.excluded)
+    said = f", {gone} left out: {which_gone}" if gone else ""
+    lines.append(f"cells      {len(plan.cells)}{said}")
     lines += _short(["/".join(cell) or "(one)" for cell in plan.cells])
     for which in range(len(plan.groups)):
         lines += _group(study, which)

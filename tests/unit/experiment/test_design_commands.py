@@ -47,6 +47,16 @@ def test_the_design_is_printed_written_and_drawn(tmp_path, capsys, name):
     assert cli.main(["design", name, "--csv", str(out)]) == 2  # never overwritten
 
 
+def test_what_the_colours_do_not_show_is_said(tmp_path, capsys):
+    """Which cell is left out, and what changes from trial to trial."""
+    page = tmp_path / "d.html"
+    assert cli.main(["design", "clutter", "--html", str(page)]) == 0
+    assert cli.main(["design", "clutter"]) == 0
+    assert "cells      8, 1 left out: plain/380\n" in capsys.readouterr().out
+    said = "Within a block its trials mix the levels of clutter: 80, 180, 380."
+    assert said in page.read_text("utf-8")
+
+
 def test_colours_of_neighbours_differ():
     for of in (2, 3, 12, 36):
         assert len({color(k, of) for k in range(of)}) == of
