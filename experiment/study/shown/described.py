@@ -52,7 +52,7 @@ def each_of(study: Study, asked: Question) -> tuple[str, ...]:
     return ()
 
 
-def items_of(study: Study, name: str, asked: Question) -> list[dict[str, Any]]:
+def items_of(study: Study, name: str, asked: Question) -> list[dict[str, object]]:
     """A question's items, but of what is asked at the start: for which levels, together with which,
     of how many points. What is added up stands for its parts; items of one scale are together."""
     if asked.use in STARTS:

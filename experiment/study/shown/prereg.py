@@ -75,8 +75,11 @@ def _questions(study: Study) -> str:
         items = []
         for item in items_of(study, name, asked):
             low, points = item.get("low"), item.get("points")
-            scale = f" ({low} to {low + points - 1})" if points is not None else ""
-            turned = ", ".join(f"`{own}`" for own in item.get("reverse", ()))
+            scale = ""
+            if isinstance(low, int) and isinstance(points, int):
+                scale = f" ({low} to {low + points - 1})"
+            reverse = item.get("reverse")
+            turned = ", ".join(f"`{t}`" for t in reverse) if isinstance(reverse, list) else ""
             items.append(f"`{item['name']}`{scale}" + (f", turned: {turned}" if turned else ""))
         each = " × ".join(each_of(study, asked)) or "session"
         when = asked.when_asked.replace("_", " ")
