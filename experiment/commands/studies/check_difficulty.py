@@ -64,7 +64,7 @@ def check_difficulty(
             apart = f"apart {_apart(match, match.difference)}"
             why = (
                 f"not matched, expected at most {_apart(match, match.bound)}; farthest off: "
-                f"{worst(match, measured).trial.scene}"
+                f"{worst(match).trial.scene}"
             )
             verdict = FAILS
             if not match.factor:
@@ -126,7 +126,7 @@ def _redraw(study: Study, measured: list[Difficulty], context: Context, said: Ve
             said.say("redraw", "the levels match with more scenes drawn again")
             print(f"            ok; in [design]: redraw = [{quoted}]")
             return
-        names.append(worst(bad, measured).trial.scene)
+        names.append(worst(bad).trial.scene)
         design = study.design.model_copy(update={"redraw": tuple(names)})
         study = replace(study, design=design)
         certifier, again = Certifier(study, context), {d.trial.stream: d for d in measured}

@@ -6,7 +6,7 @@ numbers say something about the scene and nothing about a participant.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -65,7 +65,7 @@ class Match:
     for the sets of scenes.
 
     `difference` is in the measure's own unit for shares (visible, hidden), else a share of the
-    mean over all levels.
+    mean over all levels. `compared` are the trials that it is of.
     """
 
     task: str
@@ -74,6 +74,7 @@ class Match:
     difference: float
     bound: float | None
     factor: str = ""
+    compared: tuple[Difficulty, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -176,6 +177,9 @@ SHARES = ("visible", "hidden")
 def matches(study: Study, measured: Sequence[Difficulty]) -> list[Match]:
     """How hard the scenes are, task by task and measure by measure: along every factor, and set by
     set where scenes are shared. Levels that leave scenes alone have to be alike, and so have sets.
+
+    Where cells are left out, such levels are compared in those scenes that all of them have: a
+    level that lacks the densest ones is easier, whatever its scenes are.
     """
     found = []
     for task in dict.fromkeys(d.trial.task for d in measured):
@@ -187,10 +191,27 @@ def matches(study: Study, measured: Sequence[Difficulty]) -> list[Match]:
             }
             there = {level: of for level, of in by.items() if of}
             matched = factor.scenes == ALONE
+            if matched:
+                there = _common(study, there)
             if len(there) > 1:
                 found += [_match(study, there, m, factor.name, matched) for m in MEASURES]
         found += _sets(study, own)
     return found
+
+
+def _common(study: Study, by: dict[str, list[Difficulty]]) -> dict[str, list[Difficulty]]:
+    """Of each level those trials whose scenes are made as some of every other level are; all where
+    levels have nothing in common."""
+    kinds = {level: {_changed(study, d) for d in own} for level, own in by.items()}
+    shared = set.intersection(*kinds.values()) if kinds else set()
+    if not shared:
+        return by
+    return {level: [d for d in own if _changed(study, d) in shared] for level, own in by.items()}
+
+
+def _changed(study: Study, d: Difficulty) -> tuple[str, ...]:
+    """A trial's levels of the factors that change scenes."""
+    return tuple(d.trial.levels[f.name] for f in study.factors if f.scenes != ALONE)
 
 
 def _sets(study: Study, own: Sequence[Difficulty]) -> list[Match]:
@@ -201,8 +222,9 @@ def _sets(study: Study, own: Sequence[Difficulty]) -> list[Match]:
     scenes = {d.trial.scene: d for d in own if study.part(d.trial.levels).plan.shared}
     places: dict[tuple[str, ...], dict[str, list[Difficulty]]] = {}
     for d in scenes.values():
-        changed = tuple(d.trial.levels[f.name] for f in study.factors if f.scenes != ALONE)
-        places.setdefault(changed, {}).setdefault(set_of(d.trial.scene, d.trial.task), []).append(d)
+        places.setdefault(_changed(study, d), {}).setdefault(
+            set_of(d.trial.scene, d.trial.task), []
+        ).append(d)
     return [
         _match(study, dict(sorted(sets.items())), measure, "", True)
         for sets in places.values()
@@ -228,10 +250,11 @@ def _match(
     if measure not in SHARES:
         apart = apart / float(np.mean(means)) if apart > 0 else 0.0
     bound = study.design.tolerance if measure in SHARES else study.design.imbalance
-    return Match(task, measure, levels, apart, bound if matched else None, factor)
+    compared = tuple(d for own in by.values() for d in own)
+    return Match(task, measure, levels, apart, bound if matched else None, factor, compared)
 
 
-def worst(match: Match, measured: Iterable[Difficulty]) -> Difficulty:
+def worst(match: Match) -> Difficulty:
     """The trial to draw again: the one that adds most to the difference."""
     means = dict(match.levels)
     middle = float(np.mean(list(means.values())))
@@ -245,5 +268,4 @@ def worst(match: Match, measured: Iterable[Difficulty]) -> Difficulty:
         side = 1.0 if means[of(d)] > middle else -1.0
         return side * (MEASURES[match.measure](d) - middle)
 
-    own = [d for d in measured if d.trial.task == match.task and of(d) in means]
-    return max(own, key=pull)
+    return max(match.compared, key=pull)

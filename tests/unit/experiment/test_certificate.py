@@ -134,7 +134,7 @@ def test_levels_match_within_the_tolerance_and_the_farthest_trial_is_named():
     count, pattern = found["count", "visible"], found["pattern", "visible"]
     assert count.ok and count.difference == pytest.approx(0.04)
     assert not pattern.ok and pattern.difference == pytest.approx(0.11)
-    assert worst(pattern, measured).trial.scene == "bad"
+    assert worst(pattern).trial.scene == "bad"
     assert all(m.ok for key, m in found.items() if key != ("pattern", "visible"))
 
 
@@ -151,7 +151,31 @@ def test_every_measure_is_matched_and_the_trial_that_adds_most_is_named():
     assert found["occluders"].difference == pytest.approx(11 / 17.5)
     assert found["targets"].difference == pytest.approx(0.5 / 10.25)
     assert [m.measure for m in found.values() if not m.ok] == ["occluders"]
-    assert worst(found["occluders"], measured).trial.scene == "dynamic-3"
+    assert worst(found["occluders"]).trial.scene == "dynamic-3"
+
+
+def test_levels_are_compared_in_the_scenes_that_all_of_them_have():
+    """Without the densest scenes a level is easier, which is no fault of its scenes."""
+    study = load("clutter")  # plain is never met with 380 distractors
+
+    def measured(own):
+        return [
+            replace(difficulty("count", view, 0.5, f"{view}-{clutter}"), clutter=float(clutter),
+                    trial=replace(difficulty("count", view, 0.5, f"{view}-{clutter}").trial,
+                                  levels={"view": view, "clutter": str(clutter)}))
+            for view, numbers in own.items()
+            for clutter in numbers
+        ]  # fmt: skip
+
+    every = {"plain": (80, 180), "dynamic": (80, 180, 380), "cutaway": (80, 180, 380)}
+    found = {(m.factor, m.measure): m for m in matches(study, measured(every))}
+    assert found["view", "clutter"].difference == 0 and found["view", "clutter"].ok
+    assert {d.trial.levels["clutter"] for d in found["view", "clutter"].compared} == {"80", "180"}
+    assert found["clutter", "clutter"].bound is None  # that one is meant to differ
+    apart = {"plain": (80,), "dynamic": (180,), "cutaway": (380,)}  # nothing in common
+    found = {(m.factor, m.measure): m for m in matches(study, measured(apart))}
+    assert not found["view", "clutter"].ok
+    assert worst(found["view", "clutter"]).trial.scene == "cutaway-380"
 
 
 def verdict_of(line):
