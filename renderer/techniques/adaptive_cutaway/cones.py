@@ -158,9 +158,9 @@ def _seeds(depth: Real, wide: float, first: tuple[int, int], last: tuple[int, in
             x, y = j * ASKED + ASKED / 2, i * ASKED + ASKED / 2
             best = 0.0
             for a, b in ((i, j - 1), (i - 1, j)):  # seldom far from that of a block beside
-                r, c = seeds[a, b] if a >= 0 and b >= 0 else seeds[i, j]
-                if r < 0:
+                if a < 0 or b < 0 or seeds[a, b, 0] < 0:
                     continue
+                r, c = seeds[a, b]
                 cone = depth[r, c] * wide / (np.hypot(r + 0.5 - y, c + 0.5 - x) + wide)
                 if cone > best:
                     best = cone
