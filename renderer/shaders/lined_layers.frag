@@ -1,5 +1,5 @@
 // Provides what four layers add up to, each with lines along its edges: where a neighbour in it is
-// another object, nothing, or turned away. Colours come times their opacity.
+// another object, nothing, or turned away. Colours come times their opacity. A template.
 uniform sampler2D colors[4];
 uniform usampler2D places[4];  // the object's number + 1, the normal; 0 where nothing is
 uniform vec4 line;

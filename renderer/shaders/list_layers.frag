@@ -1,11 +1,13 @@
 // Provides the nearest four surfaces of a pixel's list behind those that were taken before, and takes
-// them. With `most` = 0, takes the list away: the next frame finds none.
+// them. Takes the list away where nothing is left of it, or no more is wanted: the next frame finds
+// none. A template.
 layout(std430, binding = 0) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 1) buffer Heads { uint heads[]; };
 layout(std430, binding = 3) buffer Last { uint taken[]; };  // each pixel's last one, from 1
 
 uniform int width;  // of the picture, in pixels
 uniform int most;   // layers that are wanted, 4 or fewer
+uniform bool last;  // whether none is wanted after these
 
 layout(location = 0) out vec4 colors[4];   // times opacity, and opacity
 layout(location = 4) out uvec2 places[4];  // the object's number + 1, the normal; 0 where nothing is
@@ -28,20 +30,14 @@ uvec2 place_of(uvec3 own) {
 
 void main() {
     int here = int(gl_FragCoord.y) * width + int(gl_FragCoord.x);
-    uint at = heads[here], last = taken[here];
-    if (at == 0u) discard;
-    if (most == 0) {
-        heads[here] = 0u;
-        taken[here] = 0u;
-        discard;
-    }
-    uvec3 behind = last == 0u ? uvec3(0u) : key(last);
+    uint at = heads[here], before_these = taken[here];
+    uvec3 behind = before_these == 0u ? uvec3(0u) : key(before_these);
     // The nearest four by name: a field of them would be looked up in memory.
     const uvec3 NONE = uvec3(0xffffffffu, 0u, 0u);
     uvec3 a = NONE, b = NONE, c = NONE, d = NONE;
     while (at != 0u) {
         uvec3 own = key(at);
-        if ((last == 0u || before(behind, own)) && before(own, d)) {
+        if ((before_these == 0u || before(behind, own)) && before(own, d)) {
             d = own;
             if (before(d, c)) { uvec3 t = c; c = d; d = t; }
             if (before(c, b)) { uvec3 t = b; b = c; c = t; }
@@ -52,8 +48,12 @@ void main() {
     if (most < 4) d = NONE;
     if (most < 3) c = NONE;
     if (most < 2) b = NONE;
-    if (a.z == 0u) discard;
-    taken[here] = d.z != 0u ? d.z : c.z != 0u ? c.z : b.z != 0u ? b.z : a.z;
+    if (last || d.z == 0u) {
+        heads[here] = 0u;
+        taken[here] = 0u;
+    } else {
+        taken[here] = d.z;
+    }
     colors[0] = color_of(a.z);
     colors[1] = color_of(b.z);
     colors[2] = color_of(c.z);

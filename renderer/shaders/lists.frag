@@ -1,13 +1,12 @@
 // Provides what a pixel's list adds up to, from the front: colour times opacity, and opacity. The
 // nearest four of it are put in order and added up, then the nearest of those behind, until none is
-// left: a list may be of any length. If it `takes`, the list is taken away: the next frame finds none.
+// left: a list may be of any length. It is taken away: the next frame finds none. A template.
 layout(std430, binding = 0) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 1) buffer Heads { uint heads[]; };
 
 uniform int width;     // of the picture, in pixels
 uniform int most;      // layers that count
 uniform float enough;  // opacity behind which nothing is seen
-uniform bool takes;
 
 layout(location = 0) out vec4 picture;
 
@@ -29,7 +28,7 @@ void main() {
     int here = int(gl_FragCoord.y) * width + int(gl_FragCoord.x);
     uint head = heads[here];
     if (head == 0u) discard;
-    if (takes) heads[here] = 0u;
+    heads[here] = 0u;
     uvec3 last = uvec3(0u);
     bool first = true;
     int left = most;

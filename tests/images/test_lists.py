@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -32,8 +34,8 @@ WAYS = {
 CASES = {case.name: case for case in (*cases(), many(), deep())}
 
 
-def drawn(context, case, p):
-    renderer = Renderer(context, SIZE)
+def drawn(context, case, p, size=SIZE, samples=0):
+    renderer = Renderer(context, size, samples=samples)
     renderer.draw(case.scene, case.camera, p)
     return renderer.read().astype(int)
 
@@ -48,6 +50,37 @@ def test_lists_and_layers_are_one_picture(context, monkeypatch, where, way):
     apart = np.abs(listed - layered).max(axis=2)
     assert (apart > 1).mean() < 0.01  # 1 of 255: sums are rounded in another order
     assert (apart == 0).mean() > 0.5
+
+
+@pytest.mark.parametrize(("size", "samples"), [((157, 117), 0), ((150, 123), 4)])
+@pytest.mark.parametrize("way", ["constant", "blueprint", "lined, all sides"])
+def test_blocks_at_the_border_are_whole(context, monkeypatch, size, samples, way):
+    """Where the picture is no whole number of blocks, and with several samples a pixel."""
+    case, p = CASES["50 layers"], WAYS[way]
+    listed = drawn(context, case, p, size, samples)
+    monkeypatch.setattr(painters, "NEEDED", 10_000)
+    apart = np.abs(listed - drawn(context, case, p, size, samples)).max(axis=2)
+    # At the samples of an edge, lists and layers differ: a list is of the middle of its pixel.
+    assert (apart > 1).mean() < (0.2 if samples else 0.01)
+    border = np.ones(apart.shape, bool)
+    border[8:-8, 8:-8] = False
+    assert (apart[border] > 1).mean() <= max((apart[~border] > 1).mean(), 0.01)
+
+
+@pytest.mark.parametrize("way", ["constant", "blueprint", "lined, all sides"])
+def test_what_the_frame_before_left_is_not_seen(context, way):
+    """A plate from nearby, then from where it ends with a block of pixels: it lay beyond before."""
+    camera = Camera(np.array([0, 0, 8.0]), np.eye(3), 0.6, 0.5, 50)
+    side = 2 * 24 * 8 / camera.lens(SIZE[1])  # three blocks to each side of the middle
+    plate = Object(geometry.quad(side, side), transforms.rotation_x(np.pi / 2), (0.8, 0.5, 0.2))
+    ball = Object(geometry.sphere(0.2, 2), transforms.translation(0, 0, -6), target=True)
+    scene, p = Scene((plate, ball)), WAYS[way]
+    alone, after = Renderer(context, SIZE), Renderer(context, SIZE)
+    alone.draw(scene, camera, p)
+    for z in (5.0, 8.0):
+        after.draw(scene, replace(camera, eye=np.array([0, 0, z])), p)
+    assert np.array_equal(after.read(), alone.read())
+    assert (alone.read() != alone.read()[0, 0]).any(axis=2).sum() == 48 * 48
 
 
 @pytest.mark.parametrize("layers", [None, 20])

@@ -10,13 +10,13 @@ from collections.abc import Sequence
 import moderngl
 
 from seethrough.renderer.gpu.device import pipeline
-from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.rules.lists import BEFORE, LINED_WORDS, NEEDED, Lists
+from seethrough.renderer.gpu.rules.list_blocks import ListBlocks
+from seethrough.renderer.gpu.rules.lists import LINED_WORDS, Lists
 from seethrough.renderer.gpu.rules.peel_painter import PeelPainter
 from seethrough.renderer.gpu.rules.rule_program import Ruled
-from seethrough.renderer.gpu.rules.scope import around, scope_of
+from seethrough.renderer.gpu.rules.scope import scope_of
 from seethrough.renderer.scene.visibility import Drawn
 
 AT_ONCE = 4  # layers; the shaders have as many pictures of each kind
@@ -57,14 +57,10 @@ class LinedPainter:
         self._one_by_one = PeelPainter(context, defines)
         self._lists = Lists(context, defines, lined=True)
         assert "WITH_IDS" not in defines
-        own = [f"WORDS {LINED_WORDS}u"]
-        self._take = program(context, "present.vert", "list_layers.frag", own, NEEDED, BEFORE)
-        self._add = program(context, "present.vert", "lined_layers.frag", (), NEEDED)
-        self._put = program(context, "present.vert", "layer.frag")
-        self._screens = {
-            shader: context.vertex_array(shader.program, [])
-            for shader in (self._take, self._add, self._put)
-        }
+        self._blocks = ListBlocks(context)
+        self._take = self._blocks.program("list_layers.frag", LINED_WORDS)
+        self._add = self._blocks.program("lined_layers.frag", LINED_WORDS)
+        self._put = self._blocks.program("layer.frag", LINED_WORDS)
         self._layers: _Layers | None = None
         self._query = context.query(samples=True)
 
@@ -77,48 +73,42 @@ class LinedPainter:
             return self._one_by_one.draw(ruled, target)
         layers = self._ready(target.size)
         most = ruled.technique.technique.layers(ruled.technique)
-        pipeline.within(target.framebuffer, scope)
-        # Lines ask the pixels beside, of which some lie beyond, and of pixels with several samples
-        # llvmpipe puts some of those: there must be nothing there.
-        for framebuffer in (layers.taken, layers.total):
-            pipeline.within(framebuffer, around(scope, target.size))
-        layers.total.clear()
+        self._blocks.find(self._lists.heads(), target.size, scope)
         self._add.set(**ruled.technique.technique.edges(ruled.technique))
+        if most is not None and most <= AT_ONCE:
+            self._taken(layers, most, last=True)
+            self._added(layers, target.framebuffer, pipeline.OVER)
+            return len(frame.runs)
+        layers.total.clear()
         left = count if most is None else most  # no pixel has more than all together
-        while left > 0 and self._taken(layers, min(left, AT_ONCE)):
-            self._added(layers)
+        more = True
+        while left > 0 and more:
+            self._taken(layers, min(left, AT_ONCE), last=left <= AT_ONCE)
+            with self._query:
+                self._added(layers, layers.total, pipeline.UNDER)
+            more = self._query.samples > 0
             left -= AT_ONCE
-        self._taken(layers, 0)
-        target.framebuffer.use()
-        self._show(self._put, pipeline.OVER, layer=SUM)
-        pipeline.within(target.framebuffer, None)
+        layers.sum.use(SUM)
+        self._put.set(layer=SUM)
+        self._blocks.draw(self._put, target.framebuffer, pipeline.OVER)
         return len(frame.runs)
 
-    def _taken(self, layers: _Layers, count: int) -> bool:
-        """Take so many layers from the lists, whether there is any; 0: take the lists away."""
-        layers.taken.clear()
-        layers.taken.use()
+    def _taken(self, layers: _Layers, count: int, last: bool) -> None:
+        """Take so many layers from the lists; `last`: and the lists away."""
         layers.last.bind_to_storage_buffer(LAST)
-        with self._query:
-            self._show(self._take, None, width=layers.size[0], most=count)
-        return self._query.samples > 0
+        self._take.set(width=layers.size[0], most=count, last=last)
+        # Lines ask the pixels beside, of which some lie in blocks without a list.
+        self._blocks.draw(self._take, layers.taken, with_beside=True)
 
-    def _added(self, layers: _Layers) -> None:
-        """Add up the layers, with their lines, under those before."""
-        layers.total.use()
+    def _added(
+        self, layers: _Layers, into: moderngl.Framebuffer, factors: pipeline.Factors
+    ) -> None:
+        """Add up the layers that were taken, with their lines, into a picture."""
         for k, texture in enumerate((*layers.colors, *layers.places), SUM + 1):
             texture.use(k)
         units = tuple(range(SUM + 1, SUM + 1 + 2 * AT_ONCE))
         self._add.set(colors=units[:AT_ONCE], places=units[AT_ONCE:])
-        self._show(self._add, pipeline.UNDER)
-        layers.sum.use(SUM)
-
-    def _show(self, shader: Shader, factors: pipeline.Factors | None, **values: object) -> None:
-        shader.set(**values)
-        self._context.enable_only(moderngl.BLEND if factors else moderngl.NOTHING)
-        if factors:
-            pipeline.blend(self._context, factors)
-        self._screens[shader].render(moderngl.TRIANGLES, 3)
+        self._blocks.draw(self._add, into, factors)
 
     def _ready(self, size: tuple[int, int]) -> _Layers:
         if self._layers is None or self._layers.size != size:

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device import pipeline
-from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.rules.lists import BEFORE, NEEDED, WORDS, Lists
+from seethrough.renderer.gpu.rules.list_blocks import ListBlocks
+from seethrough.renderer.gpu.rules.lists import WORDS, Lists
 from seethrough.renderer.gpu.rules.removal_painter import RemovalPainter
 from seethrough.renderer.gpu.rules.rule_program import Ruled
 from seethrough.renderer.gpu.rules.scope import Scope, halves, scope_of
@@ -30,12 +30,11 @@ class ListPainter:
     """Keeps programs and buffers. `found` are the layers of the last frame drawn with ids."""
 
     def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
-        self._context, self._ids = context, "WITH_IDS" in defines
+        self._ids = "WITH_IDS" in defines
         self._lists = Lists(context, defines)
         self._solids = RemovalPainter(context, ["SOLID", *defines])
-        own = [f"WORDS {WORDS}u"]
-        self._sum = program(context, "present.vert", "lists.frag", own, NEEDED, BEFORE)
-        self._screen = context.vertex_array(self._sum.program, [])
+        self._blocks = ListBlocks(context)
+        self._sum = self._blocks.program("lists.frag", WORDS)
         self.found: list[Drawn] = []
 
     def draw(self, ruled: Ruled, target: FrameTarget) -> int:
@@ -55,32 +54,20 @@ class ListPainter:
             if count > self._lists.limit:
                 parts += halves(part)  # what one buffer cannot hold is drawn in two parts
                 continue
+            heads = self._lists.heads()
             if self._ids:
-                found.append(_layers(*self._lists.read(count), target.size, most))
-            self._add_up(part, target, MOST if most is None else most)
+                found.append(_layers(self._lists.read(count), heads, target.size, most))
+            self._add_up(heads, part, target, MOST if most is None else most)
         self.found = [_joined(layers) for layers in zip_longest(*found)]
         return draws
 
-    def _add_up(self, scope: Scope, target: FrameTarget, most: int) -> None:
-        """Add up the lists of a part of the picture over what is there, and take them away.
-
-        Where pixels have several samples these are two passes: the triangle that covers the picture
-        may be cut in two, and a pixel that lies in both is drawn twice, the second time of nothing
-        if the first had taken its list.
-        """
-        once = target.resolved is target.framebuffer
-        self._pass(target.framebuffer, scope, most, takes=once)
-        if not once:
-            self._pass(self._lists.spare, scope, 0, takes=True)
-
-    def _pass(self, into: moderngl.Framebuffer, scope: Scope, most: int, takes: bool) -> None:
-        pipeline.within(into, scope)
-        into.use()
-        self._sum.set(width=into.size[0], most=most, enough=OPAQUE, takes=takes)
-        self._context.enable_only(moderngl.BLEND)
-        pipeline.blend(self._context, pipeline.OVER)
-        self._screen.render(moderngl.TRIANGLES, 3)
-        pipeline.within(into, None)
+    def _add_up(
+        self, heads: NDArray[np.uint32], scope: Scope, target: FrameTarget, most: int
+    ) -> None:
+        """Add up the lists of a part of the picture over what is there, and take them away."""
+        self._blocks.find(heads, target.size, scope)
+        self._sum.set(width=target.size[0], most=most, enough=OPAQUE)
+        self._blocks.draw(self._sum, target.framebuffer, pipeline.OVER)
 
 
 def _layers(

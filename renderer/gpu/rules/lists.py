@@ -92,12 +92,6 @@ class Lists:
         return count
 
     @property
-    def spare(self) -> moderngl.Framebuffer:
-        """One of a sample a pixel, whose colours are nobody's."""
-        assert self._opaque is not None
-        return self._opaque
-
-    @property
     def _room(self) -> int:
         return self.surfaces.size // (4 * self.words)
 
@@ -134,10 +128,14 @@ class Lists:
         # No list begins anywhere between frames: whoever adds a list up takes it away.
         self._heads = self._context.buffer(bytes(4 * size[0] * size[1]))
 
-    def read(self, count: int) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-        """(count, words) the surfaces, and (h·w,) where each pixel's list begins, from 1; the
-        bottom row first."""
-        assert self._heads is not None
+    def read(self, count: int) -> NDArray[np.uint32]:
+        """(count, words) the surfaces."""
         # Of nothing there is nothing to read, for which a driver has an error.
-        data = np.frombuffer(self.surfaces.read(count * self.words * 4) if count else b"", "u4")
-        return data.reshape(-1, self.words), np.frombuffer(self._heads.read(), "u4")
+        data = self.surfaces.read(count * self.words * 4) if count else b""
+        return np.frombuffer(data, "u4").reshape(-1, self.words)
+
+    def heads(self) -> NDArray[np.uint32]:
+        """(h·w,) where each pixel's list begins, from 1; 0 where there is none; the bottom row
+        first."""
+        assert self._heads is not None
+        return np.frombuffer(self._heads.read(), "u4")
