@@ -123,7 +123,7 @@ def plan(
     boxes = screen_boxes(scene.corners, camera, size)
     drawn = np.nonzero(boxes.inside | ("cull" in without))[0]
     if technique.technique.painter != MASKS:
-        rules, shot = technique.technique, Shot(scene, camera, size, scale)
+        rules, shot = technique.technique, Shot(scene, camera, size, scale, covered=boxes)
         state = rules.begin(technique) if state is None else state
         return _ruled(_opaque(boxes, drawn, without), rules.touches(technique, state, shot))
     technique = by_masks(technique)

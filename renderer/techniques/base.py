@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
-from typing import ClassVar, Generic, Protocol, cast
+from typing import TYPE_CHECKING, ClassVar, Generic, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ from seethrough.renderer.declared import check
 from seethrough.renderer.events import Event
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from seethrough.renderer.scene.projection import Boxes
 
 Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
@@ -56,13 +60,22 @@ class Parameters:
 class Shot:
     """What is drawn: a scene, from where, and how large (width, height in pixels). `scale` is the
     picture's size over the window's: widths in pixels of the window shrink with it. `part` (left,
-    top, right, bottom in pixels): beside it nobody looks anything up; None: the whole picture."""
+    top, right, bottom in pixels): beside it nobody looks anything up; None: the whole picture.
+    `covered` is what objects cover on the screen, where that is known already."""
 
     scene: Scene
     camera: Camera
     size: tuple[int, int]
     scale: float = 1.0
     part: tuple[int, int, int, int] | None = None
+    covered: Boxes | None = None
+
+    @cached_property
+    def boxes(self) -> Boxes:
+        """What objects cover on the screen."""
+        from seethrough.renderer.scene.projection import screen_boxes
+
+        return self.covered or screen_boxes(self.scene.corners, self.camera, self.size)
 
     @property
     def looked_up(self) -> tuple[int, int, int, int]:

@@ -126,7 +126,11 @@ def bounds(picture: Floats32, extents: Floats) -> Floats:
     height, width = picture.shape
     rows, columns = (height + BLOCK - 1) // BLOCK, (width + BLOCK - 1) // BLOCK
     low, high = np.full((rows, columns), np.inf), np.full((rows, columns), -np.inf)
-    for i in range(rows):
+    first, last = rows, 0  # of the rows of blocks that any part reaches
+    for k in range(len(extents)):
+        first = min(first, int(min(max(extents[k, 1] - 1, 0.0), height)) // BLOCK)
+        last = max(last, int(max(min(extents[k, 3] + 1, height - 1.0), -1.0)) // BLOCK + 1)
+    for i in range(first, last):
         least, most = picture[i * BLOCK].copy(), picture[i * BLOCK].copy()
         for r in range(i * BLOCK + 1, min(i * BLOCK + BLOCK, height)):
             for c in range(width):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
-from seethrough.renderer.scene.projection import screen_boxes
 from seethrough.renderer.techniques.base import Bools, Floats, Shot
 
 
 def before_targets(shot: Shot) -> Bools:
     """(n,) penetrable objects that overlap a target on the screen and reach nearer than its end."""
-    boxes = screen_boxes(shot.scene.corners, shot.camera, shot.size)
+    boxes = shot.boxes
     among = shot.scene.targets & boxes.inside
     return reached(shot, boxes.extents[among] + [-1, -1, 1, 1], boxes.far[among])
 
@@ -18,14 +18,24 @@ def before_targets(shot: Shot) -> Bools:
 def reached(shot: Shot, extents: Floats, depth: Floats) -> Bools:
     """(n,) penetrable objects that reach into one of some parts of the picture (k, 4: left, top,
     right, bottom in pixels) and before the view depth (k,) that belongs to it."""
-    scene = shot.scene
-    found = np.zeros(len(scene.objects), dtype=bool)
-    if len(extents):
-        boxes = screen_boxes(scene.corners, shot.camera, shot.size)
-        low = (boxes.extents[:, None, :2] <= extents[None, :, 2:]).all(axis=2)
-        high = (boxes.extents[:, None, 2:] >= extents[None, :, :2]).all(axis=2)
-        found = np.any(low & high & (boxes.near[:, None] <= depth), axis=1)
-    return found & ~scene.targets & ~scene.impenetrable
+    scene, boxes = shot.scene, shot.boxes
+    among = ~scene.targets & ~scene.impenetrable
+    return _reached(boxes.extents, boxes.near, among, extents, depth)
+
+
+@njit(cache=True)
+def _reached(boxes: Floats, near: Floats, among: Bools, extents: Floats, depth: Floats) -> Bools:
+    found = np.zeros(len(boxes), np.bool_)
+    for i in range(len(boxes)):
+        if not among[i]:
+            continue
+        for k in range(len(extents)):
+            across = boxes[i, 0] <= extents[k, 2] and boxes[i, 2] >= extents[k, 0]
+            down = boxes[i, 1] <= extents[k, 3] and boxes[i, 3] >= extents[k, 1]
+            if across and down and near[i] <= depth[k]:
+                found[i] = True
+                break
+    return found
 
 
 def whole(shot: Shot, count: int) -> Floats:

@@ -83,14 +83,13 @@ class Removal(base.Plain[P, base.State, base.Known]):
         Only what is known to be convex counts as whole: of others back faces may show."""
         if self.removes is not CLIPPED:
             return among[:0], among
-        from seethrough.renderer.scene.projection import screen_boxes
         from seethrough.renderer.techniques.maps import bounds
 
-        boxes = screen_boxes(shot.scene.corners[among], shot.camera, shot.size)
-        least, most = bounds(pictures["clip"], boxes.extents).T
-        gone = boxes.far * (1 + SURE) < least
+        near, far = shot.boxes.near[among], shot.boxes.far[among]
+        least, most = bounds(pictures["clip"], shot.boxes.extents[among]).T
+        gone = far * (1 + SURE) < least
         convex = np.array([shot.scene.objects[i].mesh.convex for i in among.tolist()], dtype=bool)
-        whole = convex & (boxes.near > shot.camera.near) & (boxes.near > most * (1 + SURE))
+        whole = convex & (near > shot.camera.near) & (near > most * (1 + SURE))
         return among[whole], among[~(whole | gone)]
 
     def sides(self, p: P) -> bool:

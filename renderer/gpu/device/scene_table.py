@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from itertools import pairwise
 
 import moderngl
 import numpy as np
@@ -130,10 +131,10 @@ class SceneTable:
             extra[number == k] = values[objects[number == k]]
         sequence = self._upload(objects, camera, extra)
         slots = self.slot[objects]
-        starts = np.nonzero(np.diff(number, prepend=-1) | np.diff(slots, prepend=-1))[0]
-        ends = np.append(starts[1:], len(objects))[: len(starts)]
+        another = (number[1:] != number[:-1]) | (slots[1:] != slots[:-1])
+        cuts = [0, *(np.nonzero(another)[0] + 1).tolist(), len(objects)]
         runs: list[list[Run]] = [[] for _ in parts]
-        for a, b in zip(starts.tolist(), ends.tolist(), strict=True):
+        for a, b in pairwise(cuts if len(objects) else []):
             runs[number[a]].append((self.meshes[slots[a]], a, b - a))
         return sequence, runs
 

@@ -124,7 +124,7 @@ class Layer:
             self._masks.begin(counts)
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
         if len(frame.ruled):
-            shot = Shot(table.scene, camera, size, scale)
+            shot = Shot(table.scene, camera, size, scale, covered=frame.boxes)
             for name in painters.of(technique):
                 self._draw_ruled(name, table, frame, technique, state, shot, target)
                 if after_level is not None and name == REMOVAL:

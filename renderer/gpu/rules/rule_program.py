@@ -17,7 +17,6 @@ from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.rules.scope import looked_up
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.scene.projection import screen_boxes
 from seethrough.renderer.techniques.base import Parameters, Plain, Shot
 
 PICTURES = 5  # the first texture unit of a rule's pictures
@@ -133,8 +132,7 @@ class RulePrograms:
         framebuffer.clear(depth=0.0)
         framebuffer.use()
         scene = shot.scene
-        inside = screen_boxes(scene.corners, shot.camera, shot.size).inside
-        targets = np.nonzero(scene.targets & inside)[0]
+        targets = np.nonzero(scene.targets & shot.boxes.inside)[0]
         sequence, runs = table.sequence([targets], shot.camera)
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = ">"

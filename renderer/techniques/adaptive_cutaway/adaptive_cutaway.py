@@ -67,10 +67,7 @@ class AdaptiveCutaway(removal.Removal[AdaptiveParameters, None, Cones]):
 
     def touches(self, p: AdaptiveParameters, state: object, shot: Shot) -> Bools:
         """What is nearer than the farthest target."""
-        from seethrough.renderer.scene.projection import screen_boxes
-
-        boxes = screen_boxes(shot.scene.corners, shot.camera, shot.size)
-        far = boxes.far[shot.scene.targets & boxes.inside].max(initial=0.0)
+        far = shot.boxes.far[shot.scene.targets & shot.boxes.inside].max(initial=0.0)
         return reaching.reached(shot, reaching.whole(shot, 1), np.array([far]))
 
     def known(self, p: AdaptiveParameters, state: object, seen: Surfaces) -> Cones:

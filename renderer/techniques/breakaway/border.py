@@ -8,6 +8,8 @@ from numba import njit
 from seethrough.renderer.arrays import Floats, Floats32, Ints, Real
 from seethrough.renderer.masks.masks import convex_hull
 
+UNSURE = 1e-3  # pixels at the end of a stretch that are looked at by themselves
+
 
 @njit(cache=True)
 def hulls(points: Floats, starts: Ints, lens: Floats) -> tuple[Floats, Ints, Floats]:
@@ -108,51 +110,78 @@ def fill(
     picture (h, w) of zeros into it.
 
     A row of pixels meets a convex hole without its teeth in one stretch, which is looked at only
-    where teeth can be; the stretch through the hull alone has none.
+    at its ends and where teeth can be; the stretch through the hull alone has none.
     """
     for h in range(len(depths)):
         hull = corners[starts[h] : starts[h + 1]]
         middle = _middle(hull)
         depth = np.float32(depths[h])
         low, high = hull[:, 1].min() - margin, hull[:, 1].max() + margin
-        for r in range(max(part[1], int(low) - 1), min(part[3], int(max(high, 0.0)) + 2)):
-            y = r + 0.5
-            left, right = _stretch(hull, y, margin)
+        top, bottom = max(part[1], int(low) - 1), min(part[3], int(max(high, 0.0)) + 2)
+        if top >= bottom:
+            continue
+        ends = _stretches(hull, margin, top, bottom)
+        sure = _stretches(hull, 0.0, top, bottom) if jagged > 0 else ends
+        for r in range(top, bottom):
+            left, right = ends[r - top]
             if left > right:
                 continue
+            row = out[r]
             first, last = max(part[0], int(left) - 1), min(part[2], int(max(right, 0.0)) + 2)
-            inner, outer = left + 1.0, right - 1.0
-            if jagged > 0:
-                inner, outer = _stretch(hull, y, 0.0)
-            for c in range(first, last):
-                x = c + 0.5
-                if depth <= out[r, c]:
-                    continue
-                if (inner + 1e-3 < x < outer - 1e-3) or (
-                    _room(hull, middle, x, y, margin, jagged, teeth) > 0
-                ):
-                    out[r, c] = depth
+            # From `begin` to `end` pixels need no look: several are filled at once.
+            begin, end = _between(sure[r - top], first, last)
+            for c in range(begin, end):
+                row[c] = depth if depth > row[c] else row[c]
+            for a, b in ((first, begin), (end, last)):
+                for c in range(a, b):
+                    x = c + 0.5
+                    if depth > row[c] and left - UNSURE < x < right + UNSURE:
+                        if _room(hull, middle, x, r + 0.5, margin, jagged, teeth) > 0:
+                            row[c] = depth
 
 
 @njit(cache=True)
-def _stretch(hull: Real, y: float, margin: float) -> tuple[float, float]:
-    """Where a row meets the outline grown by a margin, from left to right; inf, -inf: nowhere."""
-    left, right = np.inf, -np.inf
+def _between(stretch: Floats, first: int, last: int) -> tuple[int, int]:
+    """From which pixel, and up to which, middles lie surely within a stretch, of those from
+    `first` up to `last`."""
+    left, right = stretch[0] + 0.5 + UNSURE, stretch[1] - 0.5 - UNSURE
+    if not left <= right:
+        return last, last
+    begin = min(max(int(np.ceil(left - 1.0)), first), last)
+    return begin, min(max(int(np.floor(right)) + 1, begin), last)
+
+
+@njit(cache=True)
+def _stretches(hull: Real, margin: float, top: int, bottom: int) -> Floats:
+    """(bottom − top, 2) where the middle of each row meets the outline grown by a margin, from left
+    to right; ∞, −∞: nowhere."""
+    found = np.empty((bottom - top, 2))
+    found[:, 0], found[:, 1] = np.inf, -np.inf
     n = len(hull)
     for k in range(n):
-        away = abs(y - hull[k, 1])
-        if away <= margin:
-            half = np.sqrt(margin * margin - away * away)
-            left, right = min(left, hull[k, 0] - half), max(right, hull[k, 0] + half)
-        j = (k + 1) % n
-        ex, ey = hull[j, 0] - hull[k, 0], hull[j, 1] - hull[k, 1]
+        x, y = hull[k, 0], hull[k, 1]
+        for r in range(*_rows(y - margin, y + margin, top, bottom)):
+            away = r + 0.5 - y
+            half = np.sqrt(max(margin * margin - away * away, 0.0))
+            found[r - top, 0] = min(found[r - top, 0], x - half)
+            found[r - top, 1] = max(found[r - top, 1], x + half)
+        ex, ey = hull[(k + 1) % n, 0] - x, hull[(k + 1) % n, 1] - y
         length = np.sqrt(ex * ex + ey * ey)
-        if length == 0:
+        if length == 0 or ey == 0:
             continue
-        for side in (-1.0, 1.0):
-            ox, oy = -side * margin * ey / length, side * margin * ex / length
-            y0, y1 = hull[k, 1] + oy, hull[j, 1] + oy
-            if min(y0, y1) <= y <= max(y0, y1) and y0 != y1:
-                x = hull[k, 0] + ox + (y - y0) / (y1 - y0) * ex
-                left, right = min(left, x), max(right, x)
-    return left, right
+        for side in (-1.0, 1.0):  # the one within changes nothing
+            x0, y0 = x - side * margin * ey / length, y + side * margin * ex / length
+            slope = ex / ey
+            for r in range(*_rows(min(y0, y0 + ey), max(y0, y0 + ey), top, bottom)):
+                at = x0 + (r + 0.5 - y0) * slope
+                found[r - top, 0] = min(found[r - top, 0], at)
+                found[r - top, 1] = max(found[r - top, 1], at)
+    return found
+
+
+@njit(cache=True)
+def _rows(low: float, high: float, top: int, bottom: int) -> tuple[int, int]:
+    """From which row, and up to which, middles lie from `low` to `high`, of those from `top` up to
+    `bottom`."""
+    first = int(min(max(np.ceil(low - 0.5), top), bottom))
+    return first, int(max(min(np.floor(high - 0.5) + 1, bottom), first))
