@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough import registry
+from seethrough.benchmarks.drawing import vtk_peeling
 from seethrough.benchmarks.drawing.scenes import SCENES
 from seethrough.benchmarks.drawing.speed import times
 from seethrough.benchmarks.drawing.technique_ways import COSTS, Way, ways_of
@@ -63,6 +64,7 @@ def figures(parts: list[str] | None = None) -> Iterator[Row]:
         free = Scene(tuple(replace(o, impenetrable=True, target=False) for o in scene.objects))
         idle = Way(named("constant"), named("constant"))
         yield _cost(renderer, f"{where}: idle", "idle", free, cameras, idle)
+        yield from _beside_vtk(renderer, where, scene, cameras)
 
 
 def chart(rows: list[Row], path: Path) -> None:
@@ -95,6 +97,17 @@ def _cost(
     )
     must, aim = COSTS.get(label, (None, None))
     return row(TIME, at, spent["own"] / spent["standard"], "×", must, aim)
+
+
+def _beside_vtk(
+    renderer: Renderer, where: str, scene: Scene, cameras: list[Camera]
+) -> Iterator[Row]:
+    """Constant opacity, all surfaces in so many peels as VTK, each over its own opaque frame."""
+    label = f"constant, all surfaces, {vtk_peeling.FEW} peels"
+    way = ways_of("constant", Shot(scene, cameras[0], SIZE))[label]
+    for theirs in vtk_peeling.theirs(SIZE, [where], constant=True).values():
+        own = _cost(renderer, f"{where}: {label}", label, scene, cameras, way).value
+        yield row("of VTK's time", f"{where}: {label}", own / theirs, "×", 1.0, 1 / 3)
 
 
 def _off(

@@ -1,9 +1,11 @@
-"""VTK's exact dual depth peeling on the same triangles, where vtk is installed.
+"""VTK's dual depth peeling on the same triangles, where vtk is installed.
 
-VTK knows no targets: every penetrable object gets the opacity `alpha_target`, so that as many
-layers blend as dynamic transparency could ask for. 100 peels leave none out (0 would peel
-nothing), and an occlusion ratio of 0 lets none be skipped. Times are ratios within VTK and
-within Seethrough, each against its own opaque frame.
+Beside dynamic transparency it is exact: VTK knows no targets, so that every penetrable object gets
+the opacity `alpha_target`, and as many layers blend as dynamic transparency could ask for. 100
+peels leave none out (0 would peel nothing), and an occlusion ratio of 0 lets none be skipped.
+Beside constant opacity both draw all surfaces, each from both sides, in 4 peels, targets and what
+is impenetrable opaque. Times are ratios within VTK and within Seethrough, each against its own
+opaque frame.
 """
 
 from __future__ import annotations
@@ -22,18 +24,27 @@ from seethrough.benchmarks.rows import row
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.constant.constant import ConstantParameters
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
 
-VIEWS, PEELS = 2, 100
+VIEWS, PEELS, FEW = 2, 100, 4
 EXACT = DynamicTransparency(exact=True)
 LEFT_OUT = "VTK's depth peeling: left out, vtk is not installed (pip install 'seethrough[vtk]')"
 
 
 class Peeled:
-    """A scene in VTK: opaque, or with `opacity` (n,) for each object and exact blending."""
+    """A scene in VTK: opaque, or with `opacity` (n,) for each object and so many peels; all its
+    surfaces or those that face the eye."""
 
-    def __init__(self, scene: Scene, size: tuple[int, int], opacity: np.ndarray | None) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        size: tuple[int, int],
+        opacity: np.ndarray | None,
+        peels: int = PEELS,
+        both_sides: bool = False,
+    ) -> None:
         import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (draws)
         from vtkmodules import vtkRenderingCore as core
 
@@ -48,12 +59,12 @@ class Peeled:
         mapper.SetInputData(_poly_data(scene, opacity))
         actor = core.vtkActor()
         actor.SetMapper(mapper)
-        actor.GetProperty().BackfaceCullingOn()
+        actor.GetProperty().SetBackfaceCulling(not both_sides)
         if opacity is not None:
             actor.ForceTranslucentOn()
             self.window.SetAlphaBitPlanes(1)
             self.view.SetUseDepthPeeling(1)
-            self.view.SetMaximumNumberOfPeels(PEELS)
+            self.view.SetMaximumNumberOfPeels(peels)
             self.view.SetOcclusionRatio(0.0)
         self.view.AddActor(actor)
 
@@ -119,37 +130,48 @@ def _poly_data(scene: Scene, opacity: np.ndarray | None) -> object:
     return data
 
 
-def main(size: tuple[int, int]) -> None:
-    """Print, for each of the three scenes, the time of a peeled frame against an opaque one."""
+def main(size: tuple[int, int], where: list[str], constant: bool) -> None:
+    """Print, for each of some scenes, the time of a peeled frame against an opaque one."""
     found = {}
-    for name, make in SCENES.items():
-        scene, cameras = make(size[0] / size[1], VIEWS)
+    for name in where:
+        scene, cameras = SCENES[name](size[0] / size[1], VIEWS)
         opacity = np.where(scene.impenetrable, 1.0, EXACT.alpha_target)
-        opaque, peeled = Peeled(scene, size, None), Peeled(scene, size, opacity)
+        if constant:
+            opacity = np.where(scene.impenetrable | scene.targets, 1.0, ConstantParameters().alpha)
+        opaque = Peeled(scene, size, None)
+        peeled = Peeled(scene, size, opacity, FEW if constant else PEELS, both_sides=constant)
         spent = times({"opaque": opaque.draw, "peeled": peeled.draw}, cameras, opaque)
         assert peeled.view.GetLastRenderingUsedDepthPeeling()
         found[name] = spent["peeled"] / spent["opaque"]
     print(json.dumps(found))
 
 
-def figures(renderer: Renderer) -> Iterator[Figure]:
-    """Rows for the three scenes; none, and a line that says so, without vtk."""
+def theirs(size: tuple[int, int], where: list[str], constant: bool) -> dict[str, float]:
+    """What VTK takes for a frame of each scene over its own opaque one, beside constant opacity or
+    beside dynamic transparency; nothing, and a line that says so, without vtk."""
     try:
         import vtkmodules  # noqa: F401
     except ModuleNotFoundError:
         print(LEFT_OUT, file=sys.stderr)
-        return
+        return {}
     # A process of its own: two libraries cannot share the thread's current OpenGL context.
-    code = f"from seethrough.benchmarks.drawing.vtk_peeling import main; main({renderer.size})"
+    code = (
+        "from seethrough.benchmarks.drawing.vtk_peeling import main; "
+        f"main({size}, {where}, {constant})"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    theirs = json.loads(done.stdout.splitlines()[-1])
-    for name, make in SCENES.items():
-        scene, cameras = make(renderer.size[0] / renderer.size[1], VIEWS)
+    return dict(json.loads(done.stdout.splitlines()[-1]))
+
+
+def figures(renderer: Renderer) -> Iterator[Figure]:
+    """Rows for the three scenes."""
+    for name, value in theirs(renderer.size, list(SCENES), constant=False).items():
+        scene, cameras = SCENES[name](renderer.size[0] / renderer.size[1], VIEWS)
         ways = {
             "standard": drawing(renderer, scene, Standard()),
             "exact": drawing(renderer, scene, EXACT),
         }
         ours = times(ways, cameras, renderer.context)
-        yield row(f"VTK, {PEELS} peels / VTK opaque", name, theirs[name], "×", None, None)
+        yield row(f"VTK, {PEELS} peels / VTK opaque", name, value, "×", None, None)
         value = ours["exact"] / ours["standard"]
         yield row("exact / standard, beside VTK", name, value, "×", None, None)
