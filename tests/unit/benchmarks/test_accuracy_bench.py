@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -83,5 +84,5 @@ def test_the_figure_shows_every_order_in_every_scene(tmp_path):
 def test_without_vtk_its_rows_are_left_out_with_a_line(monkeypatch, capsys):
     """Nothing else of the benchmark depends on it."""
     monkeypatch.setitem(sys.modules, "vtkmodules", None)
-    assert list(vtk_peeling.figures(None)) == []
+    assert list(vtk_peeling.figures(SimpleNamespace(size=(8, 8)))) == []
     assert capsys.readouterr().err == vtk_peeling.LEFT_OUT + "\n"
