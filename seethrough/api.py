@@ -22,16 +22,8 @@ from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import layered, pointing, reaching, removal
-from seethrough.renderer.techniques.base import (
-    Gesture,
-    Look,
-    Parameters,
-    Plain,
-    Shot,
-    Shown,
-    Surfaces,
-    Technique,
-)
+from seethrough.renderer.techniques.base import Gesture, Parameters, Plain, Shot, Shown, Technique
+from seethrough.renderer.techniques.seen import Look, Surfaces
 from seethrough.tasks.kit import controls, hud, measure
 from seethrough.tasks.kit.base import Basics, Example, Outcome, Setting, Task, View
 from seethrough.tasks.kit.entry import NumberEntry

@@ -106,7 +106,7 @@ def _beside_vtk(
     label = f"constant, all surfaces, {vtk_peeling.FEW} peels"
     way = ways_of("constant", Shot(scene, cameras[0], SIZE))[label]
     for theirs in vtk_peeling.theirs(SIZE, [where], constant=True).values():
-        own = _cost(renderer, f"{where}: {label}", label, scene, cameras, way).value
+        own = _cost(renderer, f"{where}: {label}", label, scene, cameras, way)["value"]
         yield row("of VTK's time", f"{where}: {label}", own / theirs, "×", 1.0, 1 / 3)
 
 

@@ -34,6 +34,7 @@ from seethrough.renderer.reference.reference import ExactPicture, exact
 from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene.scene import Object
 from seethrough.renderer.techniques import base
+from seethrough.renderer.techniques.seen import Look
 from seethrough.renderer.techniques.standard.opaque import Standard
 
 if TYPE_CHECKING:
@@ -182,7 +183,7 @@ class _Tried:
             return Finding("pure", False, f"writes into what it is given ({error})")
         same = all(
             np.array_equal(getattr(looks[0], f.name), getattr(looks[1], f.name))
-            for f in dataclasses.fields(base.Look)
+            for f in dataclasses.fields(Look)
         )
         touched = self.technique.touches(self.p, state, shot)
         again = self.technique.touches(self.p, state, shot)

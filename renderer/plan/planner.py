@@ -39,7 +39,7 @@ SHORTCUTS = {
     "outside": "large objects are blended only where masks are, and drawn opaque elsewhere",
     "parts": "only parts of the picture whose order is in doubt are sorted by pixel",
     "held": "objects that lie in a part sorted by pixel are drawn there alone",
-    "removed": "what a hole takes whole is not drawn, what it leaves whole from outside alone",
+    "removed": "what a hole takes is not drawn: things, of large meshes single triangles",
     "still": "a frame in which nothing changed is shown again",
 }
 

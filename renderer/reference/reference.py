@@ -23,7 +23,8 @@ from seethrough.renderer.reference.surfaces import surfaces
 from seethrough.renderer.scene import lighting
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Parameters, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Parameters, Shot
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Bools, Floats, Ints
 from seethrough.renderer.reference.pixel_fragments import to_edges, triangles
-from seethrough.renderer.techniques.base import Shot, Surfaces
+from seethrough.renderer.techniques.base import Shot
+from seethrough.renderer.techniques.seen import Surfaces
 
 NEAR = 1.0 / 256.0  # pixels: closer to an edge, float32 may fall to its other side
 

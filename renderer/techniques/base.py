@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, ClassVar, Generic, Protocol, cast
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from seethrough.renderer.declared import check
 from seethrough.renderer.events import Event
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 if TYPE_CHECKING:
     from seethrough.renderer.scene.projection import Boxes
@@ -88,6 +89,17 @@ class Shot:
         return self.size[0] / self.size[1]
 
 
+class Cut(NamedTuple):
+    """Objects of which front faces alone show, all of them (`whole`), and those of which any part
+    may go (`partly`); what is in neither is removed whole. `hole` (h, w) is the depth up to which
+    what is partly removed goes at each pixel, 0 where nothing does and back faces do not show;
+    None where the rule cannot say that."""
+
+    whole: Indices
+    partly: Indices
+    hole: NDArray[np.float32] | None
+
+
 @dataclass(frozen=True, eq=False)
 class Shown:
     """What stands there in this frame: the scene, perhaps with moved transforms. Its objects keep
@@ -95,89 +107,6 @@ class Shown:
     nothing moves it is the scene itself."""
 
     scene: Scene
-
-
-@dataclass(frozen=True, eq=False)
-class Surfaces:
-    """All surfaces of all objects at all pixels, front and back: m rows in the order of pixels, at
-    each pixel from the front to the back; of two at the same depth the later object comes first.
-
-    pixel (m,) is row · width + column; depth (m,) the view depth; object and triangle (m,) say
-    whose surface it is; front (m,) whether its outside faces the eye; offset (m, 3) leads from the
-    eye to it, in the world; normal (m, 3) is the mesh's own, turned outwards, not of unit length;
-    color (m, 3) is unlit; slack (m,) is by how much its depth may differ where float32 and float64
-    put edges 1/256 pixel apart. starts (h·w + 1,) says where each pixel's rows begin; outlines has
-    for each object its front-facing triangles (k, 3, 2) in pixels, cut at the near plane; edge
-    (h·w,) are the pixels within 1/256 pixel of the edge of a triangle that faces the eye,
-    `edges` of any triangle.
-    """
-
-    shot: Shot
-    pixel: Indices
-    depth: Floats
-    object: Indices
-    triangle: Indices
-    front: Bools
-    offset: Floats
-    normal: Floats
-    color: Floats
-    slack: Floats
-    starts: Indices
-    outlines: tuple[Floats, ...]
-    edge: Bools
-    edges: Bools
-
-    @property
-    def targets(self) -> Bools:
-        """(m,) which rows belong to targets."""
-        return self.shot.scene.targets[self.object]
-
-    @property
-    def penetrable(self) -> Bools:
-        """(m,) which rows belong to what is no target and not impenetrable."""
-        scene = self.shot.scene
-        return ~(scene.targets | scene.impenetrable)[self.object]
-
-    @property
-    def place(self) -> Floats:
-        """(m, 2) column + 0.5 and row + 0.5: the middle of each row's pixel."""
-        row, column = np.divmod(self.pixel, self.shot.size[0])
-        return np.stack([column, row], axis=1) + 0.5
-
-    def first(self, among: Bools) -> Bools:
-        """(m,) which rows are the nearest of their object at their pixel, among some."""
-        rows = np.nonzero(among)[0]
-        key = self.pixel[rows] * (int(self.object.max(initial=0)) + 1) + self.object[rows]
-        found = np.zeros(len(among), dtype=bool)
-        found[rows[np.unique(key, return_index=True)[1]]] = True
-        return found
-
-    def nearest(self, among: Bools) -> Floats:
-        """(h·w,) depth of each pixel's nearest row among some, inf where there is none."""
-        return self._extreme(among, np.minimum, np.inf)
-
-    def farthest(self, among: Bools) -> Floats:
-        """(h·w,) depth of each pixel's farthest row among some, 0 where there is none."""
-        return self._extreme(among, np.maximum, 0.0)
-
-    def _extreme(self, among: Bools, ufunc: np.ufunc, none: float) -> Floats:
-        found = np.full(len(self.starts) - 1, none)
-        ufunc.at(found, self.pixel[among], self.depth[among])
-        return found
-
-
-@dataclass(frozen=True, eq=False)
-class Look:
-    """How each row of Surfaces shows: kept (m,); opacity (m,), of what is kept; tint (m, 4): a
-    colour, and how much of it covers the lit one; doubt (m,): rows so near a border of the rule
-    that float32 may decide otherwise, whose pixels are not compared. `additive`: opacities of a
-    line of sight add up (Elmqvist2009 §III-A) instead of multiplying."""
-
-    kept: Bools
-    opacity: Floats
-    tint: Floats | None = None
-    doubt: Bools | None = None
-    additive: bool = False
 
 
 @dataclass(frozen=True)
@@ -267,12 +196,9 @@ class Technique(Protocol[P, State, Known]):
         """Name → (h, w) of the pictures that `glsl` looks up, made from those that it `needs`.
         Beside the shot's `part` they may hold anything."""
 
-    def cut(
-        self, shot: Shot, pictures: Mapping[str, NDArray[np.float32]], among: Indices
-    ) -> tuple[Indices, Indices]:
-        """Of the objects `among` (k,) that it touches, those whose front faces alone show, all of
-        them, and those of which any part may go; what is in neither is removed whole. `pictures`
-        are those that `glsl` looks up."""
+    def cut(self, shot: Shot, pictures: Mapping[str, NDArray[np.float32]], among: Indices) -> Cut:
+        """What of the objects `among` (k,) that it touches has to be drawn. `pictures` are those
+        that `glsl` looks up."""
 
     def objects(self, p: P, scene: Scene) -> NDArray[np.int64]:
         """(n,) a number of each object's, the Surface's `number` in `glsl`."""
@@ -370,11 +296,9 @@ class Plain(Generic[P, State, Known]):
         """Those that it needs, as they are."""
         return needed
 
-    def cut(
-        self, shot: Shot, pictures: Mapping[str, NDArray[np.float32]], among: Indices
-    ) -> tuple[Indices, Indices]:
+    def cut(self, shot: Shot, pictures: Mapping[str, NDArray[np.float32]], among: Indices) -> Cut:
         """Of all any part may go."""
-        return among[:0], among
+        return Cut(among[:0], among, None)
 
     def objects(self, p: P, scene: Scene) -> NDArray[np.int64]:
         """1 what may be penetrated, 0 targets and what may not."""

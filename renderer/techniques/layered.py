@@ -9,7 +9,8 @@ from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import base
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Shot
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 SURFACES = ("front", "all")
 

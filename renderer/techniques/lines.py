@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.techniques.base import Bools, Indices, Surfaces
+from seethrough.renderer.techniques.base import Bools, Indices
+from seethrough.renderer.techniques.seen import Surfaces
 
 LINE = (0.12, 0.2, 0.45)
 NEIGHBOURS = ((0, 1), (0, -1), (1, 0), (-1, 0))

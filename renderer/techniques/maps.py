@@ -120,13 +120,14 @@ BLOCK = 16  # pixels of a picture that are looked at together
 
 
 @njit(cache=True)
-def bounds(picture: Floats32, extents: Floats) -> Floats:
-    """(k, 2) the least and the greatest of a (h, w) picture within parts of it (k, 4: left, top,
-    right, bottom in pixels), or in a little more; of parts outside it −∞ and ∞."""
+def block_bounds(picture: Floats32, extents: Floats) -> tuple[Floats, Floats]:
+    """The least and the greatest (rows, columns) of each block of a (h, w) picture, in the rows of
+    blocks that any of its parts (k, 4: left, top, right, bottom in pixels) reaches; of other rows
+    ∞ and −∞."""
     height, width = picture.shape
     rows, columns = (height + BLOCK - 1) // BLOCK, (width + BLOCK - 1) // BLOCK
     low, high = np.full((rows, columns), np.inf), np.full((rows, columns), -np.inf)
-    first, last = rows, 0  # of the rows of blocks that any part reaches
+    first, last = rows, 0
     for k in range(len(extents)):
         first = min(first, int(min(max(extents[k, 1] - 1, 0.0), height)) // BLOCK)
         last = max(last, int(max(min(extents[k, 3] + 1, height - 1.0), -1.0)) // BLOCK + 1)
@@ -140,6 +141,15 @@ def bounds(picture: Floats32, extents: Floats) -> Floats:
         for c in range(width):
             j = c // BLOCK
             low[i, j], high[i, j] = min(low[i, j], least[c]), max(high[i, j], most[c])
+    return low, high
+
+
+@njit(cache=True)
+def bounds(picture: Floats32, extents: Floats) -> Floats:
+    """(k, 2) the least and the greatest of a (h, w) picture within parts of it (k, 4: left, top,
+    right, bottom in pixels), or in a little more; of parts outside it −∞ and ∞."""
+    height, width = picture.shape
+    low, high = block_bounds(picture, extents)
     found = np.empty((len(extents), 2))
     for k in range(len(extents)):
         left, right = max(extents[k, 0] - 1, 0.0), min(extents[k, 2] + 1, width - 1.0)

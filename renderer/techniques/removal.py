@@ -17,8 +17,9 @@ from typing_extensions import TypeVar
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import base
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats
 from seethrough.renderer.techniques.lines import LINE, on_edges, unsure
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 CAPS = ("none", "inside", "flat")
 WALL = (0.36, 0.34, 0.33)
@@ -78,11 +79,11 @@ class Removal(base.Plain[P, base.State, base.Known]):
 
     def cut(
         self, shot: base.Shot, pictures: Mapping[str, NDArray[np.float32]], among: base.Indices
-    ) -> tuple[base.Indices, base.Indices]:
+    ) -> base.Cut:
         """Where a hole is one depth at each pixel, by its least and greatest about each object.
         Only what is known to be convex counts as whole: of others back faces may show."""
         if self.removes is not CLIPPED:
-            return among[:0], among
+            return base.Cut(among[:0], among, None)
         from seethrough.renderer.techniques.maps import bounds
 
         near, far = shot.boxes.near[among], shot.boxes.far[among]
@@ -90,7 +91,7 @@ class Removal(base.Plain[P, base.State, base.Known]):
         gone = far * (1 + SURE) < least
         convex = np.array([shot.scene.objects[i].mesh.convex for i in among.tolist()], dtype=bool)
         whole = convex & (near > shot.camera.near) & (near > most * (1 + SURE))
-        return among[whole], among[~(whole | gone)]
+        return base.Cut(among[whole], among[~(whole | gone)], pictures["clip"])
 
     def sides(self, p: P) -> bool:
         """Where cuts show a wall."""

@@ -33,6 +33,7 @@ class GpuMesh:
         triangles = mesh.triangles[:, ::-1] if mirrored else mesh.triangles
         self._indices = context.buffer(np.ascontiguousarray(triangles, dtype="i4").tobytes())
         self._arrays: dict[int, moderngl.VertexArray] = {}
+        self._some: dict[tuple[int, int], moderngl.VertexArray] = {}
         self._topology: Topology | None = None
         self._edges: HalfEdges | None = None
 
@@ -56,7 +57,7 @@ class GpuMesh:
 
     def release(self) -> None:
         """Give the GPU's memory back."""
-        for array in self._arrays.values():
+        for array in (*self._arrays.values(), *self._some.values()):
             array.release()
         self._vertices.release()
         self._indices.release()
@@ -65,12 +66,31 @@ class GpuMesh:
         """Draw `count` instances, from row `first` of the sequence on."""
         key = shader.program.glo
         if key not in self._arrays:
-            used = [a if a in shader.members else None for a in ATTRIBUTES]
-            layout = " ".join("3f" if a else "12x" for a in used)
-            content = [(self._vertices, layout, *[a for a in used if a])]
+            content = self._content(shader)
             self._arrays[key] = context.vertex_array(shader.program, content, self._indices)
         shader["first"].write(_INT(first))  # half the time of setting its value
         self._arrays[key].render(instances=count)
+
+    def draw_some(
+        self,
+        context: moderngl.Context,
+        shader: Shader,
+        row: int,
+        indices: moderngl.Buffer,
+        part: tuple[int, int],
+    ) -> None:
+        """Draw one instance, of that `row` of the sequence, of the triangles alone whose corners
+        stand in a `part` (first, count) of other `indices`."""
+        key = shader.program.glo, indices.glo
+        if key not in self._some:
+            self._some[key] = context.vertex_array(shader.program, self._content(shader), indices)
+        shader["first"].write(_INT(row))
+        self._some[key].render(vertices=3 * part[1], first=3 * part[0])
+
+    def _content(self, shader: Shader) -> list[tuple[object, ...]]:
+        used = [a if a in shader.members else None for a in ATTRIBUTES]
+        layout = " ".join("3f" if a else "12x" for a in used)
+        return [(self._vertices, layout, *[a for a in used if a])]
 
 
 class MeshStore:

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Bools, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Shot
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.lines import LINE, on_edges, unsure
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 
 @dataclass(frozen=True)

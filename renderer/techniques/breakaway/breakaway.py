@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from seethrough.renderer.arrays import Ints
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import reaching, removal
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Shot
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.techniques import reaching, removal
-from seethrough.renderer.techniques.base import Bools, Floats, Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Shot
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 
 @dataclass(frozen=True)

@@ -15,16 +15,9 @@ import numpy as np
 from seethrough.renderer.declared import key
 from seethrough.renderer.events import Event, KeyPress, Wheel
 from seethrough.renderer.techniques import pointing, removal
-from seethrough.renderer.techniques.base import (
-    Bools,
-    Floats,
-    Gesture,
-    Look,
-    Shot,
-    Surfaces,
-    Texts,
-)
+from seethrough.renderer.techniques.base import Bools, Floats, Gesture, Shot, Texts
 from seethrough.renderer.techniques.pointing import Pointing
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 MOST = 16  # holes: one more, and the first is filled
 

@@ -21,8 +21,9 @@ from seethrough.renderer.masks import masks
 from seethrough.renderer.reference.pixel_fragments import covered, distances
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Bools, Floats, Indices, Look, Surfaces
+from seethrough.renderer.techniques.base import Bools, Floats, Indices
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,7 @@ from seethrough.renderer.events import Event, PointerMove
 from seethrough.renderer.techniques import base
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.pointing import Pointing, followed
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 if TYPE_CHECKING:
     from seethrough.renderer.techniques.dynamic.exact import Mask
@@ -67,15 +68,15 @@ class DynamicRendering(base.Plain[DynamicTransparency, Pointing | None, Masks]):
         scene = shot.scene
         return np.full(len(scene.objects), bool(scene.targets.any())) & ~scene.impenetrable
 
-    def known(self, p: DynamicTransparency, state: Pointing | None, seen: base.Surfaces) -> Masks:
+    def known(self, p: DynamicTransparency, state: Pointing | None, seen: Surfaces) -> Masks:
         """The masks."""
         from seethrough.renderer.techniques.dynamic import exact
 
         return exact.known(self.drawn(p, state), seen)
 
     def rule(
-        self, p: DynamicTransparency, state: Pointing | None, seen: base.Surfaces, known: Masks
-    ) -> base.Look:
+        self, p: DynamicTransparency, state: Pointing | None, seen: Surfaces, known: Masks
+    ) -> Look:
         """Opacities of the front-most surface of each object."""
         from seethrough.renderer.techniques.dynamic import exact
 

@@ -13,9 +13,10 @@ import numpy as np
 from seethrough.renderer.declared import key
 from seethrough.renderer.events import Event, PointerMove
 from seethrough.renderer.techniques import pointing, reaching
-from seethrough.renderer.techniques.base import Bools, Look, Shot, Surfaces, Texts
+from seethrough.renderer.techniques.base import Bools, Shot, Texts
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.pointing import Pointing
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 TEXTS: Texts = {
     "en": {

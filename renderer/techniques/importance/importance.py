@@ -17,16 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import (
-    TARGET_DEPTH,
-    Bools,
-    Floats,
-    Look,
-    Shot,
-    Surfaces,
-)
+from seethrough.renderer.techniques.base import TARGET_DEPTH, Bools, Floats, Shot
 from seethrough.renderer.techniques.layered import Layered, Layering
 from seethrough.renderer.techniques.reaching import before_targets
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 STYLES = ("opacity", "screen door")
 # Bayer's threshold matrix, 0 to 15: the pattern of a screen door of any density.

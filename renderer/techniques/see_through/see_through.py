@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.declared import key
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.techniques.base import Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Shot
 from seethrough.renderer.techniques.layered import Layered, Layering
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 
 @dataclass(frozen=True)

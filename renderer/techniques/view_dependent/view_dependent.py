@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from seethrough.renderer.declared import key
-from seethrough.renderer.techniques.base import Look, Shot, Surfaces
+from seethrough.renderer.techniques.base import Shot
 from seethrough.renderer.techniques.layered import Layered, Layering
+from seethrough.renderer.techniques.seen import Look, Surfaces
 
 
 @dataclass(frozen=True)
