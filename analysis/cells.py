@@ -81,6 +81,11 @@ class Cells:
         return Cells(self.values[kept], self.counts[kept], names, self.factors)
 
     @property
+    def largest(self) -> float:
+        """The largest absolute value, which bounds how far rounding moves a mean over cells."""
+        return float(np.nanmax(np.abs(self.values), initial=0.0))
+
+    @property
     def missing(self) -> tuple[Missing, ...]:
         """Who lacks a cell, and which."""
         return self.lacking(np.ones_like(self.values, dtype=bool))

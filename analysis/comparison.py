@@ -37,7 +37,7 @@ class Pair:
 
     `margin`: what was declared to be no difference that matters. `logs`: the same people's means of
     their trials' logarithms. `ratio_scale`: whether 0 means none of it. `participants`: the n
-    names, where they are known.
+    names, where they are known. `largest`: of the cells that the values are means of.
     """
 
     key: str
@@ -54,6 +54,7 @@ class Pair:
     contrast: Contrast | None = None
     of: str = ""
     where: str = ""
+    largest: float = 0.0
 
     @property
     def about(self) -> dict[str, object]:
@@ -114,13 +115,16 @@ def pair_of(
     names = tuple(p for p, b in zip(cells.participants, both, strict=True) if b)
     first, second = pair[both].T
     return Pair(
-        key, label, unit, digits, first, second, family, margin, None, ratio_scale, names, contrast
-    )
+        key, label, unit, digits, first, second, family, margin, None, ratio_scale, names, contrast,
+        largest=cells.largest,
+    )  # fmt: skip
 
 
 def sd_of(x: Array) -> Number:
-    """Standard deviation over participants."""
-    return float(np.std(x, ddof=1)) if len(x) > 1 else Undefined(ONE_PARTICIPANT)
+    """Standard deviation over participants; of values that are equal up to rounding it is 0."""
+    if len(x) < 2:
+        return Undefined(ONE_PARTICIPANT)
+    return 0.0 if is_constant(x) else float(np.std(x, ddof=1))
 
 
 def _correlation(x: Array, y: Array) -> Number:

@@ -56,15 +56,17 @@ def robust_blocks(context: Context) -> list[Block]:
 def _row(context: Context, pair: Pair, log: bool, purpose: int) -> dict[str, object]:
     first, second = pair.logs if log and pair.logs is not None else (pair.first, pair.second)
     scores = first - second
-    far = outliers(scores, float(np.max(np.abs([first, second]))))
-    flipped, method = sign_flip(scores, context.rng(purpose))
+    scale = float(np.max(np.abs([first, second])))  # what rounds the scores
+    far = outliers(scores, scale)
+    flipped, method = sign_flip(scores, context.rng(purpose), scale)
     kept = scores[~far]
-    without: Number = one_sample(kept).p if len(kept) else Undefined("everybody is an outlier")
+    gone = Undefined("everybody is an outlier")
+    without: Number = one_sample(kept, scale).p if len(kept) else gone
     return {
         "measure": pair.key,
         "label": f"{_name(context, pair)}, {pair.label}",
         "n": len(scores),
-        "p": one_sample(scores).p,
+        "p": one_sample(scores, scale).p,
         "p_flip": flipped,
         "method": method,
         "outliers": int(far.sum()),

@@ -24,20 +24,23 @@ FAR = 3.0
 """Robust standard deviations from the median beyond which a score counts as an outlier."""
 
 
-def sign_flip(scores: Array, rng: Generator) -> tuple[Number, str]:
+def sign_flip(scores: Array, rng: Generator, scale: float | None = None) -> tuple[Number, str]:
     """P of a mean as far from 0 when each score's sign is a coin's, and how it was found.
 
     All signs are tried up to `MOST_EXACT` people; more are drawn, the observed one counted in.
+    `scale`: the largest absolute value that the scores were made from, which bounds their rounding;
+    the scores' own by default. Means as far from 0 up to it are as far.
     """
     n = len(scores)
     if n < 2:
         return Undefined(ONE_PARTICIPANT), ""
-    scale = float(np.max(np.abs(scores)))
-    if scale == 0 or (spread_is_noise(scores, scale) and n < 3):
+    largest = float(np.max(np.abs(scores)))
+    scale = largest if scale is None else scale
+    if largest <= STEPS * EPS * scale or (spread_is_noise(scores, scale) and n < 3):
         return Undefined(ALL_EQUAL), ""
-    unit = scores / scale  # sums of squares neither overflow nor vanish
+    unit = scores / largest  # sums of squares neither overflow nor vanish
     observed = abs(float(unit.sum()))
-    room = n * EPS * 4
+    room = n * STEPS * EPS * max(1.0, scale / largest)
     if n <= MOST_EXACT:
         sums = np.zeros(1)
         for value in unit:

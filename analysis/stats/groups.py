@@ -33,15 +33,15 @@ class KruskalWallis:
     method: str
 
 
-def kruskal_wallis(groups: Sequence[Array], rng: Generator) -> KruskalWallis:
+def kruskal_wallis(groups: Sequence[Array], rng: Generator, largest: float = 0.0) -> KruskalWallis:
     """H with ties corrected (Hollander & Wolfe), for two or more groups of finite values.
 
-    `rng` draws permutations where there are more than two groups.
+    `rng` draws permutations where there are more than two groups; `largest` as in `ties.slack`.
     """
     sizes = [len(g) for g in groups]
     values = np.concatenate(groups)
     n = len(values)
-    level = levels(values, slack(values[:, None]))
+    level = levels(values, slack(values[:, None], largest=largest))
     count = np.bincount(level)
     # from their mean, in halves, exact: what is the same for two orders comes out (almost) the same
     away = (np.cumsum(count) - (count - 1) / 2)[level] - (n + 1) / 2

@@ -57,23 +57,24 @@ class Friedman:
     w: Number
 
 
-def ranks(y: Array) -> Array:
-    """Average ranks 1..k within each row of y, (n, k)."""
-    level = levels(y, slack(y)[:, None])
+def ranks(y: Array, largest: float = 0.0) -> Array:
+    """Average ranks 1..k within each row of y, (n, k); `largest` as in `ties.slack`."""
+    level = levels(y, slack(y, largest=largest)[:, None])
     below = (level[:, None, :] < level[:, :, None]).sum(axis=-1)
     same = (level[:, None, :] == level[:, :, None]).sum(axis=-1)
     found: Array = below + (same + 1) / 2
     return found
 
 
-def friedman(y: Array, rng: Generator) -> Friedman:
+def friedman(y: Array, rng: Generator, largest: float = 0.0) -> Friedman:
     """Friedman's rank test with ties for y, (n, k ≥ 2), finite.
 
     χ² as in Hollander & Wolfe (tie-corrected); for k = 2 it is the sign test's χ² and the exact p
-    is the sign test's. `rng` draws permutations where enumeration is too long.
+    is the sign test's. `rng` draws permutations where enumeration is too long; `largest` as in
+    `ties.slack`.
     """
     n, k = y.shape
-    r = ranks(y)
+    r = ranks(y, largest)
     reason = ONE_PARTICIPANT if n < 2 else ALL_TIED if np.all(r == r[:, :1]) else ""
     if reason:
         gone = Undefined(reason)
@@ -221,13 +222,16 @@ class Pair:
     holm_p: Number
 
 
-def post_hoc(y: Array) -> list[Pair]:
-    """All pairs of the k ≥ 3 columns: Nemenyi's p and Holm-corrected signed ranks."""
+def post_hoc(y: Array, largest: float = 0.0) -> list[Pair]:
+    """All pairs of the k ≥ 3 columns: Nemenyi's p and Holm-corrected signed ranks; `largest` as in
+    `ties.slack`."""
     n, k = y.shape
-    means = ranks(y).mean(axis=0)
+    means = ranks(y, largest).mean(axis=0)
     error = np.sqrt(k * (k + 1) / (12 * n))
     pairs = list(itertools.combinations(range(k), 2))
-    tests = [signed_rank(y[:, a] - y[:, b], slack(y[:, a], y[:, b])) for a, b in pairs]
+    tests = [
+        signed_rank(y[:, a] - y[:, b], slack(y[:, a], y[:, b], largest=largest)) for a, b in pairs
+    ]
     adjusted = holm_of_defined([t.p for t in tests])
     return [
         Pair(

@@ -22,14 +22,16 @@ What a study measures differs by 10⁸ times as much.
 _EXACT = 2.0**53
 
 
-def slack(*parts: Array) -> Array:
+def slack(*parts: Array, largest: float = 0.0) -> Array:
     """How far rounding may have moved each row's number: (n,), from the `parts` it is made of.
 
     Each part is (n,) or (n, …). Whole numbers are exact, so between them nothing is forgiven.
+    `largest`: of the values that the parts are means of, where these can cancel: the mean of 4/3,
+    −1 and −1/3 is −2 · 10⁻¹⁷, and its own size says nothing of how far it is off.
     """
     rows = [np.asarray(p, dtype=np.float64).reshape(len(p), -1) for p in parts]
     values = np.concatenate(rows, axis=1)
-    size = np.max(np.abs(values), axis=1, initial=0.0)
+    size = np.max(np.abs(values), axis=1, initial=largest)
     if np.all(values == np.rint(values)) and np.all(size < _EXACT):
         return np.zeros(len(values))
     moved: Array = STEPS * EPS * size

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.analysis.cells import Cells, Missing
-from seethrough.analysis.comparison import Pair
+from seethrough.analysis.comparison import Pair, sd_of
 from seethrough.analysis.design import Design, Factor
 from seethrough.analysis.measures import groups_of
 from seethrough.analysis.page.blocks import Cited, Column, Prose, Table, say
@@ -20,7 +20,6 @@ from seethrough.analysis.stats.arrays import Array
 from seethrough.analysis.stats.distributions import bayes_factor_f, negligible_p
 from seethrough.analysis.stats.paired import mean_interval
 from seethrough.analysis.stats.undefined import (
-    ONE_PARTICIPANT,
     Number,
     Undefined,
     is_defined,
@@ -267,7 +266,7 @@ def _spread(values: Array) -> Mapping[str, object]:
         "low": low,
         "high": high,
         "mean": float(values.mean()),
-        "sd": float(np.std(values, ddof=1)) if n > 1 else Undefined(ONE_PARTICIPANT),
+        "sd": sd_of(values),
         "median": float(np.median(values)),
         "minimum": float(values.min()),
         "maximum": float(values.max()),

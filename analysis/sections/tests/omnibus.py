@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from seethrough.analysis.cells import Cells
+from seethrough.analysis.comparison import sd_of
 from seethrough.analysis.design import Design, Measured
 from seethrough.analysis.measures import TASK, by_nesting, groups_of
 from seethrough.analysis.page.blocks import Block, Fold, Prose, Table, say
@@ -151,8 +152,9 @@ def _groups(context: Context, design: Design, cells: Cells) -> tuple[np.ndarray 
         if not members.any():
             return None, ""
         sizes.append(f"{' '.join(cell.values())} {members.sum()}")
-        if members.sum() > 1:
-            spreads.append(float(np.std(level[members], ddof=1)))
+        spread = sd_of(level[members])
+        if is_defined(spread):
+            spreads.append(spread)
     note = f"Type III sums of squares. Groups: {', '.join(sizes)} people"
     if len(spreads) > 1 and min(spreads) > 0:
         note += f"; the largest of their s.d. is {significant(max(spreads) / min(spreads))} times "

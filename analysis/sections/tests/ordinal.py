@@ -44,7 +44,7 @@ _OF_TWO = ("p_holm", "mean_", "sd_", "difference", "tost_", "noninferior_p", "lo
 
 def friedman_row(m: Pair, context: Context, purpose: int) -> dict[str, object]:
     """Friedman's test of the two levels; for k = 2 its permutation p is the exact sign test's."""
-    result = friedman(np.stack([m.first, m.second], axis=1), context.rng(purpose))
+    result = friedman(np.stack([m.first, m.second], axis=1), context.rng(purpose), m.largest)
     return {
         **m.about,
         "measure": m.key,
@@ -166,7 +166,7 @@ def conditions(
     y = y[np.isfinite(y).all(axis=1)]
     if len(y) < 2:
         return []
-    result = friedman(y, context.rng(purpose))
+    result = friedman(y, context.rng(purpose), cells.largest)
     columns = tuple(c for c in FRIEDMAN if not c.name.startswith(_OF_TWO))
     row = {
         "measure": row_key,
@@ -199,6 +199,6 @@ def conditions(
             "p": p.signed.p,
             "holm_p": p.holm_p,
         }
-        for p in post_hoc(y)
+        for p in post_hoc(y, cells.largest)
     )
     return [test, Table(f"post_hoc_{key}", f"{said}: pairs of conditions", PAIRS, rows)]

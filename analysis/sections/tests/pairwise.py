@@ -152,12 +152,12 @@ def _ranked(
         if not has.any():
             return None
         a, b = first[has], second[has]
-        test = signed_rank(a - b, slack(a, b))
+        test = signed_rank(a - b, slack(a, b, largest=cells.largest))
         return {"n": int(has.sum()), "statistic": test.v, "p": test.p, "method": test.method}
-    level, _ = level_of(cells)
+    level, largest = level_of(cells)
     own = np.array(groups_of(context.study.trials, factor, cells.participants))
     sides = [level[(own == x) & np.isfinite(level)] for x in (c.baseline, c.level)]
     if any(len(side) == 0 for side in sides):
         return None
-    found = kruskal_wallis(sides, context.rng(purpose))
+    found = kruskal_wallis(sides, context.rng(purpose), largest)
     return {"n": found.n, "statistic": found.h, "p": found.exact, "method": found.method}

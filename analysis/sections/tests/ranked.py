@@ -120,7 +120,7 @@ def _group_row(
     groups = [g for g in groups if len(g)]
     if len(groups) < 2:
         return None
-    test = kruskal_wallis(groups, context.rng(purpose))
+    test = kruskal_wallis(groups, context.rng(purpose), cells.largest)
     return {
         "n": test.n,
         "k": len(groups),

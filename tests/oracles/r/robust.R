@@ -24,7 +24,7 @@ robust_rows <- function(d) {
 robust_row <- function(key, x, y) {
   v <- x - y
   p_of <- function(v) {
-    if (length(v) < 2 || is_noise(v, max(abs(v)))) undefined else t.test(v)$p.value
+    if (length(v) < 2 || is_noise(v, max(abs(c(x, y))))) undefined else t.test(v)$p.value
   }
   gap <- abs(v - median(v))
   # equal up to the rounding of what they are made from: 32 roundings of the largest

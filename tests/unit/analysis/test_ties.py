@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
+import csv
 import itertools
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from made_data import TRIAL_COLUMNS, Made, make_folder, write_rows
 from scipy import stats
 
+from seethrough.analysis.cells import table_of
+from seethrough.analysis.comparison import Pair, pair_of, sd_of
+from seethrough.analysis.design import Contrast, Design
 from seethrough.analysis.exclude import apply_rules, focus_lost
+from seethrough.analysis.report import Options, make_report, tables_of
+from seethrough.analysis.sections.robust import _row
+from seethrough.analysis.sections.tests.ordinal import friedman_row
+from seethrough.analysis.stats.flips import sign_flip
+from seethrough.analysis.stats.groups import kruskal_wallis
+from seethrough.analysis.stats.paired import paired
 from seethrough.analysis.stats.ranks import friedman, post_hoc, ranks, sign_test, signed_rank
 from seethrough.analysis.stats.ties import difference_signs, is_constant, levels, slack
+from seethrough.analysis.stats.undefined import is_defined
 from seethrough.experiment.power.decisions import Test, run
 from seethrough.experiment.power.planned import Score
 from seethrough.experiment.power.power_data import scores_of
@@ -148,3 +161,90 @@ def test_focus_is_not_lost_by_rounding():
 
     table = pd.DataFrame({"time": [0.1 + 0.2, 3.0], "time_clean": [0.3, 2.99]})
     assert focus_lost(table).tolist() == [False, True]
+
+
+CANCELLED = np.array([4 / 3, -1.0, -1 / 3]).mean()
+"""0, of a person's three cells on a scale from −2 to 2: −1.9 · 10⁻¹⁷."""
+
+
+def test_means_of_what_cancels_are_tied_with_zero():
+    """Three people without a difference and three for one side: p = 2 / 2³, χ² 3."""
+    assert CANCELLED != 0
+    first = np.array([CANCELLED] * 3 + [1 / 3, 2 / 3, 1.0])
+    y = np.stack([first, np.zeros(6)], axis=1)
+    found = friedman(y, np.random.default_rng(0), largest=2.0)
+    assert (found.chi2, found.exact) == (3.0, 0.25)
+    assert ranks(np.stack([first, first * 0, first * 0 + 1], axis=1), 2.0)[0].tolist() == [
+        1.5,
+        1.5,
+        3,
+    ]
+    pair = post_hoc(np.stack([first, first * 0, first * 0 + 1], axis=1), 2.0)[0]
+    assert (pair.signed.n, pair.signed.v) == (3, 6.0)
+
+
+def test_groups_of_means_of_what_cancels_are_tied():
+    """R's wilcox.test with ties: the same ranks as for whole sixths."""
+    parts = [[CANCELLED, 0.0, 1 / 3], [0.0, 0.0, 2 / 3]]
+    whole = [[0.0, 0.0, 2.0], [0.0, 0.0, 4.0]]
+    rng = np.random.default_rng(0)
+    mine, right = (
+        kruskal_wallis([np.array(g) for g in groups], rng, largest)
+        for groups, largest in ((parts, 2.0), (whole, 0.0))
+    )
+    assert mine == right
+
+
+def test_cells_know_how_large_what_they_are_made_of_is():
+    """The report's Friedman rows tie what the plain test does not."""
+    values = np.array([[[4 / 3, -1.0, -1 / 3], [0.0, 0, 0]]] * 3 + [[[1.0, 1, 1], [0, 0, 0]]] * 3)
+    factors = {"view": ("a", "b"), "item": ("x", "y", "z")}
+    cells = table_of(values, np.ones(values.shape, int), [f"p{i}" for i in range(6)], factors)
+    pair = pair_of("k", "k", "", 2, cells, Contrast("view", "a", "b", "a", "b", False))
+    context = SimpleNamespace(rng=np.random.default_rng)
+    row = friedman_row(pair, context, 1)
+    assert (row["chi2"], row["p_exact"]) == (3.0, 0.25)
+
+
+def test_means_of_one_set_of_trials_in_two_orders_do_not_differ_without_normality_either():
+    """What the main table calls equal is not given a p of its rounding (it was .339)."""
+    times = np.random.default_rng(1).uniform(5, 30, (12, 3))
+    first, second = times.mean(axis=1), times[:, ::-1].mean(axis=1)
+    assert (first != second).any()
+    assert not is_defined(paired(first, second).p)
+    context = SimpleNamespace(rng=np.random.default_rng, design=Design((), ()))
+    row = _row(context, Pair("k", "k", "", 2, first, second), False, 1)
+    assert [is_defined(row[name]) for name in ("p", "p_flip", "p_without")] == [False] * 3
+
+
+@pytest.mark.parametrize("base", [0.0, 1e9])
+def test_sign_flips_tie_what_is_as_far_off(base):
+    """Thirds on a large offset: all 2¹⁰ signs of whole numbers, counted."""
+    steps = np.array([1, -2, 3, 1, 0, 2, -1, 2, 1, 3.0])
+    first, second = base + (4 + steps) / 3, np.full(10, base + 4 / 3)
+    flips = np.array(list(itertools.product((-1, 1), repeat=10)))
+    right = float(np.mean(np.abs(flips @ steps) >= abs(steps.sum())))
+    scale = float(np.max(np.abs([first, second])))
+    assert sign_flip(first - second, np.random.default_rng(0), scale)[0] == right
+
+
+@pytest.mark.parametrize("share", [0.9, 0.7, 1 / 3])
+@pytest.mark.parametrize("n", [6, 7, 18, 19])
+def test_shares_that_are_all_alike_have_no_spread(share, n):
+    """numpy's s.d. of eighteen .9 is 2 · 10⁻¹⁶, and their mean's t against .8 then 10¹⁵."""
+    assert sd_of(np.full(n, share)) == 0.0
+
+
+def test_equal_log_times_show_no_learning(tmp_path):
+    """All trials of a set took as long: slopes of 10⁻¹⁷ are not tested."""
+    folder = make_folder(tmp_path / "data", Made(participants=6, trials=3))
+    for table in folder.rglob("*_trials_data.csv"):
+        with open(table, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            row["time"] = row["time_clean"] = repr(7.3 + 0.1 * int(row["block"]))
+        write_rows(table, TRIAL_COLUMNS, rows)
+    report = make_report(folder, Options())
+    table = next(t for t in tables_of(report) if t.key == "learning")
+    assert not is_defined(table.rows[0]["p"])
+    assert table.rows[0]["ratio"] == pytest.approx(1, abs=1e-12)
