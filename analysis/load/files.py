@@ -70,6 +70,15 @@ def read_bytes(path: Path, data: Path) -> bytes:
         return file.read()
 
 
+def read_text(path: Path, data: Path) -> str:
+    """A file's text, in UTF-8. Raises DataError."""
+    try:
+        return read_bytes(path, data).decode("utf-8")
+    except UnicodeDecodeError as error:
+        shown = named(path, data)
+        raise DataError(f"{shown}: byte {error.start} is not UTF-8 text") from None
+
+
 def sha256_of(path: Path, data: Path) -> str:
     """SHA-256 of a file's bytes, in hexadecimal. Raises DataError."""
     with _opened(path, data) as file:

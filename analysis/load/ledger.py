@@ -7,6 +7,7 @@ machines that have no password of it (`seethrough status` compares it).
 
 from __future__ import annotations
 
+import csv
 import os
 import shutil
 import sqlite3
@@ -17,10 +18,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from seethrough.analysis.errors import DataError
-from seethrough.analysis.load.files import is_there, read_bytes
+from seethrough.analysis.load.files import is_there, read_bytes, read_text
 from seethrough.analysis.load.person import Person
 
-FILE, POINTER = "ledger.sqlite", "ledger.url"
+FILE, POINTER, WITHDRAWN = "ledger.sqlite", "ledger.url", "withdrawn.csv"
 TABLE = "seethrough_entries"
 COMPLETE = ("complete", "surplus")  # who has a slot's whole session, be the slot theirs or not
 TRIES = 5  # a copy taken while a station writes may be torn
@@ -84,6 +85,27 @@ def _entries(data: Path) -> dict[str, str]:
                     raise sqlite3.DatabaseError(said)
             return {str(p): str(s) for p, s in
                     file.execute(f"SELECT participant, status FROM {TABLE}")}  # fmt: skip
+
+
+def withdrawn_rows(data: Path) -> list[list[str]]:
+    """Rows of participant, slot and date, of who was withdrawn. Raises DataError."""
+    if not is_there(data / WITHDRAWN):
+        return []
+    rows = list(csv.reader(read_text(data / WITHDRAWN, data).splitlines()))[1:]
+    if any(len(row) != 3 for row in rows):
+        raise DataError(f"{WITHDRAWN}: expected participant, slot and date in each row")
+    return rows
+
+
+def come_back(data: Path, people: Sequence[Person]) -> Iterator[str]:
+    """Whose data are there though they were withdrawn: put back from a copy, or never removed."""
+    there = {person.name for person in people if person.sessions}
+    for name, _, when in withdrawn_rows(data):
+        if name in there:
+            yield (
+                f"{name}: withdrawn ({when[:10]}), but with files: expected none "
+                f"(`seethrough withdraw DATA --participant {name}` removes them)"
+            )
 
 
 def differences(entries: Mapping[str, str], people: Sequence[Person]) -> Iterator[str]:

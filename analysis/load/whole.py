@@ -13,7 +13,13 @@ from pathlib import Path
 from seethrough.analysis.errors import DataError
 from seethrough.analysis.load import schema
 from seethrough.analysis.load.files import is_there, named, names_in, read_json
-from seethrough.analysis.load.ledger import NO_LEDGER, Ledger, differences, read_ledger
+from seethrough.analysis.load.ledger import (
+    NO_LEDGER,
+    Ledger,
+    come_back,
+    differences,
+    read_ledger,
+)
 from seethrough.analysis.load.person import TRACES, Folder, Person, Session, table_name
 
 DESCRIPTION = "dataset_description.json"
@@ -65,6 +71,10 @@ def examined(
     if chosen == "human":  # nobody else takes a slot
         try:
             whole.ledger = read_ledger(folder)
+        except DataError as error:
+            whole.problems += error.lines
+        try:
+            whole.problems += come_back(folder, whole.people)
         except DataError as error:
             whole.problems += error.lines
         known = entries if entries is not None else whole.ledger.entries

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.files import is_there
+from seethrough.analysis.load.ledger import WITHDRAWN, withdrawn_rows
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import PARTICIPANT, check_participant, folder_of, taken
 from seethrough.experiment.files.json_files import number_in, read_object
@@ -24,24 +26,19 @@ from seethrough.experiment.ledger.ledger_slots import (
 )
 
 SOURCE = "human"
-WITHDRAWN = "withdrawn.csv"
 
 
 def withdrawn(data: Path) -> dict[str, tuple[int, str]]:
     """{id: (slot, when)} of who was withdrawn: kept beside the ledger, which may be lost."""
-    path = data / WITHDRAWN
-    if not path.exists():
-        return {}
-    found = {}
     try:
-        for number, row in enumerate(csv.reader(path.read_text("utf-8").splitlines())):
-            if number:
-                found[check_participant(row[0])] = int(row[1]), stamp(moment(row[2]))
-    except (OSError, ValueError, IndexError, InputError) as error:
+        return {
+            check_participant(name): (int(slot), stamp(moment(when)))
+            for name, slot, when in withdrawn_rows(data)
+        }
+    except (DataError, ValueError, InputError) as error:
         raise InputError(
-            f"{path}: expected participant, slot and date in each row: {error}"
+            f"{data / WITHDRAWN}: expected participant, slot and date in each row: {error}"
         ) from None
-    return found
 
 
 def mark_withdrawn(data: Path, participant: str, slot: int, now: datetime) -> None:
@@ -49,7 +46,7 @@ def mark_withdrawn(data: Path, participant: str, slot: int, now: datetime) -> No
     path = data / WITHDRAWN
     if participant in withdrawn(data):
         return
-    if not path.exists():
+    if not is_there(path):
         with suppress(FileExistsError):  # another station withdraws somebody too
             write_new(path, "participant,slot,withdrawn\n")
     file = os.open(path, os.O_WRONLY | os.O_APPEND)

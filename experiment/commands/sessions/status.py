@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 from seethrough.analysis.load.ledger import differences
 from seethrough.analysis.load.whole import examined
-from seethrough.experiment.commands.sessions.withdraw import WITHDRAWN
 from seethrough.experiment.errors import one_line
 from seethrough.experiment.files.folders import folder_of, taken
 from seethrough.experiment.ledger.ledger_slots import (
@@ -73,8 +72,6 @@ def notes_of(entries: Sequence[Entry], data: Path) -> tuple[list[str], set[str]]
             elsewhere.add(entry.participant)
         elif status == LIVE and not there:
             notes.append(f"{entry.participant}: open, no files: never begun, or they were removed")
-        elif status == VOID and entry.why.startswith(WITHDRAWN) and folder.exists():
-            notes.append(f"{entry.participant}: withdrawn, its files are there")
     return notes, elsewhere
 
 

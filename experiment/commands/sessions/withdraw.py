@@ -12,7 +12,7 @@ from seethrough.experiment.errors import InputError
 from seethrough.experiment.files.folders import check_participant, folder_of
 from seethrough.experiment.record.repair import set_aside
 
-WITHDRAWN = "withdrawn"
+WITHDRAWN, FREED = "withdrawn", "the slot was freed, the data stay"
 SOURCES = ("human", "pilot", "simulated")
 
 
@@ -24,7 +24,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--source", choices=SOURCES, help="whose, where several have a participant of that id"
     )
     parser.add_argument("--why", default="", metavar="TEXT", help="goes into the ledger; no names")
-    parser.add_argument("--keep-files", action="store_true", help="only free the slot")
+    parser.add_argument(
+        "--keep-files", action="store_true", help="only free the slot: the data stay and count"
+    )
     parser.add_argument("--yes", action="store_true", help="do not ask")
     parser.add_argument("--ledger", default="", metavar="URL", help="where it is, if not noted")
 
@@ -86,10 +88,13 @@ def _human(arguments: argparse.Namespace, data: Path, participant: str, folder: 
             print("nothing was changed")
             return 1
         # The mark first: were this to stop halfway, it says what is to be done again.
-        why = WITHDRAWN + (f": {arguments.why}" if arguments.why else "")
+        # Who keeps their files has not withdrawn their data, which still count.
+        mark = FREED if arguments.keep_files else WITHDRAWN
+        why = mark + (f": {arguments.why}" if arguments.why else "")
         with playing(ledger.locks(), participant):  # refused while a session runs
             slot = ledger.void(participant, why, now).slot
-            mark_withdrawn(data, participant, slot, now)
+            if not arguments.keep_files:
+                mark_withdrawn(data, participant, slot, now)
     if not arguments.keep_files and files:
         for place in (folder, *aside):
             if place.exists():
@@ -97,7 +102,7 @@ def _human(arguments: argparse.Namespace, data: Path, participant: str, folder: 
         print(
             f"{len(files)} files removed; reports and exports made before still hold {participant}"
         )
-    print(f"{participant}: withdrawn; slot {slot} is free")
+    print(f"{participant}: {mark}; slot {slot} is free")
     return 0
 
 

@@ -7,11 +7,14 @@ from datetime import UTC, datetime
 
 import pytest
 
+from seethrough.analysis.errors import DataError
+from seethrough.analysis.load.whole import verified
 from seethrough.experiment import cli
 from seethrough.experiment.commands.sessions import withdraw as withdraw_module
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.ledger import ledger_lock
 from seethrough.experiment.ledger.ledger import Ledger
+from seethrough.experiment.ledger.ledger_files import withdrawn
 from seethrough.experiment.ledger.ledger_plan import plan_of
 from seethrough.experiment.record.chain import seal_of
 from seethrough.experiment.record.recorder import FileRecorder, Who
@@ -169,6 +172,56 @@ def test_keeping_the_files_frees_the_slot_all_the_same(sessions, tmp_path):
     assert cli.main(words) == 0
     assert (tmp_path / "data" / "human" / "P01").exists()
     assert entries(tmp_path) == [("P01", 1, "void")]
+    assert [p.name for p in verified(tmp_path).people] == ["P01"]  # nobody took data back
+
+
+@pytest.mark.parametrize("how", ["from a copy", "half removed", "the ledger lost"])
+def test_data_of_who_was_withdrawn_are_never_counted(how, sessions, tmp_path, capsys, monkeypatch):
+    """A backup that is put back, or a removal that failed: report, seal, export, status refuse."""
+    sessions("--next")
+    sessions("--next")
+    own, copy = tmp_path / "data" / "human" / "P01", tmp_path.with_name(f"{tmp_path.name}-copy")
+    shutil.copytree(own, copy)
+    words = ["withdraw", str(tmp_path), "--participant", "P01", "--yes"]
+    if how == "half removed":
+
+        def fails(folder):
+            raise OSError(5, "Input/output error", str(folder))
+
+        with monkeypatch.context() as patch:
+            patch.setattr(withdraw_module.shutil, "rmtree", fails)
+            assert cli.main(words) == 2
+        assert "expected to be withdrawn again" in capsys.readouterr().err
+    else:
+        assert cli.main(words) == 0
+        assert [p.name for p in verified(tmp_path).people] == ["P02"]
+        shutil.copytree(copy, own)
+    if how == "the ledger lost":
+        (tmp_path / "ledger.sqlite").unlink()
+    with pytest.raises(DataError, match=r"P01: withdrawn \(20..-..-..\), but with files: expected"):
+        verified(tmp_path)
+    assert cli.main(["seal", str(tmp_path)]) == 2
+    assert cli.main(["status", str(tmp_path)]) == (2 if how == "the ledger lost" else 1)
+    if how != "the ledger lost":
+        assert cli.main(words) == 0
+        assert [p.name for p in verified(tmp_path).people] == ["P02"]
+
+
+def test_a_list_of_who_was_withdrawn_that_cannot_be_read_is_no_empty_one(sessions, tmp_path):
+    sessions("--next")
+    path = tmp_path / "withdrawn.csv"
+    for broken in (b"participant,slot,withdrawn\nP01\n", b"\xff\xfe\n"):
+        path.write_bytes(broken)
+        with pytest.raises(DataError, match=r"withdrawn\.csv"):
+            verified(tmp_path)
+        with pytest.raises(InputError, match=r"withdrawn\.csv"):
+            withdrawn(tmp_path)
+    path.unlink()
+    path.symlink_to(tmp_path / "gone")
+    with pytest.raises(DataError, match=r"withdrawn\.csv: a link that leads nowhere"):
+        verified(tmp_path)
+    with pytest.raises(InputError, match=r"withdrawn\.csv"):
+        withdrawn(tmp_path)
 
 
 def test_status_names_what_was_changed_in_the_files(sessions, tmp_path, capsys):
