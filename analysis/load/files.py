@@ -162,9 +162,18 @@ def _once(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 
 def files_under(folder: Path, data: Path) -> Iterator[Path]:
-    """Every file under a folder, in the order of their names. Raises DataError."""
+    """Every file under a folder, in the order of their names; no links, which a copy of the folder
+    may follow or not, and names that print. Raises DataError."""
+    if folder.is_symlink():
+        raise DataError(f"{named(folder, data)}: a link: expected the folder itself")
     for name in names_in(folder, Path(named(folder, data))):
         path = folder / name
+        if not name.isprintable() or "\\" in name:
+            raise DataError(
+                f"{named(path, data)}: expected a name that prints, without backslashes"
+            )
+        if path.is_symlink():
+            raise DataError(f"{named(path, data)}: a link: expected the file or folder itself")
         if path.is_dir():
             yield from files_under(path, data)
         else:

@@ -300,11 +300,24 @@ class Folder:
                 for name in self._traces_of(session):
                     if name not in self._held:
                         yield f"{self._path(name)}: added after the session"
+        yield from self._strays(names)
         ours = {name for session in self.found.sessions for name in session.files.values()}
         ours |= {f"{session.stem}{REPAIR}" for session in self.found.sessions}
         for name in names:
             if name.endswith((".csv", ".json")) and name not in ours | self._held:
                 yield f"{self._path(name)}: added after the session"
+
+    def _strays(self, names: list[str]) -> Iterator[str]:
+        """Folders but the traces' (somebody else's, dragged in here), traces of no session, unless
+        it was killed as it began and they are empty."""
+        for name in names:
+            if name != TRACES and (self.own / name).is_dir():
+                yield f"{self._path(name)}: a folder: expected files and {TRACES} alone"
+        known = {f"session-{session.number}" for session in self.found.sessions}
+        for name in self._traces or ():
+            whose = name.removeprefix(f"{TRACES}/").partition("_")[0]
+            if whose not in known and not is_empty(self.own / name):
+                yield f"{self._path(name)}: expected a trace of a session that is here"
 
 
 def table_name(session: Session) -> str:

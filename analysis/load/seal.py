@@ -11,6 +11,7 @@ import hashlib
 from collections.abc import Iterator
 from pathlib import Path
 
+from seethrough.analysis.errors import DataError
 from seethrough.analysis.load.files import files_under, is_there, sha256_of
 
 SINGLE = ("dataset_description.json", "certificate.csv")
@@ -30,6 +31,8 @@ def seal(data: Path, source: str) -> tuple[str, int]:
 
 def _sealed(data: Path, source: str) -> Iterator[Path]:
     for name in SINGLE:
+        if (data / name).is_symlink():
+            raise DataError(f"{name}: a link: expected the file itself")
         if is_there(data / name):
             yield data / name
     yield from files_under(data / "models", data)

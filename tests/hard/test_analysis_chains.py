@@ -253,3 +253,17 @@ def test_what_may_not_be_read_is_not_taken_for_absent(made, name):
                 os.seteuid(0)
             (folder / name).chmod(0o755)
         assert error is not None and error.lines[0] == f"{name}: cannot be read: Permission denied"
+
+
+@pytest.mark.parametrize("where", ["P02", "traces/P02", "traces/session-9_trial-001_events.csv"])
+def test_what_was_dragged_into_a_participants_folder_is_named(where, folder):
+    """Somebody else's folder would be counted no more, where no ledger misses them."""
+    chain(folder)
+    (folder / "data/human/P02").mkdir(exist_ok=True)
+    other = folder / "data/human/P01" / where
+    if other.suffix:
+        other.write_text("t,event\n")
+    else:
+        shutil.move(folder / "data/human/P02", other)
+    refused(folder, f"data/human/P01/{where}: (a folder: expected files and traces alone|expected a"
+                    " trace of a session that is here)")  # fmt: skip

@@ -10,6 +10,7 @@ import pytest
 from made_chains import chain, close, enter
 from made_data import Made, make_folder
 
+from seethrough.analysis.errors import DataError
 from seethrough.analysis.load.chain import link, start_of
 from seethrough.analysis.load.seal import seal
 from seethrough.analysis.page.markdown import as_markdown
@@ -19,7 +20,7 @@ from seethrough.experiment import cli
 # CONVENTIONS.md has these words: a reader without this program can make the same seal.
 SHELL = (
     "find dataset_description.json certificate.csv models plugins data/human -type f "
-    "! -name '.*' 2>/dev/null | LC_ALL=C sort | tr '\\n' '\\0' | xargs -0 sha256sum | sha256sum"
+    "! -path '*/.*' 2>/dev/null | LC_ALL=C sort | tr '\\n' '\\0' | xargs -0 sha256sum | sha256sum"
 )
 
 
@@ -51,6 +52,54 @@ def test_the_seal_is_what_a_shell_makes_of_the_files(folder, capsys):
     assert shell.stdout.split()[0] == digest and rest == ""
     conventions = Path(cli.__file__).parents[1] / "CONVENTIONS.md"
     assert SHELL.replace("data/human", "data/SOURCE") in " ".join(conventions.read_text().split())
+
+
+HARMLESS = {
+    "a file manager's folder": lambda own: put(own / ".cache" / "y.csv"),
+    "another alphabet": lambda own: put(own / "ä 中.txt"),
+    "spaces": lambda own: put(own / " a  b .txt"),
+    "a dash first": lambda own: put(own / "-n"),
+}
+REFUSED = {
+    "a line break": (lambda own: put(own / "a\nb.txt"), "expected a name that prints"),
+    "a backslash": (lambda own: put(own / "a\\b.txt"), "expected a name that prints"),
+    "no text": (lambda own: put(Path(os.fsdecode(os.fsencode(own) + b"/\xff.txt"))),
+                "expected a name that prints"),
+    "a link within": (lambda own: linked(own / "traces"), "a link: expected the file or folder"),
+    "a link to itself": (lambda own: (own / "loop").symlink_to("."), "a link: expected the file"),
+    "the description a link": (lambda own: linked(own.parents[2] / "dataset_description.json"),
+                               "dataset_description.json: a link: expected the file itself"),
+    "a source a link": (lambda own: linked(own.parent), "data/human: a link: expected the folder"),
+}  # fmt: skip
+
+
+def put(path):
+    path.parent.mkdir(exist_ok=True)
+    path.write_text("x")
+
+
+def linked(path):
+    """The same thing at another place of the data folder, and a link to there."""
+    place = next(p for p in path.parents if (p / "ledger.sqlite").exists()) / "moved"
+    path.rename(place)
+    path.symlink_to(place)
+
+
+@pytest.mark.parametrize("name", HARMLESS)
+def test_any_name_that_prints_is_sealed_as_a_shell_does(name, folder):
+    HARMLESS[name](folder / "data" / "human" / "P01")
+    shell = subprocess.run(["sh", "-c", SHELL], cwd=folder, capture_output=True, check=True)
+    assert shell.stdout.decode().split()[0] == seal(folder, "human")[0]
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_a_shell_would_seal_otherwise_is_refused(name, folder):
+    """Links that one follows and another does not, names that sha256sum writes in its own way."""
+    break_it, line = REFUSED[name]
+    break_it(folder / "data" / "human" / "P01")
+    with pytest.raises(DataError, match=line) as caught:
+        seal(folder, "human")
+    assert len(caught.value.shown()) == 1 and caught.value.shown()[0].isprintable()
 
 
 def test_times_and_the_order_on_disk_do_not_matter_and_every_byte_does(folder, tmp_path, capsys):
