@@ -11,7 +11,7 @@ import pytest
 from seethrough.experiment.suites import technique_scenes
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.look.dressed import dressed
-from seethrough.renderer.look.shadows import floor_map
+from seethrough.renderer.look.shadows import _mark, floor_map
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
@@ -241,3 +241,25 @@ def test_what_turns_transparent_keeps_its_shadow(renderer, way):
     without = dressed(Scene((ground, ball)), look)  # and it is the box's own
     clear = floor_map(without).at(on_floor[:, 0], on_floor[:, 2])
     assert (want < clear - 0.04).any()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_triangle_darkens_the_texels_whose_middles_it_covers(seed):
+    """Against the sides of its edges, either way round; besides, the texels that hold a corner."""
+    rng = np.random.default_rng(seed)
+    flat = rng.uniform(-3, 23, (3, 2))
+    there = np.zeros((2, 20, 20))
+    triangles = np.array([[0, 1, 2] if seed % 2 else [0, 2, 1]], np.int32)
+    _mark(flat, np.full(3, 1.5), triangles, there, np.array([0.0, 1.0, 2.0]))
+    y, x = np.mgrid[0:20, 0:20] + 0.5
+    sides = [
+        (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
+        for a, b in zip(flat, np.roll(flat, -1, axis=0), strict=True)
+    ]
+    right = np.all(np.array(sides) > 0, axis=0) | np.all(np.array(sides) < 0, axis=0)
+    assert right.any()
+    for column, row in np.floor(flat).astype(int).tolist():
+        if 0 <= column < 20 and 0 <= row < 20:
+            right[row, column] = True
+    np.testing.assert_array_equal(there[1].astype(bool), right)
+    assert not there[0].any()  # 1.5 lies in the second layer alone

@@ -8,9 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from seethrough.experiment.commands.studies.check_difficulty import check_techniques
 from seethrough.experiment.gallery.gallery_failures import CAMERA, failures
 from seethrough.experiment.study.checked.technique_warnings import MOST_SCENES, Met, Warner, _spread
 from seethrough.experiment.study.config import load
+from seethrough.experiment.verdicts import Verdicts
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import named
@@ -99,3 +101,18 @@ def test_a_mesh_is_closed_where_every_edge_has_two_sides():
     turned = box.triangles.copy()
     turned[0] = turned[0][::-1]
     assert not replace(box, triangles=turned).closed
+
+
+def test_check_says_what_of_which_technique_fails_and_where_that_is_told(monkeypatch, capsys):
+    """A line a warning, its words in their order; one for what was looked through without any."""
+    found = {"breakaway": Met("breakaway", 3, hidden=1, targets=4), "lens": Met("lens", 3)}
+    monkeypatch.setattr(Warner, "trials", lambda self, trials: dict.fromkeys(found, ()))
+    monkeypatch.setattr(Warner, "met", lambda self, name, trials: found[name])
+    said = Verdicts()
+    check_techniques(load("demo"), [], standalone(), said)
+    assert capsys.readouterr().out.splitlines() == [
+        "technique   in 1 of 3 scenes a target stays hidden under breakaway (4 targets): WARNING, "
+        "docs/techniques.md says how each fails",
+        "technique   lens: all targets of 3 scenes come to show: ok",
+    ]
+    assert said.found == {"ok": 1, "WARNING": 1, "FAILS": 0}

@@ -15,7 +15,7 @@ from seethrough.experiment.study.tables.merge import nested
 from seethrough.experiment.study.tables.ready import READY
 from seethrough.experiment.study.tables.scopes import sections
 from seethrough.experiment.study.tables.study_tables import TABLES
-from seethrough.renderer.declared import Of, declared
+from seethrough.renderer.declared import Key, Of, allowed, declared
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.tasks.kit.own_models import OwnModel
 from seethrough.tasks.worlds.abstract.abstract_parameters import AbstractParameters
@@ -138,3 +138,11 @@ def test_the_command_prints_the_page_or_a_table(capsys):
     assert part in reference() and "`refresh`" in part
     assert main(["keys", "displai"]) == 2
     assert "unknown table, did you mean display?" in capsys.readouterr().err
+
+
+def test_a_limit_that_follows_from_others_has_its_value_only_where_they_have_one():
+    """docs/keys.md names the limit; an error says besides what it comes to."""
+    most = Key("how many", low=1, high=Of("twice `cell`", lambda p: 2 * p["cell"]))
+    assert allowed(int, most) == "a whole number from 1 to twice `cell`"
+    words = "a whole number from 1 to twice `cell` (12)"
+    assert allowed(int, most, {"cell": 6, "name": "x"}) == words

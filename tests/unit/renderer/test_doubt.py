@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from seethrough.renderer.plan.doubt import RAMP, chosen, union
+from seethrough.renderer.plan.order import BEHIND, IN_FRONT, Related, doubtful
 
 SIZE, SHARE = (800, 600), 0.05
 
@@ -62,3 +63,17 @@ def test_the_area_of_boxes_that_overlap_is_that_of_their_pixels():
             pixels[top:bottom, left:right] = True
         assert union(boxes) == pixels.sum()
     assert union(np.zeros((0, 4))) == 0
+
+
+def test_the_mask_counts_as_its_targets_extent():
+    """A target whose mask is wide, and a thing that overlaps the mask alone: the part in doubt is
+    where the thing and the mask meet, as drawn on paper."""
+    extents = np.array([[100.0, 100, 140, 140], [150, 110, 190, 130]])
+    reach = np.array([[80.0, 80, 160, 160], [150, 110, 190, 130]])
+    related = Related(
+        np.array([0, 1]), extents, reach, np.array([[0, BEHIND], [IN_FRONT, 0]], np.int8),
+        np.array([False, True]), np.array([True, False]),
+    )  # fmt: skip
+    doubt, no = np.array([[False, True], [True, False]]), np.zeros((2, 2), bool)
+    found, _ = doubtful(related, doubt, no, no, np.array(SIZE, float))
+    assert found.tolist() == [[150, 110, 160, 130]]

@@ -22,6 +22,7 @@ from seethrough.renderer.plan.planner import (
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
+from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.dynamic import exact
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 from seethrough.renderer.techniques.standard.opaque import Standard
@@ -150,3 +151,15 @@ def test_targets_with_more_in_front_than_leave_enough_light_are_counted(tau, alp
     masked = np.array([True, True, True, False])
     technique = DynamicTransparency(alpha_target=alpha, min_transmittance=tau)
     assert _counted(relation, masked, technique).tolist() == counted
+
+
+def test_what_events_made_of_a_technique_is_planned():
+    """A lens that a wheel pushed through the room reaches the wall, one pulled near nothing."""
+    scene, camera = room()
+    lens = named("lens")
+    began = lens.technique.begin(lens)
+    near, far = (replace(began, depth=depth) for depth in (1e-3, 1e3))
+    assert not len(plan(scene, camera, lens, SIZE, state=near).ruled)
+    assert 1 in plan(scene, camera, lens, SIZE, state=far).ruled
+    plain, given = (plan(scene, camera, lens, SIZE, state=state).ruled for state in (None, began))
+    np.testing.assert_array_equal(plain, given)

@@ -14,6 +14,7 @@ from seethrough.tasks.worlds.abstract.abstract_scene import (
     RED,
     _disclosed,
     abstract_scene,
+    distractor_color,
     placed,
     unit_mesh,
 )
@@ -211,3 +212,18 @@ def test_of_two_balls_in_one_place_the_inner_is_drawn_again_unless_it_is_fixed(r
     found = _disclosed(np.random.default_rng(1), p, list(made), fixed)
     assert [a is b for a, b in zip(found, made, strict=True)] == [k == stay for k in (0, 1)]
     assert enclosing_pairs(found) == []
+
+
+def test_the_safe_palette_is_blue_whatever_is_drawn():
+    """Colours that a screen has, without red, bluer than green by enough to be told from it."""
+    p = AbstractParameters(palette="colour-blind-safe")
+    drawn = np.array([
+        distractor_color(p, g, b) for g in np.linspace(0, 1, 11) for b in np.linspace(0, 1, 11)
+    ])  # fmt: skip
+    assert drawn.min() >= 0 and drawn.max() <= 1
+    assert not drawn[:, 0].any()
+    assert (drawn[:, 2] + 0.2 >= drawn[:, 1]).all()
+    shades = drawn.reshape(11, 11, 3)
+    assert (np.diff(shades[..., 1], axis=0) > 0).all() and (
+        np.diff(shades[..., 2], axis=1) > 0
+    ).all()

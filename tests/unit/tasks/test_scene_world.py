@@ -9,6 +9,7 @@ from scene_files import file_of
 from seethrough.renderer.events import KeyPress, PointerPress, PointerRelease
 from seethrough.tasks.catalog import TASKS, WORLDS, setting
 from seethrough.tasks.kit.hud import Inset, Mark, Sought
+from seethrough.tasks.kit.skills.finding import TILTS
 from seethrough.tasks.kit.tags import KindTag, Tag, fits
 from seethrough.tasks.kit.world import FileFaults
 from seethrough.tasks.locate.locate_task import LocateParameters
@@ -346,3 +347,19 @@ def test_nobody_meets_one_thing_twice_by_two_names(folder):
         read(folder, items=twice)
     assert str(caught.value) == "items[2].ask = pump.001: expected another than items[0]"
     assert len(SCENE.items(read(folder, items=twice[:2]))) == 2
+
+
+def test_a_camera_of_the_file_shows_what_stands_right_before_it(folder):
+    """What is a four-hundredth of the scene's radius away is not cut off; all of the scene is in
+    reach, from outside as well."""
+    place = opened(read(folder), "engine.glb")
+    camera = place.cameras["stand"]
+    assert 0 < camera.near <= place.radius / 400
+    farthest = np.linalg.norm(place.scene.corners - camera.eye, axis=-1).max()
+    assert camera.far >= farthest
+
+
+def test_an_orbit_is_looked_at_from_above_as_much_as_from_below():
+    """Four heights, each on its own, no way up more than down."""
+    assert len(set(TILTS)) == 4 and sum(TILTS) == 0
+    assert max(np.abs(TILTS)) < np.pi / 2

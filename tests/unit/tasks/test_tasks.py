@@ -219,3 +219,12 @@ def test_the_current_target_turns_in_the_upper_left_corner(name):
             @ (element.camera.projection(1.0) @ element.camera.view()).T
         )
         assert (np.abs(clip[:, :3]) <= clip[:, 3:]).all()
+
+
+def test_a_tick_after_which_no_time_has_passed_leaves_the_very_state():
+    """So that what follows from a state is not made again for it; a digit makes another one."""
+    task = TASKS["count_in_building"]
+    moment = task.on_event(begin("count_in_building"), Tick(0.5))
+    assert task.on_event(moment, Tick(0.5)) is moment
+    assert task.on_event(moment, Tick(0.6)) is not moment
+    assert task.on_event(moment, KeyPress(0.5, "7")).entry.text == "7"

@@ -10,6 +10,7 @@ from played_tasks import begin
 
 from seethrough.renderer.scene.visibility import Visibility
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills import walking
 from seethrough.tasks.kit.skills.effects import plan_effects
 from seethrough.tasks.kit.skills.glance import Glance, likely
 from seethrough.tasks.kit.skills.mood import Mood
@@ -127,3 +128,50 @@ def test_without_depth_noise_things_stand_where_they_are():
     index = int(np.nonzero(BUILDING.scene.targets)[0][0])
     found = np.array(person.place(index, 1.0))
     assert_allclose(found, BUILDING.scene.transforms[index, [0, 2], 3], atol=1e-12)
+
+
+def test_no_more_is_kept_of_profiles_than_has_room(monkeypatch):
+    """Calibration tries thousands: what is kept stays below the limit, and what comes out right."""
+    monkeypatch.setattr(walking, "MOST_KEPT", 5)
+    person = walker()
+    grid = person.known.layout.grid
+    kept = dict(grid.sure)
+    grid.sure.clear()
+    sizes = []
+    try:
+        for number in range(12):
+            profile = replace(AVERAGE, recognise=50.0 + number)
+            person.mood = Mood(np.random.default_rng(1), profile, person.mood.effects, 1.0, 1.0)
+            distance = np.maximum(grid.ways(person.cell)[0], 1.0)
+            right = likely(FILLED / distance**2, profile.recognise, profile.recognise_spread)
+            assert_allclose(person._sure(), right)
+            sizes.append(len(grid.sure))
+    finally:
+        grid.sure.clear()
+        grid.sure.update(kept)
+    assert max(sizes) == 5 and sizes[:5] == [1, 2, 3, 4, 5]
+
+
+@pytest.mark.parametrize("most", [1.0, 0.4, 0.05])
+def test_where_least_was_seen_one_goes_however_much_was_seen(most):
+    """A single cell that is left, out of sight behind walls, is the goal."""
+    person = walker()
+    cells = len(person.known.layout.grid.centers)
+    for far in (0, 255, 104):
+        person.known._before = np.zeros(cells)
+        person.known._before[far] = most
+        person.known._hidden = np.ones(cells, bool)
+        person._quality = None
+        _, goal = person.choose()
+        assert goal == tuple(person.known.layout.grid.centers[far].tolist())
+
+
+def test_what_was_seen_half_as_well_again_is_no_goal():
+    """Many cells that are nearly seen, near by, against one at which nobody has looked."""
+    person = walker()
+    grid = person.known.layout.grid
+    person.known._before = np.full(len(grid.centers), 0.45)
+    person.known._before[0] = 1.0
+    person.known._hidden = np.ones(len(grid.centers), bool)
+    person._quality = None
+    assert person.choose()[1] == tuple(grid.centers[0].tolist())
