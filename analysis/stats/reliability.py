@@ -38,18 +38,29 @@ class Reliability:
 def reliability(items: Array, level: float = 0.95) -> Reliability:
     """Of (n, k ≥ 3) answers, all turned to one direction and finite."""
     n, k = items.shape
+    alpha, interval = cronbach(items, level)
+    omega = alpha if isinstance(alpha, Undefined) else _omega(_covariances(items), n)
+    return Reliability(n, k, alpha, interval, omega)
+
+
+def cronbach(items: Array, level: float = 0.95) -> tuple[Number, Interval]:
+    """α with Feldt's interval, of (n, k ≥ 3) answers."""
+    n, k = items.shape
     why = "fewer than three items" if k < LEAST_ITEMS else ""
     why = why or ("fewer than three participants" if n < 3 else "")
-    cov = np.cov(items - items[:1], rowvar=False) if not why else np.empty((0, 0))
+    cov = _covariances(items) if not why else np.empty((0, 0))
     if not why and np.any(np.ptp(items, axis=0) == 0):
         why = "everybody answers an item alike"
     if not why and cov.sum() <= 1e-12 * np.trace(cov):
         why = "the items' sum does not vary"
     if why:
-        gone = Undefined(why)
-        return Reliability(n, k, gone, no_interval(why), gone)
+        return Undefined(why), no_interval(why)
     alpha = float(k / (k - 1) * (1 - np.trace(cov) / cov.sum()))
-    return Reliability(n, k, alpha, _feldt(alpha, n, k, level), _omega(cov, n))
+    return alpha, _feldt(alpha, n, k, level)
+
+
+def _covariances(items: Array) -> Array:
+    return np.asarray(np.cov(items - items[:1], rowvar=False))
 
 
 def _feldt(alpha: float, n: int, k: int, level: float) -> Interval:

@@ -276,6 +276,7 @@ def skewed(n: int) -> Callable[[Generator], Found]:
 def kinds() -> list[Studies]:
     """Every kind of study, and what of it is known not to hold."""
     from seethrough.benchmarks.inference.design_sizes import design_kinds
+    from seethrough.benchmarks.inference.printed_sizes import printed_kinds
     from seethrough.benchmarks.inference.session_sizes import mixed_sessions, sessions
 
     half = {"interval of the difference": 0.95}
@@ -313,4 +314,5 @@ def kinds() -> list[Studies]:
         *design_kinds(),
         *(Studies(f"n = 16, 4 measures, {k} at the margin", every_measure(k), 3000, {})
           for k in (1, 4)),
+        *printed_kinds(),
     ]  # fmt: skip

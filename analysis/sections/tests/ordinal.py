@@ -34,9 +34,13 @@ FRIEDMAN = (
     Column("p_exact", "p (permutation)", "p", "enumerated, or drawn where that is too long"),
     Column("p_holm", "p (Holm)", "p", "of the permutation p"),
     Column("method", "by"),
-    Column("w", "Kendall's W", "bound2"),
+    Column("w", "Kendall's W", "bound2", "how far participants agree; it has no interval"),
     Column("difference", "baseline − level", "fixed3", "mean"),
     *EQUIVALENCE,
+)
+NO_INTERVAL = (
+    "Kendall's W has no interval here: bootstrap ones never hold a true W of 0, and others too "
+    "seldom."
 )
 _OF_TWO = ("p_holm", "mean_", "sd_", "difference", "tost_", "noninferior_p", "low90", "high90")
 """Columns that only a comparison of two conditions has."""
@@ -92,7 +96,7 @@ def friedman_table(
             "with few trials a cell and shares near 1 they reject in up to .10 for .05."
         )
     shown = SHOWN if equal else tuple(c for c in SHOWN if c != "tost_p")
-    return Table(key, title, columns, tuple(rows), shown, note.strip())
+    return Table(key, title, columns, tuple(rows), shown, f"{note.strip()} {NO_INTERVAL}")
 
 
 def friedman_sentence(table: Table, m: Pair, what: str, context: Context) -> Prose:
@@ -182,13 +186,13 @@ def conditions(
     }
     shown = tuple("label n k chi2 df p p_exact method w".split())
     title = f"{said}: Friedman test over {len(levels)} conditions"
-    test = Table(f"friedman_{key}", title, columns, (row,), shown)
+    test = Table(f"friedman_{key}", title, columns, (row,), shown, NO_INTERVAL)
     if not is_defined(result.chi2):
         return [test]
     if len(levels) > MOST_PAIRED:
         said = f"Its {len(levels) * (len(levels) - 1) // 2} pairs of conditions are not compared"
         note = f"{said}: ask for pairs of a factor's levels (pairwise)."
-        return [replace(test, note=note)]
+        return [replace(test, note=f"{note} {NO_INTERVAL}")]
     names = [" ".join(at.values()) for at in levels]
     rows = tuple(
         {

@@ -1,14 +1,23 @@
 """What the report says first where there are few participants."""
 
 import re
+from itertools import product
+from math import comb, factorial, prod
+from types import SimpleNamespace
 
+import numpy as np
+import pandas as pd
 import pytest
 from made_data import Made, make_folder
 from made_designs import DESIGNS, make_design
 
+from seethrough.analysis.cells import table_of
+from seethrough.analysis.design import Design
 from seethrough.analysis.page.markdown import as_markdown
 from seethrough.analysis.report import Options, make_report, tables_of
+from seethrough.analysis.sections.base.tables import SHARES, SKEWED, cell_table
 from seethrough.analysis.stats.distributions import detectable, detectable_between
+from seethrough.analysis.stats.paired import mean_interval
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +66,42 @@ def test_of_sixteen_the_first_section_says_nothing(text_of):
     text = text_of(16)
     assert "Only 16" not in text and "at best" not in first_section(text)
     assert "With 16 participants a paired test finds" in text
+
+
+@pytest.mark.parametrize(("n", "said"), [(8, ".71"), (16, ".91")])
+def test_what_is_said_of_intervals_of_shares_is_so(n, said):
+    """All ways in which n people can have 0 to 3 of three trials right, each .95, counted."""
+    one = [comb(3, k) * 0.95**k * 0.05 ** (3 - k) for k in range(4)]
+    held = 0.0
+    for some in product(range(n + 1), repeat=3):
+        if sum(some) > n:
+            continue
+        counts = [*some, n - sum(some)]
+        low, high = mean_interval(np.repeat(np.arange(4) / 3, counts))
+        if low <= 0.95 <= high:
+            ways = factorial(n) // prod(factorial(c) for c in counts)
+            held += ways * prod(p**c for p, c in zip(one, counts, strict=True))
+    assert f"{held:.2f}"[1:] == said
+    assert f" {said} " in SHARES
+
+
+@pytest.mark.parametrize(
+    ("values", "kind", "timed", "ends"),
+    [
+        ([1, 1, 1, 2 / 3], "bound", False, "An interval reaches above 1, where no value is"),
+        ([0, 0, 1 / 3, 0.0], "bound", False, "An interval reaches below 0, where no value is"),
+        ([0, 1, 0, 1.0], "bound", False, "An interval reaches below 0 or above 1"),
+        ([2.0, 90.0, 3.0], "fixed", True, "An interval reaches below 0, where no value is"),
+        ([20.0, 22.0, 21.0], "fixed", True, ""),
+        ([1, 1, 1, 1.0], "bound", False, ""),
+        ([-2.0, 3.0, 0.0], "fixed", False, ""),
+    ],
+)
+def test_an_interval_that_leaves_what_can_be_is_named(values, kind, timed, ends):
+    cells = table_of(np.array(values)[:, None], np.ones((len(values), 1), int),
+                     [f"p{i}" for i in range(len(values))], {"view": ("a",)})  # fmt: skip
+    context = SimpleNamespace(design=Design((), ()), study=SimpleNamespace(trials=pd.DataFrame()))
+    table = cell_table("k", "k", cells, context, "First.", kind, cells if timed else None)
+    assert table.note.startswith("First.")
+    assert (SHARES in table.note, SKEWED in table.note) == (kind == "bound", timed)
+    assert ends in table.note and ("reach" in table.note) == bool(ends)

@@ -65,4 +65,7 @@ def test_what_is_known_to_be_off_has_no_bound():
         "interval between groups, Welch",
         "interval of a contrast of levels",
         "levels, Greenhouse–Geisser",
+        # said beside each cell's table, and above aligned ranks
+        "aligned ranks",
+        "interval of a cell's mean",
     }
