@@ -134,7 +134,10 @@ def _files(table: Mapping[str, object]) -> list[tuple[str, str]]:
 def _text(path: Path, key: str, name: str) -> str:
     """The text of a file beside the study at `path`. Raises InputError."""
     try:
-        return read_beside(path, name, LARGEST_TEXT).decode("utf-8-sig").strip()
+        text = read_beside(path, name, LARGEST_TEXT).decode("utf-8-sig").strip()
+        if not text:  # nobody can agree to a page without words
+            raise ValueError("nothing is written in it")
+        return text
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         reason = "not UTF-8" if isinstance(error, UnicodeDecodeError) else reason

@@ -61,12 +61,12 @@ class Parser:
         factors, wrong = read_factors(self.table, RESERVED, people)
         self.faults += wrong
         texts = self._texts()
-        excluded = self._excluded(factors, found["design"]) if not wrong else ()
-        if not wrong and not self.faults and every_combination(factors) > MOST_CELLS:
-            total = every_combination(factors)
+        if not wrong and (total := every_combination(factors)) > MOST_CELLS:
             self.faults.append(Fault("factors", total, f"at most {MOST_CELLS} cells"))
-        if wrong or self.faults:
             return None, self.faults
+        excluded = self._excluded(factors, found["design"]) if not wrong else ()
+        if wrong or self.faults:
+            return None, [*self.faults, *(self._of_levels(factors) if not wrong else ())]
         cells = every_cell(factors, excluded)
         parts, unfit = parts_of(self.base, factors, cells)
         more = unfit or [*self._of_all(found, factors, excluded, parts), *_outlast(found, parts)]
@@ -77,6 +77,12 @@ class Parser:
             found["session"], found["questions"], found["analysis"], texts, tables,
             found["look"], parts, excluded, self._translations(),
         ), []  # fmt: skip
+
+    def _of_levels(self, factors: tuple[Factor, ...]) -> list[Fault]:
+        """What is wrong in levels, besides what is wrong already: all of it is told at once."""
+        known = {fault.key for fault in self.faults}
+        _, faults = parts_of(self.base, factors, every_cell(factors))
+        return [f for f in faults if f.key not in known and f.value is not MISSING]
 
     def _read(self, section: str) -> Any:
         value, faults = read(section, self.base.get(section, {}), False)

@@ -36,6 +36,8 @@ def folder(tmp_path):
     (own / "zero").symlink_to("/dev/zero")
     (own / "big.txt").write_bytes(b"a" * (2**18 + 1))
     (own / "gone.txt").symlink_to("nothing")
+    (own / "loop.txt").symlink_to("loop.txt")
+    (own / "empty.txt").write_text("\ufeff \n", "utf-8")
     return own
 
 
@@ -48,6 +50,8 @@ def folder(tmp_path):
         ("C:\\secret.txt", "not a file beside the study"),
         ("/dev/zero", "not a file beside the study"),
         ("out.txt", "a link out of the study's folder"),
+        ("loop.txt", "a link that leads to itself"),
+        ("empty.txt", "nothing is written in it"),
         ("zero", "a link out of the study's folder"),
         ("pipe", "not a regular file"),
         ("texts", "Is a directory"),
@@ -119,6 +123,10 @@ SLOW = {
     "an exponent": RAW.replace('"seed" = ', '"seed" = 1e' + "9" * 5000 + "\n#", 1),
     "arrays in arrays": RAW + "\nx = " + "[" * 100_000,
     "20,000 tables": RAW + "".join(f"[t{i}]\n" for i in range(20_000)),
+    "fourteen million cells": RAW
+    + "".join(
+        f"[factors.f{i}]\nset = 'technique.dynamic.p{i}'\nvalues = [1, 2, 3]\n" for i in range(15)
+    ),
     "20,000 keys": RAW + "".join(f"a{i} = 1\n" for i in range(20_000)),
     "two megabytes": "#" + "x" * 2**21 + "\n" + RAW,
     "escapes without an end": RAW + '\nx = """' + '\\"' * 100_000,

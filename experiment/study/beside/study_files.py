@@ -30,7 +30,11 @@ def place_beside(study: Path, name: str) -> Path:
     if not name or "\0" in name or ".." in Path(name).parts or _is_absolute(name):
         raise ValueError("not a file beside the study")
     path = folder / name
-    if not path.resolve().is_relative_to(folder.resolve()):
+    try:
+        inside = path.resolve().is_relative_to(folder.resolve())
+    except (RuntimeError, OSError):  # the former is Python 3.11's word for it
+        raise ValueError("a link that leads to itself") from None
+    if not inside:
         raise ValueError("a link out of the study's folder")
     return path
 

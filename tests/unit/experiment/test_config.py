@@ -169,6 +169,33 @@ def test_every_fault_of_a_file_has_its_line():
     assert "did you mean welcome.text?" in caught.value.lines[-1]
 
 
+def test_what_is_wrong_in_levels_is_told_with_what_is_wrong_besides(tmp_path):
+    """A study corrected line by line needs one look, whatever table a fault is in."""
+    path = tmp_path / "own.toml"
+    text = find("demo").read_text("utf-8")
+    changes = {
+        "side = 60.0": "side = -1.0",
+        "seed = 7": "seed = -7",
+        'technique.use = "dynamic"': 'technique.use = "dynamik"',
+        '"unique"': '"uniqe"',
+        'when = "end", of': 'when = "ende", of',
+    }
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text, "utf-8")
+    with pytest.raises(InputError) as caught:
+        load(str(path))
+    told = [line.removeprefix(f"{path}: ").partition(": ")[0] for line in caught.value.lines]
+    assert sorted(told) == [
+        'factors.scenario.levels.walkthrough.design.tasks[0] = "uniqe"',
+        'factors.transparency.levels.dynamic.technique.use = "dynamik"',
+        'questions.comparison.when = "ende"',
+        "study.seed = -7",
+        "world.abstract.side = -1.0",
+    ]
+
+
 def test_an_unknown_key_of_every_table_lists_its_known_ones():
     for table in TABLES:
         known = list(keys_of(table))
