@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import itertools
 import json
 import os
 import re
@@ -107,14 +108,28 @@ def set_aside(data: Path, source: str, participant: str) -> list[Path]:
     return sorted(path for path in aside.glob("*") if own.fullmatch(path.name))
 
 
+def finished(data: Path, source: str) -> list[str]:
+    """Who lacked a folder since a repair was broken off between its two renamings: they have the
+    new one now, which its mark says to be whole."""
+    found = []
+    for new in sorted((data / ASIDE / source).glob("new.*")):
+        name = new.name.removeprefix("new.")
+        if any(new.glob(f"*{MARK}")) and not is_there(folder_of(data, source, name)):
+            os.rename(new, folder_of(data, source, name))
+            sync_folder(folder_of(data, source, name).parent)
+            found.append(name)
+    return found
+
+
 def repair(data: Path, source: str, participant: str, keep: int, when: str) -> Path:
     """Let one branch count; the folder as it was is at the returned place. Raises InputError."""
     folder = folder_of(data, source, participant)
     sessions = sessions_of(folder)
     branch = branches(sessions)[keep]
     aside = data / ASIDE / source
-    number = 1 + len(set_aside(data, source, participant))
-    place, new = aside / f"{participant}-{number}", aside / f"new.{participant}"
+    places = (aside / f"{participant}-{number}" for number in itertools.count(1))
+    place = next(p for p in places if not is_there(p))
+    new = aside / f"new.{participant}"
     if new.exists():  # of a repair that was broken off: it is made again
         shutil.rmtree(new)
     make_folder(new / "traces")

@@ -26,9 +26,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Repair, or say what there is to choose from: 0, or 1 where a choice is needed."""
     from seethrough.experiment.ledger.ledger_lock import playing
-    from seethrough.experiment.record.repair import branches, described, repair, sessions_of
+    from seethrough.experiment.record.repair import (
+        branches,
+        described,
+        finished,
+        repair,
+        sessions_of,
+    )
 
     data, wanted = arguments.data, arguments.participant
+    for name in finished(data, "human"):
+        print(f"{name}: a repair was broken off: it is done now")
     if wanted is not None and not folder_of(data, "human", check_participant(wanted)).is_dir():
         raise InputError(f"{data}: --participant = {wanted}: no such participant")
     if arguments.keep is not None and wanted is None:

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import re
 
 import pytest
@@ -118,6 +119,33 @@ def test_the_branch_that_counts_is_whole_and_the_folder_as_it_was_is_kept(
     assert "P01: played twice at once, repaired" in capsys.readouterr().out
     assert cli.main(["repair", str(twice)]) == 0
     assert "nobody was played twice" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("after", [0, 1, 2])
+def test_a_repair_that_was_broken_off_at_any_renaming_is_done_again(
+    after, twice, monkeypatch, capsys
+):
+    """Between the two the participant has no folder: the next `repair` gives them the new one."""
+    home, rename, left = twice / "data/human/P01", os.rename, [after]
+
+    def stops(old, new):
+        if not left[0]:
+            raise KeyboardInterrupt
+        left[0] -= 1
+        rename(old, new)
+
+    words = ["repair", str(twice), "--participant", "P01", "--keep", "2"]
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "rename", stops)
+        cli.main(words)
+    assert home.exists() == (after != 1)
+    capsys.readouterr()
+    cli.main(words)
+    assert ("P01: a repair was broken off: it is done now" in capsys.readouterr().out) == (
+        after == 1
+    )
+    assert verify(home) == [] and set(sessions(twice)) == {1, 2}
+    assert {p.name for p in (twice / "aside/human").iterdir()} == {"P01-1"}
 
 
 def test_what_was_set_aside_is_withdrawn_too(twice, capsys):
