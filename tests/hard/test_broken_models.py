@@ -1,6 +1,7 @@
 """Model files that cannot be shown: each is refused in one line that says why."""
 
 import json
+import warnings
 
 import numpy as np
 import pytest
@@ -139,6 +140,7 @@ BROKEN = [
     ("cut.stl", stl(CUBE, TRIANGLES)[:-9], "the file is cut off"),
     ("two.stl", b"solid\nfacet\nvertex 0 0 0\nvertex 1 0 0\n", "2 corners: expected three"),
     ("zero.obj", plain(CUBE, [(-1, 0, 1)]), r"line 9: a face names vertex 0 of 8"),
+    ("inf.obj", b"v inf 0 0\n" + plain(CUBE, QUADS), "vertex 0 = .inf, 0, 0.: expected finite"),
     ("word.obj", b"v 0 0 x\n", r"line 1: 'v 0 0 x': expected numbers"),
     ("short.obj", b"v 0 0\n", "line 1: a vertex of 2 numbers"),
     ("huge.obj", plain(np.asarray(CUBE) * 1e40, QUADS), "expected smaller than 1e.30 coordinates"),
@@ -156,7 +158,8 @@ def test_what_cannot_be_shown_is_one_line(tmp_path, name, data, says):
         (tmp_path / other).write_bytes(content)
     path = tmp_path / name
     path.write_bytes(data)
-    with pytest.raises(ValueError, match=says) as caught:
+    with pytest.raises(ValueError, match=says) as caught, warnings.catch_warnings():
+        warnings.simplefilter("error")  # numpy's words would stand on the terminal beside the line
         load_model(path)
     said = str(caught.value)
     assert said.startswith(f"{path}: ") and "\n" not in said and len(said) < len(str(path)) + 250

@@ -122,8 +122,9 @@ def cut_polygons(
     every = Polygons(vertices[flat], starts, np.zeros((len(flat), 0)), np.arange(len(counts)))
     corners = np.concatenate([np.arange(starts[i], starts[i + 1]) for i in use])
     polygons = every.take(use)
-    normals = newell(polygons)
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    triangles, _ = triangulate(polygons, normals)
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is refused later
+        normals = newell(polygons)
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+        triangles, _ = triangulate(polygons, normals)
     return corners[triangles.astype(np.int64)], owner
