@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -102,7 +103,7 @@ def write(study: Study, context: Context, path: Path) -> None:
     """
     from PIL import Image, ImageDraw, PngImagePlugin
 
-    if path.exists() and not is_sheet(path):
+    if os.path.lexists(path) and not is_sheet(path):
         raise InputError(f"{path}: exists already and is no contact sheet; expected a new file")
     models = models_of(study)
     width = MARGIN + (len(VIEWS) + 1) * (TILE + MARGIN) + TEXT + MARGIN

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -108,7 +109,7 @@ def write(scenes: list[SceneSeen], context: Context, path: Path) -> None:
     """
     from PIL import Image, ImageDraw, PngImagePlugin
 
-    if path.exists() and not is_sheet(path):
+    if os.path.lexists(path) and not is_sheet(path):
         raise InputError(f"{path}: exists already and is no contact sheet; expected a new file")
     rows = [-(-len(scene.views) // COLUMNS) for scene in scenes]
     step = (TILE[0] + MARGIN, TILE[1] + CAPTION + MARGIN)

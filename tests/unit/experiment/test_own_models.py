@@ -193,3 +193,8 @@ def test_check_puts_a_picture_of_each_model_into_a_sheet(tmp_path):
     with pytest.raises(InputError, match=r"exists already and is no contact sheet"):
         write(study, context, sheet)
     assert sheet.read_bytes() == b"somebody's"
+    sheet.unlink()
+    sheet.symlink_to(tmp_path / "elsewhere.png")
+    with pytest.raises(InputError, match=r"exists already and is no contact sheet"):
+        write(study, context, sheet)
+    assert not (tmp_path / "elsewhere.png").exists()
