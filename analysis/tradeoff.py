@@ -21,7 +21,8 @@ from seethrough.analysis.stats.undefined import Interval, Number, Undefined, no_
 class Change:
     """A task's time and error under baseline and level, participant by participant: (n, 2) each.
 
-    `log_time`: the means of the trials' logarithms; `label`: the task in words.
+    `log_time`: the means of the trials' logarithms; `label`: the task in words; `less_is_worse`:
+    of a measure that is no error, of which more is better.
     """
 
     task: str
@@ -33,6 +34,12 @@ class Change:
     label: str = ""
     contrast: Contrast | None = None
     several: bool = False
+    less_is_worse: bool = False
+
+    @property
+    def worse(self) -> Array:
+        """(n, 2) what grows as people do worse."""
+        return -self.error if self.less_is_worse else self.error
 
     @property
     def key(self) -> str:
@@ -57,7 +64,8 @@ def price_of(task: Task) -> Measured | None:
     others = [m for m in task.measures if not m.log]
     declared = [m for m in others if m.price]
     finer = [m for m in others if not m.ranked]
-    return next(iter([*declared, *finer, *others]), None)
+    right = [m for m in others if m.scale == "binary"]
+    return next(iter([*declared, *finer, *right, *others]), None)
 
 
 def speed_of(design: Design) -> Measured | None:
@@ -97,8 +105,9 @@ def _change(
     only = trials[trials[TASK] == task.name]
     errors = cells_of(only, design, price)
     label = price.said
-    if price.direction == "more":
-        errors, label = (wrong(errors), "share wrong") if price.ranked else (errors, label)
+    less_is_worse = price.direction == "more" and price.scale != "binary"
+    if price.direction == "more" and price.scale == "binary":
+        errors, label = wrong(errors), "share wrong"
     if price.unit:
         label = f"{label} ({price.unit})"
     levels = (contrast.baseline, contrast.level)
@@ -111,7 +120,9 @@ def _change(
         return None
     time, log, off = (part[has] for part in parts)
     names = tuple(p for p, h in zip(timed[0].participants, has, strict=True) if h)
-    return Change(task.name, label, names, time, log, off, task.said, contrast)
+    label = f"{label}, less is worse" if less_is_worse else label
+    return Change(task.name, label, names, time, log, off, task.said, contrast,
+                  less_is_worse=less_is_worse)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

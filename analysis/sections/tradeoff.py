@@ -95,8 +95,8 @@ def _absent(found: Sequence[Change], context: Context) -> tuple[Missing, ...]:
 
 def _row(c: Change) -> dict[str, object]:
     faster = difference_signs(c.log_time[:, 1], c.log_time[:, 0]) < 0
-    worse = difference_signs(c.error[:, 1], c.error[:, 0])
-    r = correlation(c.log_time[:, 1] - c.log_time[:, 0], np.diff(c.error).ravel())
+    worse = difference_signs(c.worse[:, 1], c.worse[:, 0])
+    r = correlation(c.log_time[:, 1] - c.log_time[:, 0], np.diff(c.worse).ravel())
     counts = [int(np.sum(faster & (worse == sign))) for sign in (1, -1, 0)]
     return {
         "task": c.key,
