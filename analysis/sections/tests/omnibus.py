@@ -130,8 +130,9 @@ def _table(context: Context, key: str, title: str, cells: Cells, note: str) -> T
     if few:
         notes.insert(0, "Participants are too few to estimate ε: the lower bound decides.")
     shown = tuple(c for c in EFFECTS_SHOWN if not (factors and c == "bf10"))
-    if few:
-        shown = tuple("p_lower" if c == "p_hf" else c for c in shown if c != "eps_hf")
+    if few:  # an ε that cannot be estimated is not shown beside these words
+        shown = tuple("p_lower" if c == "p_hf" else c for c in shown
+                      if c not in ("eps", "p_gg", "eps_hf"))  # fmt: skip
     rows = tuple(effect_row(e) for e in effects.values())
     return Table(key, title, EFFECTS, rows, shown, " ".join(n for n in notes if n))
 

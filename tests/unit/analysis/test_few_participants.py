@@ -1,6 +1,7 @@
 """What the report says first where there are few participants."""
 
 import re
+from dataclasses import replace
 from itertools import product
 from math import comb, factorial, prod
 from types import SimpleNamespace
@@ -105,3 +106,15 @@ def test_an_interval_that_leaves_what_can_be_is_named(values, kind, timed, ends)
     assert table.note.startswith("First.")
     assert (SHARES in table.note, SKEWED in table.note) == (kind == "bound", timed)
     assert ends in table.note and ("reach" in table.note) == bool(ends)
+
+
+def test_an_epsilon_that_three_people_cannot_estimate_is_not_shown(tmp_path):
+    """Beside the words that they are too few to; of fourteen it is."""
+    shown = {}
+    for people in (3, 14):
+        design = replace(DESIGNS["four"], people=(people,))
+        report = make_report(make_design(tmp_path / f"{people}", design), Options())
+        (table,) = [t for t in tables_of(report) if t.key == "anova_time_log"]
+        assert ("too few to estimate ε" in table.note) == (people == 3)
+        shown[people] = set(table.shown) & {"eps", "p_gg", "eps_hf", "p_hf", "p_lower"}
+    assert shown == {3: {"p_lower"}, 14: {"eps", "p_gg", "eps_hf", "p_hf"}}
