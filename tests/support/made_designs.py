@@ -289,6 +289,8 @@ DESIGNS: Mapping[str, Design] = {
             {"name": n, "label": n, "each": ["view"], "group": g, "points": 5, "low": 1}
             for g, own in (("mood", ("quick", "sure", "calm")), ("", ("tiring",))) for n in own]},
     ),
+    "three_people": Design((factor("view", "plain", "cut"), CLUTTER), (3,), 3, effect=_of_both,
+                         seed=20),
     "scenes": Design((factor("view", "plain", "cut"),), (12,), 4, effect=_of_view, seed=9,
                      shared=8),
     "scenes_of_three": Design((factor("view", "plain", "xray", "cut"),), (9,), 4,

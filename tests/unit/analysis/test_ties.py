@@ -237,12 +237,13 @@ def test_shares_that_are_all_alike_have_no_spread(share, n):
 
 def test_equal_log_times_show_no_learning(tmp_path):
     """All trials of a set took as long: slopes of 10⁻¹⁷ are not tested."""
-    folder = make_folder(tmp_path / "data", Made(participants=6, trials=3))
+    folder = make_folder(tmp_path / "data", Made(participants=6, trials=7))
     for table in folder.rglob("*_trials_data.csv"):
         with open(table, encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         for row in rows:
-            row["time"] = row["time_clean"] = repr(7.3 + 0.1 * int(row["block"]))
+            time = 7.3 + 0.1 * (int(row["block"]) - 1) + 0.37 * (int(row["slot"]) - 1)
+            row["time"] = row["time_clean"] = repr(time)
         write_rows(table, TRIAL_COLUMNS, rows)
     report = make_report(folder, Options())
     table = next(t for t in tables_of(report) if t.key == "learning")
