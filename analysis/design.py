@@ -187,13 +187,15 @@ class Prediction:
 
 @dataclass(frozen=True, slots=True)
 class Design:
-    """A study's design. `stated`: whether its predictions were written down before the data."""
+    """A study's design. `selected`: the rule by which its scenes were selected, "" if they were
+    not."""
 
     factors: tuple[Factor, ...]
     tasks: tuple[Task, ...]
     excluded: tuple[Mapping[str, str], ...] = ()
     predictions: tuple[Prediction, ...] = ()
     items: tuple[Item, ...] | None = None
+    selected: str = ""
 
     def factor(self, name: str) -> Factor:
         return next(f for f in self.factors if f.name == name)

@@ -104,7 +104,9 @@ class _Reader:
         stated = tuple(
             self.prediction(t, p, made) for p, t in self.tables(entry, ENTRY, "predictions")
         )
-        return d.Design(factors, self.with_margins(tasks, stated), excluded, stated, made.items)
+        own = self.with_margins(tasks, stated)
+        selected = self.text(entry, ENTRY, "selected")
+        return d.Design(factors, own, excluded, stated, made.items, selected)
 
     def with_margins(
         self, tasks: tuple[d.Task, ...], stated: tuple[d.Prediction, ...]

@@ -86,7 +86,9 @@ def _design(context: Context) -> Prose:
         "participant", observed=True).size()  # fmt: skip
     span = f"{each.min()}" if each.min() == each.max() else f"{each.min()} to {each.max()}"
     what = "; ".join(parts) or "no factor"
-    return say(f"Design: {what}.{out} Tasks: {tasks}; {span} trials a participant.")
+    rule = f" Scenes selected: {design.selected}." if design.selected else ""
+    said = f"{what}.{out}{rule} Tasks: {tasks}; {span} trials a participant."
+    return say("Design: {}", said)  # a rule is the researcher's own words, braces included
 
 
 def _apparatus(context: Context) -> Prose | None:

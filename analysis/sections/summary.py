@@ -16,6 +16,10 @@ from seethrough.analysis.sections.participants import reach, reach_sentence
 from seethrough.analysis.sections.scales import Tables
 
 PLANNING = " (simulated participants)"
+SELECTED = (
+    "Scenes selected, by a rule that the study declared: {}. What is found holds for such scenes, "
+    "and says nothing of others."
+)
 VERDICTS = (
     Column("prediction", "prediction"),
     Column("said", "what was predicted"),
@@ -53,6 +57,8 @@ def summary_section(context: Context, found: Found) -> Section:
         else "The study stated no prediction: everything below is exploratory."
     )
     blocks.append(say(said, kind="note"))
+    if context.design.selected:
+        blocks.append(say(SELECTED, context.design.selected, kind="note"))
     tables = [_verdicts(answers, words)] if answers else []
     return Section("summary", "In short", (*blocks, *places(blocks), *tables))
 

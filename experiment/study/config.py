@@ -18,6 +18,7 @@ from seethrough.experiment.study.design.design import number_of, scene_names
 from seethrough.experiment.study.migrate import is_old, migrated
 from seethrough.experiment.study.parser import Parser
 from seethrough.experiment.study.predicted import unfit_predictions
+from seethrough.experiment.study.selection import unfit_selection
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.study_items import lacking_items
 from seethrough.experiment.study.tables.study_errors import study_error
@@ -116,6 +117,7 @@ def _of_all(study: Study) -> Iterator[str]:
     """What neither tables nor records have to keep to, but who begins with a study."""
     yield from clashing_tasks(study)
     yield from unfit_predictions(study)
+    yield from unfit_selection(study)
     yield from lacking_items(study)
 
 

@@ -140,6 +140,8 @@ class Study:
             del said["practice"]["explore"]  # so a study of before is the same study
         if not self.design.tasks:
             del said["design"]["tasks"]  # every cell's levels say them
+        if self.design.select is None:
+            del said["design"]["select"]
         return {
             **said,
             "factors": [_factor_table(factor) for factor in self.factors],

@@ -8,7 +8,9 @@ from math import isinf
 from pathlib import Path
 
 from seethrough.analysis.files.written import write_over
+from seethrough.experiment.commands.data.power_scenes import describe
 from seethrough.experiment.errors import InputError
+from seethrough.experiment.files.outputs import check_output
 from seethrough.experiment.study.config import load
 
 MOST = 10_000
@@ -33,11 +35,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--source", choices=("human", "pilot", "simulated"), help="of a folder")
     parser.add_argument("--replications", type=int, default=2000, metavar="R")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="default: 1")
-    parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="HTML page")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="HTML page, with --effect")
+    parser.add_argument(
+        "--scenes",
+        type=Path,
+        metavar="FILE.csv",
+        help="describe how much each condition shows in each scene; alone, or with --effect",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Work out the curves, print the sizes that are enough, write the page."""
+    """Describe scenes; work out the curves, print the sizes that are enough, write the page."""
+    if arguments.scenes is not None:
+        check_output("--scenes", arguments.scenes, ".csv")
+        if arguments.scenes.exists():
+            raise InputError(f"{arguments.scenes}: exists already; expected a new file")
+        if arguments.effect is None and arguments.out is None:
+            return describe(load(arguments.study), arguments.scenes)
+    if arguments.out is None:
+        raise InputError("--out: expected the name of the page that --effect makes")
     if arguments.out.suffix.lower() != ".html":  # it is written over: no study file, by a slip
         raise InputError(f"--out = {arguments.out}: expected a name that ends in .html")
     study = load(arguments.study)
@@ -82,7 +98,7 @@ def run(arguments: argparse.Namespace) -> int:
     except OSError as error:
         raise InputError(f"--out = {arguments.out}: cannot be written: {error.strerror}") from None
     print(f"page: {arguments.out}")
-    return 0
+    return 0 if arguments.scenes is None else describe(study, arguments.scenes)
 
 
 def _command(a: argparse.Namespace) -> str:

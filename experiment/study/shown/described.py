@@ -9,6 +9,7 @@ from typing import Any
 
 from seethrough.experiment.questions.kit import Asking, Weighs
 from seethrough.experiment.questions.likert.likert_question import LikertParameters
+from seethrough.experiment.study import selection
 from seethrough.experiment.study.design.factors import ALONE, Factor
 from seethrough.experiment.study.study import Study
 from seethrough.experiment.study.tables.question_table import STARTS
@@ -21,9 +22,10 @@ from seethrough.tasks.kit.measure import CONFIDENCE, TIME
 
 def design_entry(study: Study) -> dict[str, Any]:
     """Factors with their levels in order, cells left out, tasks with what they measure, what is
-    expected; plain JSON types."""
+    expected, and by which rule scenes were selected, if they were; plain JSON types."""
     analysis = json.loads(study.analysis.model_dump_json())
     margins = {k: v for k, v in analysis["margins"].items() if v is not None}
+    selected = selection.said(study)
     return {
         "factors": [_factor(study, factor) for factor in study.factors],
         "excluded": [dict(levels) for levels in study.excluded],
@@ -34,6 +36,7 @@ def design_entry(study: Study) -> dict[str, Any]:
         ],
         "items": [item for name, asked in study.questions.items()
                   for item in items_of(study, name, asked)],
+        **({"selected": selected} if selected else {}),
     }  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from seethrough.experiment.study.selection import said as rule_of
 from seethrough.experiment.study.shown.described import design_entry, each_of, items_of
 from seethrough.experiment.study.shown.design_table import lines_of
 from seethrough.experiment.study.study import Study
@@ -35,6 +36,7 @@ def preregistration(study: Study) -> str:
         f"`{study.digest()}`. Every session's record has the same hash, or was another study.",
         "## Design",
         "```text\n" + "\n".join(lines_of(study, study.general.participants)) + "\n```",
+        *_selected(study),
         "Who drops out is replaced by somebody in the same row of the design; sessions end at "
         f"{study.session.limit / 60:g} minutes.",
         "## Measures",
@@ -52,6 +54,11 @@ def preregistration(study: Study) -> str:
         "its table here where it was run; none is part of the study's file.",
     ]
     return "\n\n".join(parts) + "\n"
+
+
+def _selected(study: Study) -> list[str]:
+    rule = rule_of(study)
+    return [f"Scenes are selected, by a rule that is declared here: {rule}."] if rule else []
 
 
 def _measures(entry: Mapping[str, Any]) -> Iterator[str]:

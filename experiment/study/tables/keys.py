@@ -24,6 +24,7 @@ from seethrough.experiment.study.tables.study_tables import (
     TABLES,
     MarginsTable,
     PredictionTable,
+    SelectTable,
     TaskTable,
 )
 from seethrough.renderer.declared import Declares, Key, allowed, declared
@@ -36,6 +37,8 @@ ABOUT = {
     "study": "What the study is.",
     "factors.NAME": "What the study varies: a table each, whose name becomes a column.",
     "design": "Orders, and what happens in each condition.",
+    "design.select": "The rule by which scenes are selected, said before anybody is invited: "
+    "`power --scenes` holds them to it, the report says that scenes were selected.",
     "practice": "Before the trials of each task set.",
     "display": "The window, and what it promises.",
     "session": "Its limit, and what becomes of a broken-off session.",
@@ -69,7 +72,8 @@ Declaring: TypeAlias = type[BaseModel] | type[Declares] | Mapping[str, tuple[str
 def tables() -> dict[str, Declaring]:
     """Table of a study file → what declares its keys."""
     found: dict[str, Declaring] = {"study": TABLES["study"], "factors.NAME": FACTOR_KEYS}
-    found |= {name: TABLES[name] for name in ("design", "practice")}
+    found |= {"design": TABLES["design"], "design.select": SelectTable}
+    found["practice"] = TABLES["practice"]
     for kind, said in (("technique", "what draws"), ("world", "where tasks are done")):
         found[kind] = {"use": (f"one of {', '.join(plugins.names(kind))}", said)}
         for name in plugins.names(kind):

@@ -121,6 +121,28 @@ class StudyTable(Table):
     ] = "en"  # fmt: skip
 
 
+class SelectTable(Table):
+    """[design.select]: the rule by which scenes are selected, said before anybody is invited.
+
+    `power --scenes` holds scenes to `factor` and `least`, and the report says that scenes were
+    selected; without this table none are.
+    """
+
+    factor: Annotated[
+        str, key("the factor whose levels are to differ in how much of what is asked for they show "
+                 "in every scene; it has to leave scenes alone", said="a factor's name"),
+    ] = ""  # fmt: skip
+    least: Annotated[
+        float | None,
+        key("how far those levels are to be apart at least, as a share of what is asked for", gt=0,
+            lt=1),
+    ] = None  # fmt: skip
+    rule: Annotated[
+        str, key("the rule in words, where scenes were chosen by hand", said="text, at most 300 "
+                 "characters", max_length=300),
+    ] = ""  # fmt: skip
+
+
 class DesignTable(Table):
     """[design]: orders, and what happens in each condition.
 
@@ -158,6 +180,10 @@ class DesignTable(Table):
         key("how far the levels' numbers of targets, occluders and visible things and their ways "
             "to walk may be apart, as a share of their mean", gt=0, le=2),
     ] = 0.2  # fmt: skip
+
+    select: Annotated[
+        SelectTable | None, key("the rule by which scenes are selected; none: they are not")
+    ] = None
 
     _arrays = field_validator("tasks", "redraw", "exclude", mode="before")(as_tuple)
     _unique = field_validator("tasks")(_once)

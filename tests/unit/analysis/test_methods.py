@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 
 import pytest
 from made_data import Made, make_folder
@@ -74,3 +75,15 @@ def test_simulated_people_are_none(tmp_path):
     text = as_markdown(make_report(make_folder(tmp_path / "d", Made(2, source="simulated")),
                                    Options()))  # fmt: skip
     assert "Participants: 2 simulated participants, who are no people." in text
+
+
+def test_selected_scenes_are_said_first_and_only_where_a_rule_was_declared(tmp_path):
+    plain = DESIGNS["four"]
+    rule = "only scenes of {kind} A; 3 scenes were drawn again"
+    chosen = replace(plain, more={"selected": rule})
+    texts = [as_markdown(make_report(make_design(tmp_path / str(k), d), Options()))
+             for k, d in enumerate((plain, chosen))]  # fmt: skip
+    assert "Scenes selected" not in texts[0]
+    first, method = texts[1].replace("\\", "").split("## Method")[:2]
+    assert f"Scenes selected, by a rule that the study declared: {rule}." in first
+    assert f"Scenes selected: {rule}." in method
