@@ -1,32 +1,54 @@
-"""`seethrough calibrate`: a profile whose times and errors come near the published ones."""
+"""`seethrough calibrate`: a profile whose times and errors come near the published ones; which rows
+can be reached at all; how far each constant may move."""
 
 from __future__ import annotations
 
 import argparse
+import time
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.code_hash import code_sha256
-from seethrough.experiment.people.persons.profile_file import find, write
+from seethrough.experiment.people.persons.profile_file import add, find, provenance_of, read, write
 from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import load
+
+if TYPE_CHECKING:
+    from seethrough.experiment.people.fitted.fitting import Crowd
+    from seethrough.tasks.kit.skills.profile import Profile
+
+FIT, SEARCH, INTERVALS = "fit", "search", "intervals"
+LEAST = {"participants": 3, "evaluations": 1, "last": 3, "seed": 0, "pool": 1, "check": 3,
+         "check_seed": 0, "tries": 3}  # fmt: skip
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The command's own arguments."""
     parser.add_argument("study", metavar="STUDY", help="TOML file or name of a shipped study")
-    parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="profile to write")
+    parser.add_argument(
+        "--out", type=Path, required=True, metavar="FILE",
+        help="profile to write; search and intervals add their tables to what a fit wrote",
+    )  # fmt: skip
+    parser.add_argument(
+        "--part",
+        choices=(FIT, SEARCH, INTERVALS),
+        default=FIT,
+        help="fit; search: which rows any constants within their intervals reach; intervals: how "
+        "far each fitted constant may move. Some 20, 70 and 40 evaluations of .2 s a person",
+    )
     parser.add_argument("--profile", default="average", help="where to start; default: average")
-    parser.add_argument("--participants", type=int, default=48, metavar="N", help="of the fit")
+    parser.add_argument("--participants", type=int, default=48, metavar="N", help="each evaluation")
     parser.add_argument("--evaluations", type=int, default=40, metavar="E", help="of the fit")
+    parser.add_argument("--tries", type=int, default=64, metavar="T", help="spread by the search")
     parser.add_argument(
         "--last", type=int, default=192, metavar="N", help="participants of the last corrections"
     )
-    parser.add_argument("--seed", type=int, default=11, metavar="S", help="of the fit; default: 11")
+    parser.add_argument("--seed", type=int, default=11, metavar="S", help="default: 11")
     parser.add_argument(
         "--check", type=int, default=256, metavar="N", help="other participants, for the table"
     )
@@ -36,43 +58,110 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Fit, print published beside simulated, write the profile with its provenance."""
+    """Do a part, print its table, write it into the profile with its provenance."""
     study = load(arguments.study)
     start = find(arguments.profile)
-    least = {"participants": 3, "evaluations": 1, "last": 3, "seed": 0, "pool": 1, "check": 3,
-             "check_seed": 0}  # fmt: skip
-    for name, low in least.items():
+    for name, low in LEAST.items():
         if (value := getattr(arguments, name)) < low:
             raise InputError(f"--{name.replace('_', '-')} = {value}: expected at least {low}")
+    fitted = None if arguments.part == FIT else _fitted(arguments.out)
     _check_out(arguments.out)
-    from dataclasses import replace
-
-    from seethrough.experiment.people.fitted import calibration, fitting
+    code_sha256()  # of the files as they are now: it is kept, and work of minutes follows
+    from seethrough.experiment.people.fitted import fitting
     from seethrough.experiment.people.runs.looks import KeptLooks
     from seethrough.experiment.people.runs.pool import drawing
 
     pool = drawing(study, arguments.pool, KeptLooks(arguments.tables))
-    crowd = fitting.Crowd(arguments.seed, arguments.participants, pool)
-    last = fitting.Crowd(arguments.seed, arguments.last, pool)
-    with Progress("calibrating", arguments.evaluations + fitting.LAST) as progress:
+
+    def crowd(seed: int, people: int) -> Crowd:
+        return fitting.Crowd(seed, people, pool)
+
+    own = crowd(arguments.seed, arguments.participants)
+    others = crowd(arguments.check_seed, arguments.check)
+    if fitted is None:
+        _fit(arguments, start, own, crowd(arguments.seed, arguments.last), others)
+        return 0
+    made = _search if arguments.part == SEARCH else _intervals
+    table = made(arguments, start, fitted, own, others)
+    for line in table:
+        print(line)
+    add(arguments.out, arguments.part, {"command": _command(arguments), "code": _code(),
+                                        "table": table})  # fmt: skip
+    print(f"profile: {arguments.out}")
+    return 0
+
+
+def _fit(a: argparse.Namespace, start: Profile, own: Crowd, last: Crowd, others: Crowd) -> None:
+    from dataclasses import replace
+
+    from seethrough.experiment.people.fitted import calibration, fitting
+
+    began = time.process_time()
+    with Progress("calibrating", a.evaluations + fitting.LAST) as progress:
         best, misfit = fitting.calibrate(
             start,
-            lambda p: crowd.play(p, calibration.FITTED),
-            arguments.evaluations,
+            lambda p: own.play(p, calibration.FITTED),
+            a.evaluations,
             lambda value: progress.step(f"misfit {value:.2f}"),
             lambda p: last.play(p, calibration.FITTED),
         )
-    best = replace(best, name=arguments.out.stem)
-    others = fitting.Crowd(arguments.check_seed, arguments.check, pool)
+    best = replace(best, name=a.out.stem)
     every = calibration.FITTED + calibration.SEEN
     before, after = (calibration.measured(others.play(p, every)) for p in (start, best))
     table = calibration.table(after, before)
-    print(f"{arguments.check} other participants, seed {arguments.check_seed}:")
+    print(f"{a.check} other participants, seed {a.check_seed}:")
     for line in table:
         print(line)
-    write(arguments.out, best, _provenance(arguments, start.name, misfit, table))
-    print(f"profile: {arguments.out}")
-    return 0
+    write(a.out, best, _provenance(a, start.name, misfit, table))
+    print(f"profile: {a.out}, {time.process_time() - began:.0f} s of processor time")
+
+
+def _search(
+    a: argparse.Namespace, start: Profile, fitted: Profile, own: Crowd, others: Crowd
+) -> list[str]:
+    from seethrough.experiment.people.fitted import search
+    from seethrough.experiment.people.fitted.calibration import FITTED, PEOPLE
+    from seethrough.experiment.study.design.design import SIMULATED, generator
+
+    began = time.process_time()
+    with Progress("searching", a.tries + PEOPLE) as progress:
+        found = search.search(
+            start,
+            lambda p: own.play(p, FITTED),
+            lambda p: others.play(p, FITTED),
+            a.tries,
+            generator(a.seed, (SIMULATED, 0)),  # no person has that number
+            progress.step,
+        )
+    return search.report(found, time.process_time() - began)
+
+
+def _intervals(
+    a: argparse.Namespace, start: Profile, fitted: Profile, own: Crowd, others: Crowd
+) -> list[str]:
+    from seethrough.experiment.people.fitted import fitting, profiled
+    from seethrough.experiment.people.fitted.calibration import FITTED
+    from seethrough.experiment.people.fitted.priors import FREE, moved
+
+    began = time.process_time()
+    with Progress("profiling", 1 + 3 * len(FREE)) as progress:
+        evaluations = fitting.Evaluations(
+            start, lambda p: own.play(p, FITTED), lambda value: progress.step()
+        )
+        x = moved(start, fitted)
+        here = evaluations.residuals(x)
+        slopes = fitting.slopes_of(evaluations.residuals, x, here)
+        found = profiled.profile_intervals(
+            evaluations.residuals, slopes, here, x, len(here) - len(x)
+        )
+    return profiled.report(start, fitted, found, time.process_time() - began)
+
+
+def _fitted(out: Path) -> Profile:
+    """The profile that a fit wrote. Raises InputError."""
+    if not out.is_file() or not provenance_of(out):
+        raise InputError(f"--out = {out}: expected a profile that a fit wrote")
+    return read(out)
 
 
 def _check_out(out: Path) -> None:
@@ -87,26 +176,37 @@ def _check_out(out: Path) -> None:
         raise InputError(f"--out = {out}: expected a file's name, not a folder's")
 
 
+def _command(a: argparse.Namespace) -> str:
+    """What was typed, but for where files lie on this machine."""
+    own = {
+        FIT: f"--evaluations {a.evaluations} --last {a.last} ",
+        SEARCH: f"--part {SEARCH} --tries {a.tries} ",
+        INTERVALS: f"--part {INTERVALS} ",
+    }
+    return (
+        f"seethrough calibrate {a.study} --profile {a.profile} --participants {a.participants} "
+        f"{own[a.part]}--seed {a.seed} --pool {a.pool} --check {a.check} "
+        f"--check-seed {a.check_seed}"
+    )
+
+
 def _provenance(
-    arguments: argparse.Namespace, start: str, misfit: float, table: Sequence[str]
+    a: argparse.Namespace, start: str, misfit: float, table: Sequence[str]
 ) -> dict[str, object]:
     from seethrough.experiment.people.fitted.calibration import FITTED, SEEN
 
     return {
-        "command": f"seethrough calibrate {arguments.study} --profile {arguments.profile} "
-        f"--participants {arguments.participants} --evaluations {arguments.evaluations} "
-        f"--last {arguments.last} --seed {arguments.seed} --pool {arguments.pool} "
-        f"--check {arguments.check} --check-seed {arguments.check_seed}",
+        "command": _command(a),
         "code": _code(),
-        "participants": arguments.participants,
-        "last": arguments.last,
-        "seed": arguments.seed,
+        "participants": a.participants,
+        "last": a.last,
+        "seed": a.seed,
         "start": start,
         "fitted": list(FITTED),
         "seen": list(SEEN),
         "source": "Elmqvist2009, tables 3 and 4: means, s.d., and the r that each F implies",
         "misfit": round(misfit, 4),
-        "checked": f"{arguments.check} other participants, seed {arguments.check_seed}",
+        "checked": f"{a.check} other participants, seed {a.check_seed}",
         "table": list(table),
         "made": datetime.now(UTC).date().isoformat(),
     }

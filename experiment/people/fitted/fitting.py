@@ -7,8 +7,6 @@ does not. Means come first: times are nearly proportional to the pace.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import replace
-from math import exp, log
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +24,7 @@ from seethrough.experiment.people.fitted.calibration import (
     published,
     residuals,
 )
+from seethrough.experiment.people.fitted.priors import FREE, with_free
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.persons.person import TRAITS
 from seethrough.experiment.people.runs.data_mode import play_trial
@@ -35,20 +34,6 @@ from seethrough.tasks.kit.skills.profile import Profile
 
 Play = Callable[[Profile], Iterable[TrialRow]]
 
-# What may be fitted, each within a factor of the starting profile's value.
-FREE = {
-    "pace": 3.0,  # decisions: all mental times
-    "recheck": 4.0,  # thoroughness: telling a thing as counted already
-    "worth": 4.0,  # thoroughness: seconds one would spend for one more thing
-    "diligence": 4.0,  # thoroughness: how much of the building may stay unseen
-    "cloud_depth": 2.0,  # sharpness: how surely a thing is known again in a world that turns
-    "sd_person": 4.0,
-    "sd_task": 4.0,
-    "sd_trial": 4.0,
-    "sd_care": 4.0,
-    "sd_task_walking": 4.0,
-    "sd_trial_walking": 4.0,
-}
 STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
 PACES = 1  # evaluations that correct the pace alone
 STEPS = 6  # evaluations of the larger crowd, once its derivatives are there
@@ -99,17 +84,7 @@ class Crowd:
         return rows
 
 
-def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
-    """The profile with its free constants scaled by exp(x), within their bounds."""
-    changes = {}
-    for (name, factor), value in zip(FREE.items(), x, strict=True):
-        scale = exp(float(np.clip(value, -log(factor), log(factor))))
-        changes[name] = getattr(profile, name) * scale
-    changes["diligence"] = min(changes["diligence"], 1.0)
-    return replace(profile, **changes)
-
-
-class _Search:
+class Evaluations:
     """Evaluations of one crowd: the best so far, and all of them told to `say`."""
 
     def __init__(self, start: Profile, play: Play, say: Callable[[float], None]) -> None:
@@ -147,7 +122,7 @@ def calibrate(
     derivatives over `STEP`. Then a larger crowd (`last`) corrects what was peculiar to the first
     one: `STEPS` with its own derivatives, which change little from one to the next.
     """
-    search = _Search(start, play, say)
+    search = Evaluations(start, play, say)
     x = np.zeros(len(FREE))
     if evaluations - PACES <= len(FREE):  # too few for derivatives: the pace alone
         for _ in range(evaluations):
@@ -157,8 +132,8 @@ def calibrate(
         x[0] -= _too_slow(search.found(x))
     _least_squares(search.residuals, x, (evaluations - search.count) // (1 + len(FREE)))
     if last is not None:
-        x, search = search.x, _Search(start, last, say)
-        _least_squares(search.residuals, x, STEPS, _slopes(search.residuals, x))
+        x, search = search.x, Evaluations(start, last, say)
+        _least_squares(search.residuals, x, STEPS, slopes_of(search.residuals, x))
     return search.best, float(search.value)
 
 
@@ -174,11 +149,13 @@ def _too_slow(simulated: Mapping[Key, Moments]) -> float:
     return float(np.mean(np.log(ratios)))
 
 
-def _slopes(
-    found: Callable[[NDArray[np.float64]], NDArray[np.float64]], x: NDArray[np.float64]
+def slopes_of(
+    found: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    x: NDArray[np.float64],
+    here: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]:
-    """(residuals, constants) forward differences of `found` at `x`."""
-    here = found(x)
+    """(residuals, constants) forward differences of `found` at `x`, where it is `here`."""
+    here = found(x) if here is None else here
     return np.stack([(found(x + step) - here) / STEP for step in STEP * np.eye(len(x))], axis=1)
 
 

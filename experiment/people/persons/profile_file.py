@@ -48,13 +48,29 @@ def read(path: Path) -> Profile:
         raise InputError(f"{path}: profile.{error}") from None
 
 
-def made_by(name: str) -> tuple[str, tuple[str, ...]]:
-    """The command that fitted a profile file, and its table; nothing for those of the program."""
+def provenance_of(path: Path) -> dict[str, object]:
+    """Where a profile file comes from; nothing where it does not say."""
+    found = read_toml(path).get("provenance", {})
+    return dict(found) if isinstance(found, dict) else {}
+
+
+def made_by(name: str, part: str = "") -> tuple[str, tuple[str, ...]]:
+    """The command that fitted a profile file, and its table; nothing for those of the program.
+
+    `part`: what was added to the fit, "search" or "intervals".
+    """
     path = SHIPPED / f"{name}.toml" if name in names() else Path(name)
-    found = read_toml(path).get("provenance", {}) if path.is_file() else {}
+    found: object = provenance_of(path) if path.is_file() else {}
+    if part and isinstance(found, dict):
+        found = found.get(part, {})
     if not isinstance(found, dict):
         return "", ()
     return str(found.get("command", "")), tuple(map(str, found.get("table", ())))
+
+
+def add(path: Path, part: str, said: Mapping[str, object]) -> None:
+    """Add to a profile file's provenance what else was found out about the fit."""
+    write(path, read(path), {**provenance_of(path), part: dict(said)})
 
 
 def _faults(values: Mapping[str, object]) -> Iterator[str]:
@@ -74,8 +90,12 @@ def write(path: Path, profile: Profile, provenance: Mapping[str, object]) -> Non
     lines = ["# A profile of simulated participants: a tool for planning studies, never evidence."]
     lines += ["", "[profile]"]
     lines += [f"{k} = {_toml(v)}" for k, v in asdict(profile).items() if v != average[k]]
+    inner = {k: v for k, v in provenance.items() if isinstance(v, Mapping)}
     lines += ["", "[provenance]"]
-    lines += [f"{k} = {_toml(v)}" for k, v in provenance.items()]
+    lines += [f"{k} = {_toml(v)}" for k, v in provenance.items() if k not in inner]
+    for part, said in inner.items():
+        lines += ["", f"[provenance.{part}]"]
+        lines += [f"{k} = {_toml(v)}" for k, v in said.items()]
     write_over(path, "\n".join(lines) + "\n")
 
 

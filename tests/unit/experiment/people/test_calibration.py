@@ -24,13 +24,12 @@ from seethrough.experiment.people.fitted.calibration import (
     table,
 )
 from seethrough.experiment.people.fitted.fitting import (
-    FREE,
     LAST,
     Crowd,
-    _slopes,
     calibrate,
-    with_free,
+    slopes_of,
 )
+from seethrough.experiment.people.fitted.priors import FREE, with_free
 from seethrough.experiment.people.persons.person import TRAITS, Person, mood_for
 from seethrough.experiment.people.persons.profile_file import SHIPPED, find, read, write
 from seethrough.experiment.people.runs.pool import Pool
@@ -180,7 +179,7 @@ def test_a_larger_crowd_corrects_what_was_peculiar_to_the_first():
 
 def test_slopes_of_what_is_linear_are_its_matrix():
     matrix = np.random.default_rng(1).integers(-9, 9, (5, 3))
-    assert_allclose(_slopes(lambda x: matrix @ x + 2, np.array([0.1, 0.0, -0.3])), matrix)
+    assert_allclose(slopes_of(lambda x: matrix @ x + 2, np.array([0.1, 0.0, -0.3])), matrix)
 
 
 def test_a_crowd_is_spread_evenly_over_what_people_are_like():
