@@ -181,6 +181,25 @@ Rows that are not met or contradict are findings, not tuned away:
   their means: single people who were far off, of whom the model has none.
 """
 
+PARTS = {
+    "search": """
+## Which rows can be reached at all
+
+All constants at once are spread over their intervals: the fitted ones over the factors within which
+they are fitted, those with a source over what it leaves open
+(`experiment/people/fitted/priors.py`). Then a linear model of what was found proposes more, for
+each row that nothing reached and for most rows together. *Reached by*: tries within 2 published
+standard errors. What one or two tries reached, other people played again with the same constants:
+of many tries one is near anything by luck.""",
+    "intervals": """
+## How far each fitted constant may move
+
+A profile interval: how far a constant may go while all others make the best of it, until the fit's
+objective has risen by what a 95 % interval allows. The ends are found with the slopes at the fit,
+and then played: a rise of 1 is an interval's end, more says that the interval is narrower, less
+that it is wider. An end may be the limit of what may be fitted.""",
+}
+
 
 def whole(
     pool: Pool, people: int, profile: Profile, of: Sequence[str], name: str, command: str
@@ -192,10 +211,20 @@ def whole(
     yield ALONE
     fit, table = made_by(name)
     yield f"Profile `{name}`, by `{fit}`:\n"
+    yield from _printed(table)
+    yield FINDINGS.rstrip()
+    for part, said in PARTS.items():
+        command, table = made_by(name, part)
+        if table:
+            yield f"{said}\n\nBy `{command}`:\n"
+            yield from _printed(table)
+
+
+def _printed(table: Sequence[str]) -> Iterator[str]:
+    """A table as a command printed it."""
     yield "```"
     yield from (line.rstrip() for line in table)
     yield "```"
-    yield FINDINGS.rstrip()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

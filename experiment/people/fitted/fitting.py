@@ -36,8 +36,7 @@ Play = Callable[[Profile], Iterable[TrialRow]]
 
 STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
 PACES = 1  # evaluations that correct the pace alone
-STEPS = 6  # evaluations of the larger crowd, once its derivatives are there
-LAST = 1 + len(FREE) + STEPS  # all evaluations of the larger crowd
+LAST = 5  # evaluations of the larger crowd, which goes by the first one's derivatives
 LOOSE = 1.0  # logarithm of the factor by which a constant may move for one standard error
 
 
@@ -119,8 +118,8 @@ def calibrate(
 
     First the pace is corrected by how far the fitted means are off; where there are evaluations
     for derivatives, scipy's least squares (trust region reflective) moves all of `FREE`, with
-    derivatives over `STEP`. Then a larger crowd (`last`) corrects what was peculiar to the first
-    one: `STEPS` with its own derivatives, which change little from one to the next.
+    derivatives over `STEP` that are taken once: they change little. Then a larger crowd (`last`)
+    corrects what was peculiar to the first one, with the same derivatives.
     """
     search = Evaluations(start, play, say)
     x = np.zeros(len(FREE))
@@ -130,10 +129,12 @@ def calibrate(
         return search.best, float(search.value)
     for _ in range(PACES):
         x[0] -= _too_slow(search.found(x))
-    _least_squares(search.residuals, x, (evaluations - search.count) // (1 + len(FREE)))
+    here = search.residuals(x)
+    slopes = slopes_of(search.residuals, x, here)
+    _least_squares(search.residuals, x, evaluations - search.count, slopes)
     if last is not None:
         x, search = search.x, Evaluations(start, last, say)
-        _least_squares(search.residuals, x, STEPS, slopes_of(search.residuals, x))
+        _least_squares(search.residuals, x, LAST, slopes)
     return search.best, float(search.value)
 
 
@@ -163,17 +164,15 @@ def _least_squares(
     found: Callable[[NDArray[np.float64]], NDArray[np.float64]],
     x: NDArray[np.float64],
     steps: int,
-    slopes: NDArray[np.float64] | None = None,
+    slopes: NDArray[np.float64],
 ) -> None:
-    """Go down from `x` in so many steps, with new derivatives in each unless `slopes` are given."""
+    """Go down from `x` in so many evaluations, with these derivatives."""
     bounds = np.log(list(FREE.values()))
-    # Its steps of derivation are shares of x: those of 1 + x are about `STEP` everywhere.
     least_squares(
-        lambda z: found(z - 1),
-        np.clip(x, -0.99 * bounds, 0.99 * bounds) + 1,
-        jac="2-point" if slopes is None else lambda z: slopes,
-        bounds=(1 - bounds, 1 + bounds),
-        diff_step=STEP,
+        found,
+        np.clip(x, -0.99 * bounds, 0.99 * bounds),
+        jac=lambda z: slopes,
+        bounds=(-bounds, bounds),
         max_nfev=max(1, steps),
         xtol=0.01,
         ftol=0.01,

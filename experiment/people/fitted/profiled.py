@@ -107,7 +107,8 @@ def report(start: object, best: object, found: Sequence[Profiled], seconds: floa
         f"{'constant':20s}{'began':>9s}{'fitted':>9s}{'from':>9s}{'to':>9s}  rise when played at "
         f"the ends (1: an interval's end); {seconds:.0f} s of processor time"
     ]
-    for own, name in zip(found, FREE, strict=True):
+    for own in found:
+        name = list(FREE)[own.number]
         began, fitted = getattr(start, name), getattr(best, name)
         ends = [began * np.exp(end.x[own.number]) for end in (own.low, own.high)]
         rises = [f"{e.rise:+.1f}{' (its limit)' * e.limit}" for e in (own.low, own.high)]

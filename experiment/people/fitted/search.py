@@ -32,7 +32,8 @@ Play = Callable[[Profile], Sequence[TrialRow]]
 
 RIDGE = 0.1  # of the linear model, on constants from −1 to 1: few tries say little of many
 CANDIDATES = 4096  # constants among which the model looks
-TOGETHER = 4  # rounds that propose what meets most rows together
+ALONE = 2  # rounds that propose for each row that nothing reached
+TOGETHER = 6  # rounds that propose what meets most rows together
 FAR = 8.0  # standard errors beyond which a row says no more about where to look
 
 
@@ -110,20 +111,21 @@ def _proposed(
     found: Search, rng: Generator, play: Play, say: Callable[[str], None]
 ) -> Iterator[Array]:
     """What the model expects to reach a row that nothing reached; then to meet most together."""
-    for k in range(len(found.names)):
+    for k in list(range(len(found.names))) * ALONE:
         if np.abs(found.table[:, k]).min() > ENOUGH:
             there, expected = _expected(found, rng)
             yield there[int(np.abs(expected[:, k]).argmin())]
     for _ in range(TOGETHER):
         there, expected = _expected(found, rng)
-        over = np.maximum(np.abs(expected) - ENOUGH / 2, 0)
-        yield there[int((np.minimum(over, FAR) ** 2).sum(axis=1).argmin())]
+        over = np.maximum(np.abs(expected) - np.arcsinh(ENOUGH / 2), 0)
+        yield there[int((over**2).sum(axis=1).argmin())]
 
 
 def _expected(found: Search, rng: Generator) -> tuple[Array, Array]:
-    """(candidates, constants) and what a ridge regression on all tries expects there (…, rows)."""
+    """(candidates, constants) and what a ridge regression on all tries expects there (…, rows): the
+    inverse hyperbolic sine of what is off, which is even where that grows by factors."""
     u = 2 * np.array(found.u) - 1
-    off = np.clip(found.table, -2 * FAR, 2 * FAR)
+    off = np.arcsinh(found.table)
     mean = off.mean(axis=0)
     normal = u.T @ u + RIDGE * len(u) * np.eye(u.shape[1])
     slopes = np.linalg.solve(normal, u.T @ (off - mean))
