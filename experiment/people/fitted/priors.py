@@ -7,7 +7,7 @@ be reached at all also moves constants that have a source, within what that says
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from math import exp, log
 
 import numpy as np
@@ -78,7 +78,7 @@ def at(start: Profile, within: Mapping[str, Interval], u: NDArray[np.float64]) -
         name: exp(log(own.low) + float(np.clip(part, 0, 1)) * log(own.high / own.low))
         for (name, own), part in zip(within.items(), u, strict=True)
     }
-    return replace(start, **changes)
+    return Profile(**{**asdict(start), **changes})
 
 
 def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
