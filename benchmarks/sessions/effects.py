@@ -2,7 +2,7 @@
 
 `seethrough bench effects` plays the published study with and without each effect, the same people
 on the same trials; `python -m seethrough.benchmarks.sessions.effects --out docs/effects.md` does it
-from tables that are kept and writes the page, with the profile's table of published measures.
+from tables that are kept and writes the page.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.people.participant import SimulatedParticipant
-from seethrough.experiment.people.persons.profile_file import find, made_by
+from seethrough.experiment.people.persons.profile_file import find
 from seethrough.experiment.people.runs.data_mode import play_trial
 from seethrough.experiment.people.runs.looks import KeptLooks
 from seethrough.experiment.people.runs.pool import Pool, drawing
@@ -157,74 +157,19 @@ ALONE = """
 Trials are played alone here, so that nobody is tired: fatigue changes nothing. `--tasks` measures
 some of the tasks. `seethrough bench effects` prints the changes of accuracy one by one.
 
-## How near the published numbers
-
-What is put in is what pixels show (decisions/0020): no constant says what a technique is good for.
-Rows of T1 and T4 were fitted, those of T2 and T3 never, though earlier versions looked at them.
-*s.e. off*: published standard errors of 16 people. A fitted row is met within 2 of them; others
-agree where the simulated 95 % interval lies within the published one, contradict where the two do
-not meet. *before*: the profile that the fit began with, whose constants come from the literature or
-are ours.
+How near these people come to the published ones, what is out of reach and how far each fitted
+constant may move, says [the page of the calibration](calibration.md).
 """
-FINDINGS = """
-Rows that are not met or contradict are findings, not tuned away:
-
-- T4 with dynamic transparency takes simulated people longer than the published ones, and they
-  miss more: at the shipped α_T of .3 they can tell two thirds of what stands behind known walls.
-  The paper prints no α; what a lower one or larger things would give was not run.
-- T1 gains less than published. With radii of 2.5 to 5 a view shows nearly every red thing either
-  way (seen again in a next look: .90 without, .95 with); what denser worlds or other radii would
-  give was not run.
-- T3's marks are nearer than people's and spread less, at both levels alike: what errs there is the
-  reading of a plan and finding one's way, of which the model has one constant each.
-- Where s.d. of errors are far too small (T1, T4 without transparency), the published ones exceed
-  their means: single people who were far off, of whom the model has none.
-"""
-
-PARTS = {
-    "search": """
-## Which rows can be reached at all
-
-All constants at once are spread over their intervals: the fitted ones over the factors within which
-they are fitted, those with a source over what it leaves open
-(`experiment/people/fitted/priors.py`). Then a linear model of what was found proposes more, for
-each row that nothing reached and for most rows together. *Reached by*: tries within 2 published
-standard errors. What one or two tries reached, other people played again with the same constants:
-of many tries one is near anything by luck.""",
-    "intervals": """
-## How far each fitted constant may move
-
-A profile interval: how far a constant may go while all others make the best of it, until the fit's
-objective has risen by what a 95 % interval allows. The ends are found with the slopes at the fit,
-and then played: a rise of 1 is an interval's end, more says that the interval is narrower, less
-that it is wider. An end may be the limit of what may be fitted.""",
-}
 
 
 def whole(
-    pool: Pool, people: int, profile: Profile, of: Sequence[str], name: str, command: str
+    pool: Pool, people: int, profile: Profile, of: Sequence[str], command: str
 ) -> Iterator[str]:
     """The page, line by line."""
     yield INTRODUCTION
     yield f"Printed by\n\n    {command}\n"
     yield from markdown(pool, people, profile, of)
-    yield ALONE
-    fit, table = made_by(name)
-    yield f"Profile `{name}`, by `{fit}`:\n"
-    yield from _printed(table)
-    yield FINDINGS.rstrip()
-    for part, said in PARTS.items():
-        command, table = made_by(name, part)
-        if table:
-            yield f"{said}\n\nBy `{command}`:\n"
-            yield from _printed(table)
-
-
-def _printed(table: Sequence[str]) -> Iterator[str]:
-    """A table as a command printed it."""
-    yield "```"
-    yield from (line.rstrip() for line in table)
-    yield "```"
+    yield ALONE.rstrip()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -245,7 +190,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with tempfile.TemporaryDirectory() as folder:
         looks = KeptLooks(chosen.tables or Path(folder) / "tables.db")
         pool = drawing(load(STUDY), chosen.pool, looks)
-        lines = whole(pool, chosen.participants, profile, tasks, chosen.profile, command)
+        lines = whole(pool, chosen.participants, profile, tasks, command)
         if chosen.out is None:
             for line in lines:
                 print(line, flush=True)

@@ -39,7 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=(FIT, SEARCH, INTERVALS),
         default=FIT,
         help="fit; search: which rows any constants within their intervals reach; intervals: how "
-        "far each fitted constant may move. Some 20, 70 and 40 evaluations of .2 s a person",
+        "far each fitted constant may move, in 40 evaluations. One takes about a second of "
+        "processor time a person, and more while tables are being drawn",
     )
     parser.add_argument("--profile", default="average", help="where to start; default: average")
     parser.add_argument("--participants", type=int, default=48, metavar="N", help="each evaluation")
