@@ -1,10 +1,10 @@
 """Which published rows can these people reach at all? A search over constants in their intervals.
 
 Constants are spread evenly over all intervals at once (a scrambled Halton sequence) and played.
-Then a linear model of what was found proposes more: for each row that nothing reached the constants
-that should, and those that should meet most rows together. What is proposed is played, and the
-model made again. A row counts as reached only if other people reach it with the same constants,
-too: of many tries by few people one is near anything by luck.
+Then more is proposed and played: for each row that nothing reached what lies between two tries on
+either side of it, else what a linear model of all tries expects to reach it; and what the model
+expects to meet most rows together. A row that one or two tries reached counts only if other people
+reach it with the same constants, too: of many tries by few people one is near anything by luck.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Play = Callable[[Profile], Sequence[TrialRow]]
 
 RIDGE = 0.1  # of the linear model, on constants from −1 to 1: few tries say little of many
 CANDIDATES = 4096  # constants among which the model looks
-ALONE = 2  # rounds that propose for each row that nothing reached
+ALONE = 4  # rounds that propose for each row that nothing reached
 TOGETHER = 6  # rounds that propose what meets most rows together
 FAR = 8.0  # standard errors beyond which a row says no more about where to look
 
@@ -113,12 +113,24 @@ def _proposed(
     """What the model expects to reach a row that nothing reached; then to meet most together."""
     for k in list(range(len(found.names))) * ALONE:
         if np.abs(found.table[:, k]).min() > ENOUGH:
-            there, expected = _expected(found, rng)
-            yield there[int(np.abs(expected[:, k]).argmin())]
+            yield _alone(found, k, rng)
     for _ in range(TOGETHER):
         there, expected = _expected(found, rng)
         over = np.maximum(np.abs(expected) - np.arcsinh(ENOUGH / 2), 0)
         yield there[int((over**2).sum(axis=1).argmin())]
+
+
+def _alone(found: Search, k: int, rng: Generator) -> Array:
+    """What should reach a row: between two tries on either side of it, if there are such (by the
+    rule of false position), else where the model expects to come nearest."""
+    off = found.table[:, k]
+    if (off > 0).all() or (off < 0).all():
+        there, expected = _expected(found, rng)
+        return there[int(np.abs(expected[:, k]).argmin())]
+    low = int(np.where(off < 0, off, -np.inf).argmax())
+    high = int(np.where(off >= 0, off, np.inf).argmin())
+    below, above = np.arcsinh(off[[low, high]])
+    return found.u[low] + below / (below - above) * (found.u[high] - found.u[low])
 
 
 def _expected(found: Search, rng: Generator) -> tuple[Array, Array]:

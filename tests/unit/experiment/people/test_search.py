@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 from published_trials import published_rows
 
 from seethrough.experiment import cli
+from seethrough.experiment.people.fitted import search as searching
 from seethrough.experiment.people.fitted.calibration import FITTED, published
 from seethrough.experiment.people.fitted.priors import (
     FREE,
@@ -80,8 +81,10 @@ def test_rows_that_no_constant_reaches_are_told_from_those_that_one_does():
     assert_allclose(found.profile(found.most).pace, 1.7, rtol=0.25)
 
 
-def test_what_proposals_find_spread_tries_do_not():
-    """A row that a corner of two constants reaches: of 32 spread tries none, of proposed some."""
+def test_what_proposals_find_spread_tries_do_not(monkeypatch):
+    """A row that a corner of two constants reaches: of 32 spread tries none, of those that are
+    proposed for this row alone some."""
+    monkeypatch.setattr(searching, "TOGETHER", 0)
 
     def play(profile):
         rows = world(1.0)(profile)
