@@ -43,9 +43,9 @@ PARTS = {
 
 All constants at once are spread over their intervals: the fitted ones over the factors within which
 they are fitted, those with a source over what it leaves open
-(`experiment/people/fitted/priors.py`). Then more is proposed: for each row that nothing reached what
-lies between two tries on either side of it, or what a linear model expects to reach it; and what
-the model expects to meet most rows together. *Reached by*: tries within 2 published standard
+(`experiment/people/fitted/priors.py`). Then more is proposed: for each row that nothing reached
+what lies between two tries on either side of it, or what a linear model expects to reach it; and
+what the model expects to meet most rows together. *Reached by*: tries within 2 published standard
 errors. What one or two tries reached, other people played again with the same constants: of many
 tries one is near anything by luck.""",
     "intervals": """
