@@ -53,8 +53,9 @@ tries one is near anything by luck.""",
 
 A profile interval: how far a constant may go while all others make the best of it, until the fit's
 objective has risen by what a 95 % interval allows. The ends are found with the slopes at the fit,
-and then played: a rise of 1 is an interval's end, more says that the interval is narrower, less
-that it is wider. An end may be the limit of what may be fitted.""",
+played, and moved nearer where more happens than slopes say. A rise of 1, played, is an interval's
+end; more says that the interval is narrower still, less that it is wider. An end may be the limit
+of what may be fitted.""",
 }
 
 

@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=(FIT, SEARCH, INTERVALS),
         default=FIT,
         help="fit; search: which rows any constants within their intervals reach; intervals: how "
-        "far each fitted constant may move, in 40 evaluations. One takes about a second of "
+        "far each fitted constant may move, in 40 to 92 evaluations. One takes about a second of "
         "processor time a person, and more while tables are being drawn",
     )
     parser.add_argument("--profile", default="average", help="where to start; default: average")
@@ -145,7 +145,8 @@ def _intervals(
     from seethrough.experiment.people.fitted.priors import FREE, moved
 
     began = time.process_time()
-    with Progress("profiling", 1 + 3 * len(FREE)) as progress:
+    most = 1 + len(FREE) * (1 + 2 * profiled.PLAYS)
+    with Progress("profiling", most) as progress:
         evaluations = fitting.Evaluations(
             start, lambda p: own.play(p, FITTED), lambda value: progress.step()
         )

@@ -4,8 +4,9 @@ The objective is the fit's own: squares of the fitted rows' standard errors off,
 constants have moved from where the fit began. A constant's interval ends where the least that all
 others can make of it has risen by what a 95 % interval allows, χ²₁ = 3.84 times the spread that the
 fit leaves (squares over rows less constants): rows are not met to their standard errors. The least
-is found with the slopes at the fit, and then played: what really happens at each end stands beside
-it. An end may also be where the constant's own limits are.
+is found with the slopes at the fit, and then played; where more happens than slopes say, the end is
+moved nearer, and played again. What really happens at each end stands beside it. An end may also be
+where the constant's own limits are.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from seethrough.experiment.people.fitted.priors import FREE
 Array = NDArray[np.float64]
 Residuals = Callable[[Array], Array]
 
+PLAYS = 3  # of an end, nearer each time, at most
+NEAR = 1.5  # rise up to which an end that was played is one
 CHI2 = float(stats.chi2.ppf(0.95, 1))
 
 
@@ -58,9 +61,16 @@ def profile_intervals(
         ends = []
         for side in (-1.0, 1.0):
             value, limit = _end(here, slopes, bounds, x, k, side, at_best[k], lowest + unit)
-            there = _least(here, slopes, bounds, x, k, value)[1]
-            played = residuals(there)
-            ends.append(End(there, (float(played @ played) - float(here @ here)) / unit, limit))
+            for _ in range(PLAYS):
+                there = _least(here, slopes, bounds, x, k, value)[1]
+                played = residuals(there)
+                rise = (float(played @ played) - float(here @ here)) / unit
+                end = End(there, rise, limit)
+                if rise <= NEAR:
+                    break
+                # Squares rise with the square of the way: so much of it is left.
+                value, limit = x[k] + (value - x[k]) * max(rise**-0.5, 0.2), False
+            ends.append(end)
         found.append(Profiled(k, *ends))
     return found
 

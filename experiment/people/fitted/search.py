@@ -126,11 +126,14 @@ def _alone(found: Search, k: int, rng: Generator) -> Array:
     off = found.table[:, k]
     if (off > 0).all() or (off < 0).all():
         there, expected = _expected(found, rng)
-        return there[int(np.abs(expected[:, k]).argmin())]
+        nearest: Array = there[int(np.abs(expected[:, k]).argmin())]
+        return nearest
     low = int(np.where(off < 0, off, -np.inf).argmax())
     high = int(np.where(off >= 0, off, np.inf).argmin())
     below, above = np.arcsinh(off[[low, high]])
-    return found.u[low] + below / (below - above) * (found.u[high] - found.u[low])
+    part = float(below / (below - above))
+    between: Array = found.u[low] + part * (found.u[high] - found.u[low])
+    return between
 
 
 def _expected(found: Search, rng: Generator) -> tuple[Array, Array]:

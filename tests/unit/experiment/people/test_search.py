@@ -150,16 +150,23 @@ def test_a_constant_that_nothing_depends_on_ends_at_its_limits():
     assert line.startswith("diligence") and line.count("(its limit)") == 2
 
 
-def test_a_curved_world_shows_in_what_was_played():
-    """Where the objective rises twice as steeply as its slopes say, the rise played says so."""
+def test_an_end_beyond_which_more_happens_than_slopes_say_is_moved_nearer():
+    """Residuals twice as steep as their slopes: squares rise four times as fast, so that ends lie
+    half as far away; the rise that was played is an interval's end again."""
     residuals, slopes, best = linear(3, scale=30.0)
     here = residuals(best)
 
-    def curved(x):
+    def steep(x):
         return here + 2 * (residuals(x) - here)
 
-    own = profile_intervals(curved, slopes, here, best, len(here))[0]
-    assert own.low.rise > 2 and own.high.rise > 2
+    straight = profile_intervals(residuals, slopes, here, best, len(here))
+    for one, own in zip(
+        straight, profile_intervals(steep, slopes, here, best, len(here)), strict=True
+    ):
+        k = one.number
+        for end, moved_end in ((one.low, own.low), (one.high, own.high)):
+            assert_allclose(moved_end.x[k] - best[k], (end.x[k] - best[k]) / 2, rtol=0.02)
+            assert_allclose(moved_end.rise, 1.0, atol=0.05)
 
 
 def test_tables_are_added_to_what_a_fit_wrote(tmp_path, capsys):
