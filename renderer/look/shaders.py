@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from seethrough.renderer.look import floor, fog
 from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Color
@@ -26,6 +28,12 @@ def defines(look: Look, background: Color) -> tuple[str, ...]:
             f"FOG_START {_number(look.fog_start)}",
         ]
     return tuple(found)
+
+
+def beside_floors(look: Sequence[str]) -> tuple[str, ...]:
+    """Those of the lines that what is no floor has to be drawn with: nothing is asked of it then,
+    which on a software rasteriser is worth a program of its own."""
+    return tuple(line for line in look if not line.startswith("FLOOR"))
 
 
 def _number(value: float) -> str:

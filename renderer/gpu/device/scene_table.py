@@ -78,6 +78,11 @@ class SceneTable:
         return picture, (*found.corner, 1 / found.size[0], 1 / found.size[1])
 
     @cached_property
+    def floor_meshes(self) -> frozenset[int]:
+        """The ids of the meshes that floors have."""
+        return frozenset(id(self.meshes[slot]) for slot in self.slot[self.floors].tolist())
+
+    @cached_property
     def triangles(self) -> Triangles:
         """All triangles of the scene."""
         return triangles(self.scene)

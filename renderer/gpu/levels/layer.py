@@ -22,6 +22,7 @@ from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
 from seethrough.renderer.gpu.rules import painters
 from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms
+from seethrough.renderer.look.shaders import beside_floors
 from seethrough.renderer.plan.planner import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
@@ -38,6 +39,7 @@ OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
 MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
+Blend = tuple[int, int, int, int]
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
@@ -65,11 +67,11 @@ class Layer:
         self._defines, self._ruled = defines, dict[str, painters.Painter]()
         self.peeled: list[Drawn] = []  # layers of the last frame with ids, from the back
         self._object = program(context, "object.vert", "object.frag", defines)
-        bare = [d for d in defines if not d.startswith("FLOOR")]
-        drawn_on = len(bare) < len(defines)  # of what is no floor nothing has to be asked
+        bare = beside_floors(defines)
+        drawn_on = len(bare) < len(defines)
         self._bare = program(context, "object.vert", "object.frag", bare) if drawn_on else None
-        self._depth = program(context, "object.vert", "depth.frag", defines)
-        self._flat = program(context, "flat.vert", "depth.frag", defines)
+        self._depth = program(context, "object.vert", "depth.frag", bare)
+        self._flat = program(context, "flat.vert", "depth.frag", bare)
         self._masks = MaskPainter(context, defines)
         self._counter: LayerCounter | None = None
         self._exact: ExactPainter | None = None
@@ -112,8 +114,8 @@ class Layer:
             self._set_state()
         target.clear(table.scene.background)
         if len(frame.wide):
-            self._draw_outside(frame, runs[1], size)
-        self._draw_opaque(runs[0], table)
+            self._draw_outside(frame, runs[1], table, size)
+        self._draw_lit(runs[0], table, OPAQUE)
         if after_level is not None:
             after_level(None)
         if frame.levels:
@@ -135,14 +137,14 @@ class Layer:
             self._draws += draws
         return FrameStats(self._passes, self._draws, len(frame.masked), frame.ordered)
 
-    def _draw_opaque(self, runs: list[Run], table: SceneTable) -> None:
-        """The opaque objects; those on which something is drawn by a program of their own."""
+    def _draw_lit(self, runs: list[Run], table: SceneTable, blend: Blend) -> None:
+        """Objects with their colours; what is no floor by a program that asks nothing of it."""
         if self._bare is None:
-            self._pass(self._object, runs, OPAQUE)
+            self._pass(self._object, runs, blend)
             return
-        floors = {id(table.meshes[slot]) for slot in table.slot[table.floors].tolist()}
-        self._pass(self._bare, [run for run in runs if id(run[0]) not in floors], OPAQUE)
-        self._pass(self._object, [run for run in runs if id(run[0]) in floors], OPAQUE)
+        for shader, on_floor in ((self._bare, False), (self._object, True)):
+            mine = [run for run in runs if (id(run[0]) in table.floor_meshes) == on_floor]
+            self._pass(shader, mine, blend)
 
     def _draw_ruled(
         self,
@@ -280,7 +282,7 @@ class Layer:
         shader["clip_from_offset"].write(self._matrix)
         shader.set(table=0, sequence=1)
 
-    def _pass(self, shader: Shader, runs: list[Run], blend: tuple[int, int, int, int]) -> None:
+    def _pass(self, shader: Shader, runs: list[Run], blend: Blend) -> None:
         if not runs:
             return
         if blend is OPAQUE:
@@ -293,7 +295,9 @@ class Layer:
         self._passes += 1
         self._draws += len(runs)
 
-    def _draw_outside(self, frame: FramePlan, runs: list[Run], size: tuple[int, int]) -> None:
+    def _draw_outside(
+        self, frame: FramePlan, runs: list[Run], table: SceneTable, size: tuple[int, int]
+    ) -> None:
         """Draw the wide objects opaque but where masks may be: the nearest depth is put there
         first, and the farthest afterwards."""
         corners = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
@@ -302,7 +306,7 @@ class Layer:
         array = self._context.vertex_array(self._flat.program, [(buffer, "2f", "in_place")])
         self._flat.set(size=size)
         self._put_depth(array, -1.0)
-        self._pass(self._object, runs, OPAQUE)
+        self._draw_lit(runs, table, OPAQUE)
         self._put_depth(array, 1.0)
         array.release()
         buffer.release()
@@ -354,7 +358,7 @@ class Layer:
                     pipeline.within(target.framebuffer, _scope(frame, target.size))
                 solid = [run for run in part if every or not run[0].mesh.convex]
                 self._pass(self._depth, solid, NOTHING)
-                self._pass(self._object, part, OBJECT)
+                self._draw_lit(part, table, OBJECT)
                 pipeline.within(target.framebuffer, None)
             self._draw_clusters(table, camera, frame, level)
             if after_level is not None and len(level.objects):

@@ -30,6 +30,7 @@ from seethrough.renderer.gpu.per_pixel.pixel_cells import (
     touched,
     within,
 )
+from seethrough.renderer.look.shaders import beside_floors
 from seethrough.renderer.plan import blocks, coverage, order
 from seethrough.renderer.plan.blocks import BLOCK
 from seethrough.renderer.plan.planner import impenetrable
@@ -45,8 +46,14 @@ class ExactPainter:
         self._context = context
         self._tallest = context.info["GL_MAX_TEXTURE_SIZE"]
         self._slice = {
-            flag: program(context, "object.vert", "slice.frag", ["WITH_SURFACES"] * flag + [*look])
-            for flag in (False, True)
+            (surfaces, floor): program(
+                context,
+                "object.vert",
+                "slice.frag",
+                ["WITH_SURFACES"] * surfaces + [*(look if floor else beside_floors(look))],
+            )
+            for surfaces in (False, True)
+            for floor in (False, True)
         }
         self._masks = ExactMasks(context)
         self._sorter = PixelSorter(context)
@@ -240,12 +247,14 @@ class ExactPainter:
         self._context.depth_func = "<"
         base = job.table.first_triangle.astype(float)
         sequence, runs = job.table.sequence(parts, job.camera, [base] * len(parts))
-        shader = self._slice[surfaces]
-        job.use(shader, sequence)
+        shaders = [self._slice[surfaces, floor] for floor in (False, True)]
+        for shader in shaders:
+            job.use(shader, sequence)
+        floors = job.table.floor_meshes
         for k, part in enumerate(runs):
             cells.select(k, corners[k], job.size)
             for mesh, start, count in part:
-                mesh.draw(self._context, shader, start, count)
+                mesh.draw(self._context, shaders[id(mesh) in floors], start, count)
         pipeline.within(cells.framebuffer, None)
         return sum(len(part) for part in runs)
 
