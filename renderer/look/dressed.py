@@ -28,15 +28,17 @@ def dressed(scene: Scene, look: Look) -> Scene:
         return bare
     if look not in bare.dresses:
         things = bare.objects
+        if look.has_floor and not any(thing.kind == KIND for thing in things):
+            things = (*things, below(bare))
         if look.occlusion > 0:
             # Its kernels take a moment to load, and few pictures need them.
+            from seethrough.renderer.look.corners import cornered
             from seethrough.renderer.look.occlusion import occluded
 
             things = tuple(
                 replace(thing, mesh=occluded(thing.mesh, look.occlusion)) for thing in things
             )
-        if look.has_floor and not any(thing.kind == KIND for thing in things):
-            things = (*things, below(bare))
+            things = cornered(things, look.occlusion)
         bare.dresses[look] = replace(bare, objects=things, look=look, bare=bare)
     return bare.dresses[look]
 

@@ -23,6 +23,7 @@ INK, DARK = 0.12, 0.8  # of outlines: a grey, and how much of it there is
 JUMP, FLAT = 0.3, 1e-6  # part of a step of depth that steps beside it have at most, and rounding
 LEFT, RIGHT, BELOW, ABOVE = 1, 2, 3, 4
 LEAST = 2.0 / 255.0  # a step of colour that is worth smoothing
+FIRM = 0.1  # the same, from which on an outline through something has all of its ink
 
 
 class Lines(NamedTuple):
@@ -214,9 +215,12 @@ def _walk(
         smooths = view.smooth and part > room.best[r, c]
         if not smooths and half == 0.0:
             continue
+        shown = 1.0
         if through:
-            if not _breaks(picture, r, c, rr, cc):
+            step = _breaks(picture, r, c, rr, cc)
+            if step == 0.0:
                 continue
+            shown = min(step / FIRM, 1.0)
         else:
             z = max(picture.depth[r, c], picture.depth[rr, cc])
             if view.a * (w0 + t * (w1 - w0)) < (1.0 - NEARER) * (view.b - z):
@@ -231,16 +235,16 @@ def _walk(
             else:
                 room.taken[r, c] = RIGHT if after else LEFT
         if half > 0.0 and (through or _parts(picture, r, c, rr, cc)):
-            _ink(i, v - half, v + half, flat, room)
+            _ink(i, v - half, v + half, shown, flat, room)
 
 
 @njit(cache=True, nogil=True)
-def _ink(i: int, low: float, high: float, flat: bool, room: Room) -> None:
-    """Ink in a column or row of pixels, from `low` to `high`."""
+def _ink(i: int, low: float, high: float, shown: float, flat: bool, room: Room) -> None:
+    """Ink in a column or row of pixels, from `low` to `high`, of which `shown` is seen."""
     height, width = room.ink.shape
     for q in range(max(int(np.floor(low)), 0), min(int(np.ceil(high)), height if flat else width)):
         r, c = (q, i) if flat else (i, q)
-        part = min(q + 1.0, high) - max(float(q), low)
+        part = shown * (min(q + 1.0, high) - max(float(q), low))
         if part > room.ink[r, c]:
             if room.ink[r, c] == 0.0:
                 room.inked[room.counts[1]] = r * width + c
@@ -274,22 +278,23 @@ def _parts(picture: Picture, r: int, c: int, rr: int, cc: int) -> bool:
     before = abs(z[r, c] - z[r - dr, c - dc])
     fr, fc = rr + dr, cc + dc
     after = abs(z[fr, fc] - z[rr, cc]) if 0 <= fr < height and 0 <= fc < width else 0.0
-    return jump > max(before, after) or _breaks(picture, r, c, rr, cc)
+    return jump > max(before, after) or _breaks(picture, r, c, rr, cc) > 0.0
 
 
 @njit(cache=True, nogil=True)
-def _breaks(picture: Picture, r: int, c: int, rr: int, cc: int) -> bool:
-    """Whether colours break between two pixels, and nowhere more beside them in that direction."""
+def _breaks(picture: Picture, r: int, c: int, rr: int, cc: int) -> float:
+    """By how much colours break between two pixels, 0 if they break more beside them in that
+    direction, or not to be seen."""
     height, width = picture.depth.shape
     step = _step(picture, r, c, rr, cc)
     if step < LEAST:
-        return False
+        return 0.0
     dr, dc = rr - r, cc - c
     if _step(picture, r, c, r - dr, c - dc) > step:
-        return False
+        return 0.0
     fr, fc = rr + dr, cc + dc
     inside = 0 <= fr < height and 0 <= fc < width
-    return not (inside and _step(picture, rr, cc, fr, fc) > step)
+    return 0.0 if inside and _step(picture, rr, cc, fr, fc) > step else step
 
 
 @njit(cache=True, nogil=True)

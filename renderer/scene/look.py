@@ -52,8 +52,9 @@ class Look:
     )
     occlusion: float = key(
         0.0,
-        "how dark the hollows of models are, where little light gets in; 0: as light as the rest. "
-        "It is baked into the models: convex things and those of few vertices, as walls, have none",
+        "how dark the hollows of models and the corners of rooms are, where little light gets in; "
+        "0: as light as the rest. It is baked into the models, and into walls where others or a "
+        "floor meet them; other convex things have none",
         low=0.0,
         high=1.0,
     )

@@ -206,3 +206,32 @@ def test_what_turns_transparent_keeps_its_line(renderer):
     assert ink[row - 2 : row + 2, columns].max(axis=0).min() > 0.7
     drawn(renderer, scene, "dynamic")
     assert len(renderer.plan.masked) == 1  # it does turn transparent
+
+
+def test_no_line_shows_through_what_is_sorted_by_pixel(renderer):
+    """Nothing of that is in the depth buffer, where only the floor behind it is."""
+    floor = Object(geometry.box(14, 0.2, 6), transforms.translation(0, -2, -5), (0.8, 0.8, 0.8),
+                   impenetrable=True, kind="floor")  # fmt: skip
+    cube = Object(geometry.box(3, 3, 3), transforms.translation(0, 0, 0), (0.2, 0.4, 0.7))
+    # From the upper left to the lower right: the part that is sorted holds the cube.
+    turned = transforms.placed((0, 0, -4), transforms.rotation_z(-np.pi / 4))
+    bar = Object(geometry.box(8, 0.1, 0.1), turned, (1, 0, 0), target=True)
+    # So that the depth behind the floor's far edge is another one.
+    far = Object(geometry.box(1, 1, 1), transforms.translation(5, 4, -24), impenetrable=True)
+    scene, p = Scene((floor, cube, bar, far)), replace(named("dynamic"), exact=True, width=2)
+    pictures = []
+    for width in (0.0, 2.0):
+        look = Look(antialiasing="none", outlines=width)
+        renderer.draw(dressed(scene, look), CAMERA, p)
+        pictures.append(renderer.read().astype(int))
+        assert 1 in renderer.plan.held
+    corners = CAMERA.places(np.array([[-1.5, -1.5, 1.5], [1.5, 1.5, 1.5]])) * SIZE[1] / 2
+    left, right = np.round(corners[:, 0] + SIZE[0] / 2).astype(int) + np.array([4, -4])
+    bottom, top = np.round(SIZE[1] / 2 - corners[:, 1]).astype(int) + np.array([-4, 4])
+    rim = CAMERA.places(np.array([[0.0, -1.9, -8.0]]))[0, 1]  # the floor's far edge
+    row = round(SIZE[1] / 2 * (1 - rim))
+    assert top < row - 2 and row + 2 < bottom
+    band = np.s_[row - 2 : row + 3, left : (left + right) // 2]
+    assert np.array_equal(pictures[0][band], pictures[1][band])
+    beside = np.s_[row - 2 : row + 3, left - 20 : left - 10]
+    assert (pictures[0][beside] != pictures[1][beside]).any()

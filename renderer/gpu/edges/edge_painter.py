@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Floats
+from seethrough.renderer.arrays import Bools, Floats
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.lens import tight
@@ -53,9 +53,7 @@ class EdgePainter:
             np.frombuffer(self._color, np.uint16).reshape(high, wide, 4),
             np.frombuffer(self._depth, np.float32).reshape(high, wide), *self._tables,
         )  # fmt: skip
-        through = np.zeros(len(table.slot), dtype=bool)
-        for found in (frame.masked, frame.ruled, frame.held):
-            through[found] = True
+        through = _through(frame)
         poses = edge_walk.Poses(
             table.slot[objects], *self._poses(table, objects, camera), through[objects]
         )
@@ -96,6 +94,19 @@ class EdgePainter:
                 np.concatenate([np.zeros((1, 2), np.int64), np.cumsum(sizes, axis=0)]),
             )}  # fmt: skip
         return self._lines[key]
+
+
+def _through(frame: FramePlan) -> Bools:
+    """(n,) which objects may show through others, or behind what is not in the depth buffer: of
+    what is sorted by pixel nothing is there."""
+    through = np.zeros(len(frame.boxes.inside), dtype=bool)
+    for found in (frame.masked, frame.ruled, frame.held):
+        through[found] = True
+    if len(frame.held):
+        low, high = frame.boxes.extents[:, None, :2], frame.boxes.extents[:, None, 2:]
+        meets = (low <= frame.exact[:, 2:]) & (high >= frame.exact[:, :2])
+        through |= meets.all(axis=2).any(axis=1)
+    return through
 
 
 def _about(extents: Floats, size: tuple[int, int]) -> tuple[int, int, int, int]:
