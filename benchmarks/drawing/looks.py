@@ -1,22 +1,23 @@
 """What each key of [look] costs, and what it changes.
 
-`seethrough bench looks --json FILE`. Times are multiples of the same frame without the key, at
-800 × 600, frames interleaved. "Changed" are the pixels that differ from that frame by more than
-2/255, "by" the mean difference of those. Edges are the pixels in which a picture of 16 samples a
-pixel differs from the plain one by more than 4/255: their mean error, that of the whole picture,
-and that of what changes from a frame to the next as the view turns by .1° ("crawl") are given as
-parts of the plain picture's.
+`seethrough bench looks --json FILE`. Times are processor time, all threads together, as multiples
+of the same frame without the key, at 800 × 600: every turn draws each view with each key once; told
+are the median over turns, and half the range of their middle half ("±"). "Changed" are the pixels
+that differ from that frame by more than 2/255, "by" the mean difference of those. Edges are the
+pixels in which a picture of 16 samples a pixel differs from the plain one by more than 4/255: their
+mean error, that of the whole picture, and that of what changes from a frame to the next along a
+path ("crawl": .2° of an orbit, or 2 cm of a walk, a frame) are given as parts of the plain picture's.
 """
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from seethrough.benchmarks.drawing.scenes import SCENES
-from seethrough.benchmarks.drawing.speed import drawing, times
 from seethrough.benchmarks.rows import Row, row
 from seethrough.experiment.gallery.gallery_looks import looks
 from seethrough.renderer.arrays import Floats
@@ -30,10 +31,12 @@ from seethrough.renderer.scene.transforms import rotation_y
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.base import Parameters
 
-SIZE, VIEWS = (800, 600), 3
+SIZE, VIEWS, TURNS = (800, 600), 3, 9
 EDGE = 4  # of 255
-STEP = 0.1  # degrees
+FRAMES = 4  # of a path
+ORBIT, WALK = 0.2, 0.04  # degrees, world units a frame: a unit of the building is half a metre
 VISIBLE = 2  # of 255: what differs by no more is the same to the eye
+OUTLINES = Look(antialiasing="none", outlines=1.5)  # by themselves: the gallery's are smoothed
 # What a frame may cost, over the one without: (must, aim).
 COSTS = {"fog": (1.2, 1.05), "ground_shadows": (1.2, 1.05), "occlusion": (1.2, 1.05),
          "outlines": (1.3, 1.1)}  # fmt: skip
@@ -47,15 +50,16 @@ def figures() -> Iterator[Row]:
         scene, cameras = make(SIZE[0] / SIZE[1], VIEWS)
         for way in ("standard", "dynamic"):
             yield from _of(renderer, f"{where}, {way}", where, scene, cameras, named(way))
-            yield from _edges(renderer, fine, f"{where}, {way}", scene, cameras, named(way))
+            paths = [_path(camera, where) for camera in cameras]
+            yield from _edges(renderer, fine, f"{where}, {way}", scene, paths, named(way))
 
 
 def _of(
     renderer: Renderer, label: str, world: str, scene: Scene, cameras: list[Camera], p: Parameters
 ) -> Iterator[Row]:
-    scenes = {name: dressed(scene, look) for name, look in looks(world).items()}
-    ways = {name: drawing(renderer, own, p) for name, own in scenes.items()}
-    spent = times(ways, cameras, renderer.context)
+    every = looks(world) | {"outlines": OUTLINES}
+    scenes = {name: dressed(scene, look) for name, look in every.items()}
+    ratios = _ratios(renderer, scenes, cameras, p)
     for name in scenes:
         if name == "none":
             continue
@@ -63,10 +67,29 @@ def _of(
         if name == "antialiasing":
             plain = p.technique.name == "standard" and world != "abstract"
             must, aim = (1.35, 1.2) if plain else (1.5, 1.25)
-        yield row(f"{name} / none", label, spent[name] / spent["none"], "×", must, aim)
+        low, middle, high = np.percentile(ratios[name], (25, 50, 75)).tolist()
+        line = f"{label}: {name}"
+        yield row("frame / without", line, middle, "×", must, aim)
+        yield row("±", line, (high - low) / 2, "×")
         share, by = _changed(renderer, scenes["none"], scenes[name], cameras, p)
-        yield row(f"{name}: changed", label, share, "%")
-        yield row(f"{name}: by", label, by, "/255")
+        yield row("changed", line, share, "%")
+        yield row("by", line, by, "/255")
+
+
+def _ratios(
+    renderer: Renderer, scenes: dict[str, Scene], cameras: list[Camera], p: Parameters
+) -> dict[str, Floats]:
+    """Of each scene (TURNS,) its time over that of "none" in the same turn."""
+    spent = {name: np.zeros(TURNS + 1) for name in scenes}
+    for turn in range(TURNS + 1):
+        for name, scene in scenes.items():
+            start = time.process_time()
+            for camera in cameras:
+                renderer.draw(scene, camera, p)
+                renderer.context.finish()
+            spent[name][turn] = time.process_time() - start
+    # The first turn compiles and uploads.
+    return {name: seconds[1:] / spent["none"][1:] for name, seconds in spent.items()}
 
 
 def _changed(
@@ -89,23 +112,29 @@ def _edges(
     fine: Renderer,
     label: str,
     scene: Scene,
-    cameras: list[Camera],
+    paths: list[list[Camera]],
     p: Parameters,
 ) -> Iterator[Row]:
-    """How far off edges are, smoothed, over how far they are plain."""
+    """How far off edges are, smoothed, over how far they are plain, along paths."""
     off = np.zeros((3, 2))  # edges, all pixels, changes from frame to frame
-    for camera in cameras:
-        steps = [errors(renderer, fine, scene, c, p) for c in (camera, _turned(camera))]
-        for k, way in enumerate(("plain", "smooth")):
-            error = steps[0][way] - steps[0]["fine"]
-            crawl = steps[1][way] - steps[0][way] - (steps[1]["fine"] - steps[0]["fine"])
-            at = np.abs(steps[0]["plain"] - steps[0]["fine"]).max(axis=2) > EDGE
-            off[:, k] += np.abs(error[at]).sum(), np.abs(error).sum(), np.abs(crawl[at]).sum()
+    for path in paths:
+        before: dict[str, Floats] | None = None
+        for camera in path:
+            found = errors(renderer, fine, scene, camera, p)
+            at = np.abs(found["plain"] - found["fine"]).max(axis=2) > EDGE
+            for k, way in enumerate(("plain", "smooth")):
+                error = np.abs(found[way] - found["fine"])
+                off[:2, k] += error[at].sum(), error.sum()
+                if before is not None:
+                    crawl = found[way] - before[way] - (found["fine"] - before["fine"])
+                    off[2, k] += np.abs(crawl[at]).sum()
+            before = found
     must, aim = (0.6, 0.4) if p.technique.name == "standard" else (0.75, 0.5)
     ratio = off[:, 1] / off[:, 0]
-    yield row("antialiasing: error of edges / plain", label, float(ratio[0]), "×", must, aim)
-    yield row("antialiasing: error of all / plain", label, float(ratio[1]), "×")
-    yield row("antialiasing: crawl / plain", label, float(ratio[2]), "×")
+    line = f"{label}: antialiasing"
+    yield row("edges / plain", line, float(ratio[0]), "×", must, aim)
+    yield row("all / plain", line, float(ratio[1]), "×")
+    yield row("crawl / plain", line, float(ratio[2]), "×")
 
 
 def errors(
@@ -123,6 +152,10 @@ def errors(
     return found
 
 
-def _turned(camera: Camera) -> Camera:
-    turn = rotation_y(np.radians(STEP))[:3, :3]
-    return replace(camera, rotation=turn @ camera.rotation)
+def _path(camera: Camera, world: str) -> list[Camera]:
+    """A few frames of a walk straight on, or of an orbit about the origin."""
+    if world == "walkthrough":
+        step = WALK * camera.forward
+        return [replace(camera, eye=camera.eye + k * step) for k in range(FRAMES)]
+    turns = [rotation_y(np.radians(k * ORBIT))[:3, :3] for k in range(FRAMES)]
+    return [replace(camera, eye=t @ camera.eye, rotation=t @ camera.rotation) for t in turns]
