@@ -85,14 +85,14 @@ def main() -> None:
         trial = task_set.trials[0]
         if trial.levels["transparency"] == "dynamic" or trial.task not in shown:
             shown.add(trial.task)
-            camera.page(_instruction(trial, 8, run), f"instruction-{trial.task}")
+            camera.page(_instruction(study, trial, 8, run), f"instruction-{trial.task}")
             _task(camera, run, trial)
     for page in (_page("ready"), _page("pause"), _page("time"), LEAVE, MENU):
         camera.page(page)
     wrong = Outcome("12", "14", False, count_error=-2)
     trial = task_sets[0].trials[0]
     record = TrialRecord(trial, wrong, 14, 0.0, 30.0, 0.0, False, 1800, 0, 0.0, 0.0, 0.0)
-    camera.page(_feedback(record))
+    camera.page(_feedback(record, TASKS[trial.task]))
     camera.page(_page("pause"), "waiting", waiting="wait.scene")
     camera.page(
         one_page("ratings", transparency="dynamic", scenario="abstract"),
@@ -139,7 +139,8 @@ def _practice(camera: Camera, run: TrialRun, trial: Trial, state: Any) -> None:
     record = TrialRecord(
         trial, task.outcome(state), 1, 0.0, 30.0, 0.0, False, 1800, 0, 0.0, 0.0, 0.0
     )
-    camera.page(_feedback(replace(record, solution=task.solution(state))), "feedback-unique")
+    solved = replace(record, solution=task.solution(state))
+    camera.page(_feedback(solved, task), "feedback-unique")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,8 @@ are the median over turns, and half the range of their middle half ("±"). "Chan
 that differ from that frame by more than 2/255, "by" the mean difference of those. Edges are the
 pixels in which a picture of 16 samples a pixel differs from the plain one by more than 4/255: their
 mean error, that of the whole picture, and that of what changes from a frame to the next along a
-path ("crawl": .2° of an orbit, or 2 cm of a walk, a frame) are given as parts of the plain picture's.
+path ("crawl": .2° of an orbit, or 2 cm of a walk, a frame) are given as parts of the plain
+picture's.
 """
 
 from __future__ import annotations

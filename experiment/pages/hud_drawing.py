@@ -26,6 +26,12 @@ def rgba(red: float, green: float, blue: float, alpha: float = 1.0) -> int:
     return imgui.color_convert_float4_to_u32(imgui.ImVec4(red, green, blue, alpha))
 
 
+def thick(pixels: float) -> float:
+    """A line's width that is so many pixels in a small window, and no less in a smaller one."""
+    return pixels * max(1.0, imgui.get_io().display_size.y / SMALL)
+
+
+SMALL = 600  # pixels of height
 INK, PAPER, VEIL = (0.08, 0.09, 0.11), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0, 0.82)
 ACCENT, MARK, GREY = (0.16, 0.40, 0.70), (0.85, 0.10, 0.10), (0.55, 0.58, 0.62)
 PILOT, PLACE, HINT = (0.95, 0.55, 0.05), (0.05, 0.30, 0.75), (0.75, 0.07, 0.07)
@@ -75,7 +81,7 @@ class HudDrawing:
     def draw_pointer(self, at: tuple[float, float]) -> None:
         """A ring where a simulated participant points."""
         center = imgui.ImVec2(at[0] * self.scale, at[1] * self.scale)
-        self.list.add_circle(center, 0.014 * self.scale, rgba(*MARK), 0, 3.0)
+        self.list.add_circle(center, 0.014 * self.scale, rgba(*MARK), 0, thick(3.0))
 
     def _corners(self, rect: Rect) -> tuple[imgui.ImVec2, imgui.ImVec2]:
         s = self.scale
@@ -125,7 +131,7 @@ class HudDrawing:
 
     def _entry(self, entry: Entry) -> None:
         self.list.add_rect_filled(*self._corners(entry.rect), rgba(*PAPER))
-        self.list.add_rect(*self._corners(entry.rect), rgba(*ACCENT), 0.0, thickness=2.0)
+        self.list.add_rect(*self._corners(entry.rect), rgba(*ACCENT), 0.0, thickness=thick(2.0))
         size = 0.7 * entry.rect.height
         y = entry.rect.y + 0.15 * entry.rect.height
         self._write(entry.text + "|", entry.rect.x + 0.3 * size, y, size, rgba(*INK))
@@ -136,19 +142,19 @@ class HudDrawing:
         # Framebuffer pictures have their first row at the bottom.
         low, high = imgui.ImVec2(0, 1), imgui.ImVec2(1, 0)
         self.list.add_image(reference, *self._corners(inset.rect), low, high)
-        self.list.add_rect(*self._corners(inset.rect), rgba(*GREY), thickness=2.0)
+        self.list.add_rect(*self._corners(inset.rect), rgba(*GREY), thickness=thick(2.0))
 
     def _mark(self, mark: Mark) -> None:
         """On dark and on light alike: red, with white about it."""
         s = self.scale
         (x, y), r = mark.at, mark.radius * s
-        for color, thick in ((rgba(*PAPER), 5.0), (rgba(*MARK), 2.5)):
+        for color, wide in ((rgba(*PAPER), thick(5.0)), (rgba(*MARK), thick(2.5))):
             if mark.form == "ring":
-                self.list.add_circle(imgui.ImVec2(x * s, y * s), r, color, 0, thick)
+                self.list.add_circle(imgui.ImVec2(x * s, y * s), r, color, 0, wide)
                 continue
             for dx, dy in ((r, 0.0), (0.0, r)):
                 start, end = (imgui.ImVec2(x * s + k * dx, y * s + k * dy) for k in (-1, 1))
-                self.list.add_line(start, end, color, thick)
+                self.list.add_line(start, end, color, wide)
 
     def _plan(self, plan: FloorPlan) -> None:
         draw_plan(self.list, plan, self.scale)
@@ -168,13 +174,13 @@ def draw_plan(
     r = plan.rect
     lines.add_rect_filled(at(r.x, r.y), at(r.x + r.width, r.y + r.height), rgba(*PAPER))
     for start, end in plan.walls:
-        lines.add_line(at(*start), at(*end), rgba(*INK), 2.0)
+        lines.add_line(at(*start), at(*end), rgba(*INK), thick(2.0))
     if plan.start is not None:
         draw_start(lines, at(*plan.start), 0.018 * scale)
     if plan.here is not None:
         draw_walker(lines, at(*plan.here[0]), at(*plan.here[1]), 0.018 * scale)
     if plan.mark is not None and plan.place is not None:
-        lines.add_line(at(*plan.mark), at(*plan.place), rgba(*GREY), 2.0)
+        lines.add_line(at(*plan.mark), at(*plan.place), rgba(*GREY), thick(2.0))
     if plan.place is not None:
         draw_place(lines, at(*plan.place), 0.018 * scale)
     if plan.mark is not None:
@@ -184,7 +190,7 @@ def draw_plan(
 def draw_mark(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> None:
     """Where the participant set their mark: a point in a ring."""
     lines.add_circle_filled(center, 0.55 * radius, rgba(*MARK))
-    lines.add_circle(center, radius, rgba(*MARK), 0, 2.0)
+    lines.add_circle(center, radius, rgba(*MARK), 0, thick(2.0))
 
 
 def draw_place(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> None:
@@ -195,7 +201,7 @@ def draw_place(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> 
 def draw_start(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> None:
     """Where the participant began: an empty square."""
     low, high = (imgui.ImVec2(center.x + s * radius, center.y + s * radius) for s in (-0.8, 0.8))
-    lines.add_rect(low, high, rgba(*INK), 0.0, thickness=2.0)
+    lines.add_rect(low, high, rgba(*INK), 0.0, thickness=thick(2.0))
 
 
 def draw_here(lines: imgui.ImDrawList, center: imgui.ImVec2, radius: float) -> None:
@@ -219,9 +225,9 @@ def draw_walker(
 def draw_progress(size: tuple[int, int], done: float, pilot: bool) -> None:
     """A thin line along the bottom: how much is done. Orange marks a pilot run."""
     width, height = size
-    thick = max(3.0, 0.006 * height)
+    deep = max(3.0, 0.006 * height)
     lines = imgui.get_foreground_draw_list()
-    low = imgui.ImVec2(0, height - thick)
+    low = imgui.ImVec2(0, height - deep)
     lines.add_rect_filled(low, imgui.ImVec2(width, height), rgba(*GREY, 0.35))
     ink = PILOT if pilot else ACCENT
     lines.add_rect_filled(low, imgui.ImVec2(width * done, height), rgba(*ink))

@@ -19,6 +19,7 @@ from seethrough.experiment.pages.hud_drawing import (
     draw_plan,
     draw_start,
     rgba,
+    thick,
 )
 from seethrough.experiment.pages.interface import Interface
 from seethrough.experiment.pages.pages import (
@@ -248,7 +249,7 @@ class Blocks:
             low = imgui.ImVec2(corner.x + r.x * high, corner.y + r.y * high)
             far = imgui.ImVec2(low.x + r.width * high, low.y + r.height * high)
             lines.add_image(imgui.ImTextureRef(name), low, far, upside, down)
-            lines.add_rect(low, far, rgba(0.55, 0.58, 0.62), thickness=2.0)
+            lines.add_rect(low, far, rgba(0.55, 0.58, 0.62), thickness=thick(2.0))
 
     def _plan(self, picture: PlanPicture, side: float) -> None:
         """The plan, and beside it what its signs mean."""

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from seethrough.experiment.pages.form import Form, Setting
+from seethrough.experiment.pages.hud_drawing import thick
 from seethrough.experiment.pages.interface import SCREENS, Interface
 from seethrough.experiment.pages.page_blocks import COLORS, PALE, Blocks
 from seethrough.experiment.pages.pages import Picture
@@ -94,6 +95,9 @@ class PageDrawing:
         side = (width - _column(width, height)) / 2
         style.window_padding = imgui.ImVec2(side, MARGIN * gaps * height)
         style.item_spacing = imgui.ImVec2(0.012 * unit, 0.016 * gaps * unit)
+        style.item_inner_spacing = imgui.ImVec2(thick(4.0), thick(4.0))
+        style.frame_border_size = round(thick(1.0))
+        style.scrollbar_size, style.grab_min_size = thick(14.0), thick(12.0)
         style.frame_padding = imgui.ImVec2(0.022 * unit, 0.012 * gaps * unit)
         imgui.push_font(self.interface.regular, 0.034 * unit)
         plain = flags.no_decoration & ~flags.no_scrollbar | flags.no_move | flags.no_saved_settings

@@ -26,3 +26,17 @@ def test_ink_lies_where_it_did(name, drawn):
         assert drawn[name][color][:1] == numbers[:1], color
         assert drawn[name][color][2:] == pytest.approx(numbers[2:], abs=0.02), color
         assert drawn[name][color][1] == pytest.approx(numbers[1], rel=1e-4, abs=0.02), color
+
+
+def test_a_screen_of_four_times_the_pixels_has_four_times_the_ink(context):
+    """Lines, too, are as wide for the eye: not the same number of pixels."""
+    small, large = (everything(context, size) for size in ((1600, 1200), (3200, 2400)))
+    assert set(small) == set(large)
+    for name, colors in small.items():
+        for color, (_, area, *bounds, _x, _y) in colors.items():
+            if color.startswith("00"):  # the outer rim of soft borders
+                continue
+            _, more, *wider, _x, _y = large[name][color]
+            # A line's soft border is a pixel at any size: of one of 4 + 2 pixels, 8 + 2 remain.
+            assert 0.8 * 4 < more / area < 4.05, (name, color)
+            assert wider == pytest.approx([2 * b for b in bounds], rel=0.01, abs=8), (name, color)
