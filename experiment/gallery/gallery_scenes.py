@@ -9,8 +9,10 @@ import numpy as np
 
 from seethrough.experiment.gallery import gallery_hard, gallery_looks, gallery_techniques
 from seethrough.experiment.gallery.gallery_plates import DYNAMIC, LARGE, Plate, Section
+from seethrough.renderer.look.dressed import dressed
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import Camera, look_at
+from seethrough.renderer.scene.look import Look
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
     GRANULARITIES,
@@ -24,6 +26,9 @@ from seethrough.tasks.worlds.abstract.abstract_scene import abstract_scene
 from seethrough.tasks.worlds.building.building import unique_building
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
+# Of the largest pictures: shadows and corners where things stand, not where they float.
+STANDING = Look(antialiasing="edges", ground_shadows=0.8, occlusion=0.8)
+LOOKS = {"abstract": Look(antialiasing="edges"), "walkthrough": STANDING, "jeep": STANDING}
 BUILDING = 3  # the seed of one whose first room has models behind its walls
 
 
@@ -32,7 +37,8 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     scenes = views(aspect, seed)
     yield Section(
         "The three scenes and the models",
-        "Standard rendering beside dynamic transparency.",
+        "Standard rendering beside dynamic transparency. Edges are smooth, and what stands on a floor "
+        "has its shadow: keys of a study's [look].",
         tuple(_scenes(aspect, scenes)),
     )
     yield from gallery_looks.sections(scenes)
@@ -71,6 +77,7 @@ def _scenes(aspect: float, scenes: dict[str, tuple[Scene, Camera]]) -> Iterator[
     }
     for name, caption in captions.items():
         scene, camera = scenes[name]
+        scene = dressed(scene, LOOKS[name])
         words = f"{caption}; standard"
         yield Plate(f"{name}-standard", words, scene, camera, Standard(), LARGE)
         words = f"{caption}; dynamic transparency"

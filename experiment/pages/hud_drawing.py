@@ -122,7 +122,7 @@ class HudDrawing:
         size = 0.55 * button.rect.height
         # Square: round corners are most of the HUD's triangles, which a frame without a GPU pays.
         self.list.add_rect_filled(*self._corners(button.rect), rgba(*fill))
-        self.list.add_rect(*self._corners(button.rect), rgba(*GREY))
+        self.list.add_rect(*self._corners(button.rect), rgba(*GREY), thickness=thick(1.0))
         text = self.texts.get(button.text)
         size = min(size, size * 0.9 * button.rect.width / max(self._width(text, size), 1e-6))
         x = button.rect.x + (button.rect.width - self._width(text, size)) / 2

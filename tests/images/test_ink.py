@@ -34,9 +34,10 @@ def test_a_screen_of_four_times_the_pixels_has_four_times_the_ink(context):
     assert set(small) == set(large)
     for name, colors in small.items():
         for color, (_, area, *bounds, _x, _y) in colors.items():
-            if color.startswith("00"):  # the outer rim of soft borders
-                continue
+            if color.startswith("00") or color == "picture corners":
+                continue  # soft borders' outer rims; a picture's corners as parts of it
             _, more, *wider, _x, _y = large[name][color]
             # A line's soft border is a pixel at any size: of one of 4 + 2 pixels, 8 + 2 remain.
-            assert 0.8 * 4 < more / area < 4.05, (name, color)
-            assert wider == pytest.approx([2 * b for b in bounds], rel=0.01, abs=8), (name, color)
+            assert 0.8 * 4 < more / area < 1.1 * 4, (name, color)
+            # Widths of letters are whole pixels, and so are the sizes of words that have to fit.
+            assert wider == pytest.approx([2 * b for b in bounds], rel=0.03, abs=8), (name, color)
