@@ -16,7 +16,7 @@ from seethrough.renderer.gpu.device.context import standalone
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.look.dressed import dressed
 
-SIZE = (800, 600)
+SIZE = (1200, 900)
 OUT = Path(__file__).parent / "pictures" / "looks"
 
 

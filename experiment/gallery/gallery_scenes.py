@@ -37,8 +37,8 @@ def sections(aspect: float, seed: int = 1) -> Iterator[Section]:
     scenes = views(aspect, seed)
     yield Section(
         "The three scenes and the models",
-        "Standard rendering beside dynamic transparency. Edges are smooth, and what stands on a floor "
-        "has its shadow: keys of a study's [look].",
+        "Standard rendering beside dynamic transparency. Edges are smooth, corners are dark, and "
+        "what stands on a floor has a shadow: keys of a study's [look].",
         tuple(_scenes(aspect, scenes)),
     )
     yield from gallery_looks.sections(scenes)

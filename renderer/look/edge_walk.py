@@ -9,104 +9,18 @@ colours have to break at the line, and nowhere more beside it.
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
-
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Bools, Floats, Floats32, Ints
+from seethrough.renderer.look.edge_arrays import STEPS, Lines, Picture, Point, Poses, Room, View
 
 NEARER = 0.004  # of its depth, by which a pixel may be nearer than a line on its surface
-STEPS = 4096  # of a colour between 0 and 1, when it becomes a 16-bit float again
+UNIT = 1.0 / (2**32 - 1)
 INK, DARK = 0.12, 0.8  # of outlines: a grey, and how much of it there is
 JUMP, FLAT = 0.3, 1e-6  # part of a step of depth that steps beside it have at most, and rounding
 LEFT, RIGHT, BELOW, ABOVE = 1, 2, 3, 4
 LEAST = 2.0 / 255.0  # a step of colour that is worth smoothing
 FIRM = 0.1  # the same, from which on an outline through something has all of its ink
-
-
-class Lines(NamedTuple):
-    """Meshes' edges one after the other: ends (e, 2, 3), sides (e, 2), crease (e,), planes (f, 4),
-    and where each mesh's edges and planes begin (m + 1, 2)."""
-
-    ends: Floats
-    sides: NDArray[np.int32]
-    crease: Bools
-    planes: Floats
-    starts: Ints
-
-
-class Poses(NamedTuple):
-    """Of each object drawn (k): its mesh, the eye in mesh space (k, 3), turn (k, 3, 3) and move
-    (k, 3): camera ← mesh; and whether it may show through others."""
-
-    mesh: Ints
-    eye: Floats
-    turn: Floats
-    move: Floats
-    through: Bools
-
-
-class View(NamedTuple):
-    """Pixels for a slope of 1, the picture's middle x, y, the near plane; what makes a depth of the
-    buffer's number z: a / (b − z); whether edges are smoothed, and half the width of outlines."""
-
-    scale: float
-    x: float
-    y: float
-    near: float
-    a: float
-    b: float
-    smooth: bool
-    half: float
-
-
-Point: TypeAlias = tuple[float, float, float]
-"""Right, up and depth, as the camera has it."""
-
-
-class Picture(NamedTuple):
-    """color (h, w, 4), 16-bit floats, and depth (h, w) as the buffers hold them, the lowest row
-    first; and `tables`."""
-
-    color: NDArray[np.uint16]
-    depth: Floats32
-    decoded: Floats32
-    encoded: NDArray[np.uint16]
-
-
-def tables() -> tuple[Floats32, NDArray[np.uint16]]:
-    """What each 16-bit float is (65536,), and the 16-bit float of each step from 0 to 1."""
-    decoded = np.arange(65536, dtype=np.uint16).view(np.float16).astype(np.float32)
-    steps = (np.arange(STEPS + 1) / STEPS).astype(np.float16).view(np.uint16)
-    return np.nan_to_num(decoded), steps
-
-
-class Room(NamedTuple):
-    """What smoothing needs besides, kept from frame to frame: the largest part that a pixel takes
-    (h, w; all 0), from which neighbour (h, w), the pixels that take any and their new colours; how
-    much of a pixel has ink (h, w; all 0), the pixels that have any; and how many there are of both
-    kinds (2)."""
-
-    best: Floats32
-    taken: NDArray[np.int8]
-    pixels: NDArray[np.int32]
-    colors: NDArray[np.uint16]
-    ink: Floats32
-    inked: NDArray[np.int32]
-    counts: Ints
-
-
-def room(size: tuple[int, int]) -> Room:
-    """For pictures of (width, height)."""
-    width, height = size
-    return Room(
-        np.zeros((height, width), np.float32), np.zeros((height, width), np.int8),
-        np.zeros(height * width, np.int32), np.zeros((height * width, 3), np.uint16),
-        np.zeros((height, width), np.float32), np.zeros(height * width, np.int32),
-        np.zeros(2, np.int64),
-    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
@@ -172,7 +86,7 @@ def _apply(picture: Picture, room: Room) -> None:
             color[r, c, n] = room.colors[i, n]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def _walk(
     a: Point, b: Point, through: bool, half: float, view: View, picture: Picture, room: Room
 ) -> None:  # fmt: skip
@@ -222,7 +136,7 @@ def _walk(
                 continue
             shown = min(step / FIRM, 1.0)
         else:
-            z = max(picture.depth[r, c], picture.depth[rr, cc])
+            z = max(_depth(picture, r, c), _depth(picture, rr, cc))
             if view.a * (w0 + t * (w1 - w0)) < (1.0 - NEARER) * (view.b - z):
                 continue
         if smooths:
@@ -238,7 +152,7 @@ def _walk(
             _ink(i, v - half, v + half, shown, flat, room)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def _ink(i: int, low: float, high: float, shown: float, flat: bool, room: Room) -> None:
     """Ink in a column or row of pixels, from `low` to `high`, of which `shown` is seen."""
     height, width = room.ink.shape
@@ -267,21 +181,28 @@ def _draw_ink(picture: Picture, room: Room) -> None:
             color[r, c, n] = encoded[int(mixed * STEPS + 0.5)]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
+def _depth(picture: Picture, r: int, c: int) -> float:
+    """The buffer's number from 0 to 1."""
+    return UNIT * picture.depth[r, c]
+
+
+@njit(cache=True, nogil=True, forceinline=True)
 def _parts(picture: Picture, r: int, c: int, rr: int, cc: int) -> bool:
     """Whether one surface ends between two pixels: the buffer's depths, which are linear on a
     plane, jump there, or colours break. Edges that lie within a surface part nothing."""
     height, width = picture.depth.shape
     dr, dc = rr - r, cc - c
-    z = picture.depth
-    jump = JUMP * abs(z[rr, cc] - z[r, c]) - FLAT
-    before = abs(z[r, c] - z[r - dr, c - dc])
+    here, there = _depth(picture, r, c), _depth(picture, rr, cc)
+    before = abs(here - _depth(picture, r - dr, c - dc))
     fr, fc = rr + dr, cc + dc
-    after = abs(z[fr, fc] - z[rr, cc]) if 0 <= fr < height and 0 <= fc < width else 0.0
+    inside = 0 <= fr < height and 0 <= fc < width
+    after = abs(_depth(picture, fr, fc) - there) if inside else 0.0
+    jump = JUMP * abs(there - here) - FLAT
     return jump > max(before, after) or _breaks(picture, r, c, rr, cc) > 0.0
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def _breaks(picture: Picture, r: int, c: int, rr: int, cc: int) -> float:
     """By how much colours break between two pixels, 0 if they break more beside them in that
     direction, or not to be seen."""
@@ -297,7 +218,7 @@ def _breaks(picture: Picture, r: int, c: int, rr: int, cc: int) -> float:
     return 0.0 if inside and _step(picture, rr, cc, fr, fc) > step else step
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def _step(picture: Picture, r: int, c: int, rr: int, cc: int) -> float:
     """The largest difference of two pixels in a channel."""
     found = 0.0

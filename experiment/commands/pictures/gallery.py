@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from seethrough.renderer.gpu.renderer import Renderer
 
 HELP = "draw every technique, parameter, look and hard case into a page"
-WIDEST = 800  # pixels of a picture on the page
+WIDEST = 1200  # pixels of a picture on the page
 
 _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>Seethrough: gallery</title>

@@ -1,4 +1,4 @@
-"""Smooths the edges of a finished frame, and draws outlines (renderer/look/edge_walk.py)."""
+"""Smooths the edges of a finished frame, and draws outlines (renderer/look/edge_arrays.py)."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from seethrough.renderer.arrays import Bools, Floats
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.lens import tight
-from seethrough.renderer.look import edge_walk
+from seethrough.renderer.look import edge_arrays
 from seethrough.renderer.look.edge_set import EdgeSet, edge_set
+from seethrough.renderer.look.edge_walk import smoothed
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
@@ -23,9 +24,9 @@ class EdgePainter:
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._sets: dict[int, tuple[Mesh, EdgeSet]] = {}
-        self._lines: dict[tuple[int, ...], edge_walk.Lines] = {}
-        self._tables = edge_walk.tables()
-        self._room = edge_walk.room((1, 1))
+        self._lines: dict[tuple[int, ...], edge_arrays.Lines] = {}
+        self._tables = edge_arrays.tables()
+        self._room = edge_arrays.room((1, 1))
         self._color = self._depth = bytearray()
 
     def draw(
@@ -44,27 +45,28 @@ class EdgePainter:
             return 0
         left, below, wide, high = box = _about(frame.boxes.extents[objects], target.size)
         if self._room.best.shape != (high, wide):
-            self._room = edge_walk.room((wide, high))
+            self._room = edge_arrays.room((wide, high))
             self._color, self._depth = bytearray(8 * wide * high), bytearray(4 * wide * high)
         read = target.framebuffer.read_into
         read(self._color, box, components=4, alignment=1, dtype="f2")
-        read(self._depth, box, components=1, alignment=1, attachment=-1, dtype="f4")
-        picture = edge_walk.Picture(
+        # As whole numbers: to make others of them takes twice as long.
+        read(self._depth, box, components=1, alignment=1, attachment=-1, dtype="u4")
+        picture = edge_arrays.Picture(
             np.frombuffer(self._color, np.uint16).reshape(high, wide, 4),
-            np.frombuffer(self._depth, np.float32).reshape(high, wide), *self._tables,
+            np.frombuffer(self._depth, np.uint32).reshape(high, wide), *self._tables,
         )  # fmt: skip
         through = _through(frame)
-        poses = edge_walk.Poses(
+        poses = edge_arrays.Poses(
             table.slot[objects], *self._poses(table, objects, camera), through[objects]
         )
         lens = tight(camera, frame)
         near, deep = lens.near, lens.far - lens.near
-        view = edge_walk.View(
+        view = edge_arrays.View(
             1 / camera.pixel(target.size[1]), 0.5 * target.size[0] - left,
             0.5 * target.size[1] - below, near, near * lens.far / deep, lens.far / deep,
             smooth, width / 2,
         )  # fmt: skip
-        changed = edge_walk.smoothed(self._joined(table), poses, view, picture, self._room)
+        changed = smoothed(self._joined(table), poses, view, picture, self._room)
         if changed:
             target.color.write(self._color, viewport=box)
         return changed
@@ -78,7 +80,7 @@ class EdgePainter:
         eyes = np.einsum("kij,kj->ki", table.inverse[objects], camera.eye - matrix[:, :3, 3])
         return eyes, turns, moves
 
-    def _joined(self, table: SceneTable) -> edge_walk.Lines:
+    def _joined(self, table: SceneTable) -> edge_arrays.Lines:
         """The edges of a scene's meshes."""
         key = tuple(id(mesh.mesh) for mesh in table.meshes)
         if key not in self._lines:
@@ -88,7 +90,7 @@ class EdgePainter:
                     self._sets[id(mesh.mesh)] = mesh.mesh, edge_set(mesh.mesh)
                 sets.append(self._sets[id(mesh.mesh)][1])
             sizes = np.array([[len(s.ends), len(s.planes)] for s in sets])
-            self._lines = {key: edge_walk.Lines(
+            self._lines = {key: edge_arrays.Lines(
                 np.concatenate([s.ends for s in sets]), np.concatenate([s.sides for s in sets]),
                 np.concatenate([s.crease for s in sets]), np.concatenate([s.planes for s in sets]),
                 np.concatenate([np.zeros((1, 2), np.int64), np.cumsum(sizes, axis=0)]),
