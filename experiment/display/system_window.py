@@ -98,9 +98,11 @@ def open_window(table: DisplayTable, title: str) -> SystemWindow:
     config = pyglet.gl.Config(  # type: ignore[abstract]  # its __new__ makes the platform's
         double_buffer=True, major_version=3, minor_version=3, forward_compatible=True
     )
+    # With sizes given, a screen is put into the mode that is nearest to them, if it can be.
+    size = (None, None) if table.fullscreen else (table.width, table.height)
     try:
         return SystemWindow(
-            table.width, table.height, title, fullscreen=table.fullscreen, vsync=True,
+            *size, title, fullscreen=table.fullscreen, vsync=True,
             resizable=not table.fullscreen, config=config,
         )  # fmt: skip
     except Exception as error:  # pyglet raises a different class on each platform
