@@ -13,12 +13,14 @@ from seethrough.renderer.plan.planner import (
     OUTSIDE,
     RULED,
     SHORTCUTS,
+    UNSEEN,
     FramePlan,
 )
 from seethrough.renderer.scene.scene import Scene
 
 REASONS = {
     OUTSIDE: "not drawn: outside the view",
+    UNSEEN: "not drawn: no doorway on any way there shows it",
     OPAQUE: "opaque, in one pass with all such: in front of no mask",
     HARD: "opaque, in one pass with all such: impenetrable",
     BLENDED: "blended",

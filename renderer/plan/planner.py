@@ -21,6 +21,7 @@ from seethrough.renderer.plan import clusters, levels, order
 from seethrough.renderer.plan.blending import Blending, merged_parts
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import Boxes, screen_boxes
+from seethrough.renderer.scene.rooms import seen as seen_through_doorways
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.base import MASKS, Parameters, Shot
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
@@ -30,6 +31,7 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
 
 SHORTCUTS = {
     "cull": "objects outside the view are not drawn",
+    "rooms": "where walls are opaque, only what shows through doorways is drawn",
     "opaque": "only objects in front of a mask are blended and put in order",
     "masks": "only targets with something penetrable in front get a mask",
     "levels": "objects that overlap nowhere on the screen are drawn together",
@@ -47,7 +49,7 @@ WORTH = 64  # pixels to save by drawing a triangle once more
 SORTED = 24  # pixels to sort more for a triangle less
 
 # Why an object is drawn as it is (FramePlan.reasons).
-OUTSIDE, OPAQUE, HARD, BLENDED, RULED = range(5)
+OUTSIDE, OPAQUE, HARD, BLENDED, RULED, UNSEEN = range(6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,10 +127,11 @@ def plan(
     if technique.technique.painter != MASKS:
         rules, shot = technique.technique, Shot(scene, camera, size, scale, covered=boxes)
         state = rules.begin(technique) if state is None else state
-        return _ruled(_opaque(boxes, drawn, without), rules.touches(technique, state, shot))
+        touched = rules.touches(technique, state, shot)
+        return _ruled(_opaque(boxes, drawn, without), touched, shot)
     technique = by_masks(technique)
     if not (scene.targets & boxes.within).any() and not without:
-        return _opaque(boxes, drawn, without)
+        return _in_rooms(_opaque(boxes, drawn, without), scene, camera, size)
     reach = masks.reach(boxes.extents, technique, technique.width * scale, size)
     hard = impenetrable(scene, camera, technique)
     seen = _far_to_near(scene, camera, _reaching(scene, boxes, reach, size, without))
@@ -164,7 +167,7 @@ def plan(
         without=frozenset(without),
     )
     if not masked.any() and not blended.any():
-        return base
+        return _in_rooms(base, scene, camera, size)
     if technique.per_pixel_only:
         parts = _parts(reach[masked], technique, size, without)
         return _held(base, parts, scene.triangle_counts, size)
@@ -215,11 +218,21 @@ def _opaque(boxes: Boxes, drawn: Ints, without: Set[str]) -> FramePlan:
     )
 
 
-def _ruled(frame: FramePlan, touched: Bools) -> FramePlan:
+def _in_rooms(frame: FramePlan, scene: Scene, camera: Camera, size: tuple[int, int]) -> FramePlan:
+    """A plan that draws everything opaque, without what walls hide."""
+    if "rooms" in frame.without or scene.rooms is None or scene.in_room is None:
+        return frame
+    extents = frame.boxes.extents
+    seen = seen_through_doorways(scene.rooms, scene.in_room, extents, camera, size)
+    reasons = np.where(seen | (frame.reasons == OUTSIDE), frame.reasons, UNSEEN)
+    return replace(frame, opaque=frame.opaque[seen[frame.opaque]], reasons=reasons)
+
+
+def _ruled(frame: FramePlan, touched: Bools, shot: Shot) -> FramePlan:
     """The plan with what the technique's rule may touch set apart from the opaque rest."""
     ruled = touched[frame.opaque]
     if not ruled.any():
-        return frame
+        return _in_rooms(frame, shot.scene, shot.camera, shot.size)
     reasons = np.where(touched & (frame.reasons == OPAQUE), RULED, frame.reasons)
     opaque = frame.opaque
     return replace(frame, opaque=opaque[~ruled], ruled=opaque[ruled], reasons=reasons)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.look import PLAIN, Look
+from seethrough.renderer.scene.rooms import Rooms
 
 if TYPE_CHECKING:
     from seethrough.renderer.plan.separation import Separations
@@ -57,13 +58,14 @@ class Scene:
 
     Id pictures hold index + 1, and 0 where there is only background. `look` is how the picture
     looks besides; a scene that was given one (renderer/look/dressed.py) keeps the `bare` one that
-    it is of.
+    it is of. `rooms` are those that its walls make, where somebody knows of any.
     """
 
     objects: tuple[Object, ...]
     background: Color = (0.93, 0.94, 0.96)
     look: Look = PLAIN
     bare: Scene | None = None
+    rooms: Rooms | None = None
 
     @cached_property
     def dresses(self) -> dict[Look, Scene]:
@@ -154,6 +156,13 @@ class Scene:
     def triangle_counts(self) -> NDArray[np.int64]:
         """(n,) triangles of each object."""
         return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)
+
+    @cached_property
+    def in_room(self) -> NDArray[np.bool_] | None:
+        """(n, r) which of the rooms each object may be in; None: no walls stand about any."""
+        if self.rooms is None or not self.rooms.stand(self.transforms):
+            return None
+        return self.rooms.holding(self.corners)
 
     @cached_property
     def separations(self) -> Separations:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -19,7 +19,7 @@ from seethrough.tasks.kit.own_models import mesh_of
 from seethrough.tasks.kit.tags import with_kind_tags
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import Floor, random_floor
-from seethrough.tasks.worlds.building.walls import inner_walls, shell
+from seethrough.tasks.worlds.building.walls import inner_walls, rooms, shell
 
 Models = Mapping[str, Callable[[], Mesh]]
 
@@ -127,6 +127,7 @@ def _furnished(
         matrix = placed((x, 0.0, z), rotation_y(rng.uniform(0, 2 * np.pi)), scale)
         things.append(Object(mesh, matrix, target=True, kind=kind))
     scene = with_kind_tags(Scene((*things, *inner_walls(floor, p), *shell(p))), p.tags)
+    scene = replace(scene, rooms=rooms(floor, p, scene))
     return Building(scene, floor, p, asked, start)
 
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from seethrough.renderer.scene import geometry
 from seethrough.renderer.scene.geometry import Mesh
-from seethrough.renderer.scene.scene import Object
+from seethrough.renderer.scene.rooms import Rooms
+from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.scene.transforms import placed, rotation_y, scaling, translation
 from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 from seethrough.tasks.worlds.building.floor import Floor, built_lengths
@@ -96,3 +97,26 @@ def shell(p: BuildingParameters) -> list[Object]:
         pieces.append(Object(cube, matrix, OUTER, impenetrable=True, kind="outer wall"))
     ground = translation(0, -FLOOR_DEPTH / 2, 0) @ scaling(long, FLOOR_DEPTH, long)
     return [Object(cube, ground, FLOOR, impenetrable=True, kind="floor"), *pieces]
+
+
+def rooms(floor: Floor, p: BuildingParameters, scene: Scene) -> Rooms:
+    """The floor's rooms, for a scene that holds its walls, inner and outer."""
+    half_door, half = p.door_width / 2, p.side / 2
+    boxes = [[r.x0, r.z0, r.x1, r.z1] for r in floor.rooms]
+    sides, openings = [], []
+    for wall in floor.walls:
+        a, b = floor.rooms[wall.a], floor.rooms[wall.b]
+        across = a.z0 < b.z0 if wall.axis == 0 else a.x0 < b.x0
+        sides.append((wall.a, wall.b) if across else (wall.b, wall.a))
+        along = wall.door - half_door, wall.door + half_door
+        x, z = (along, (wall.level,) * 2) if wall.axis == 0 else ((wall.level,) * 2, along)
+        openings.append([(x[0], 0.0, z[0]), (x[1], p.door_height, z[1])])
+    walls = [i for i, o in enumerate(scene.objects) if o.kind in ("wall", "outer wall")]
+    return Rooms(
+        np.array(boxes) * p.cell - half,
+        np.array(sides, np.int64).reshape(-1, 2),
+        np.array(openings).reshape(-1, 2, 3),
+        np.array(walls, np.int64),
+        scene.transforms[walls],
+        *(p.wall_thickness, 0.0, p.wall_height),
+    )
