@@ -20,6 +20,7 @@ BENCHES = {
     "looks": "drawing.looks",
     "ordering": "orderings.ordering",
     "ordering_accuracy": "orderings.ordering_accuracy",
+    "paths": "drawing.paths",
     "predictions": "sessions.predictions",
     "session": "sessions.session",
     "simulate": "sessions.simulate",
