@@ -75,6 +75,15 @@ class Look:
         low=0.0,
         high=20.0,
     )
+    detail_error: float = key(
+        0.0,
+        "how far off models may be that are drawn in fewer triangles the farther away they are; 0: "
+        "all are drawn whole. Outlines of masks are those of whole models; what is sorted by pixel "
+        "and what a technique's own rule draws is drawn whole",
+        "pixels of the window",
+        low=0.0,
+        high=20.0,
+    )
 
     def __post_init__(self) -> None:
         check(self, "look")

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device.outlines import Outlines
 from seethrough.renderer.gpu.device.programs import Shader
+from seethrough.renderer.look.detail import levels
 from seethrough.renderer.masks.contours import HalfEdges, half_edges
 from seethrough.renderer.masks.silhouettes import Topology, topology
 from seethrough.renderer.scene.geometry import Mesh
@@ -19,37 +20,17 @@ ATTRIBUTES = ("in_position", "in_normal", "in_color")
 _INT = struct.Struct("i").pack
 
 
-class GpuMesh:
-    """One mesh's buffers and, where asked for, its edges. `mirrored` turns its triangles round.
+class Triangles:
+    """Triangles of a mesh on the GPU: all of them, or those of a level of detail."""
 
-    Positions are relative to the centre of the mesh's bounds: an object far from the origin
-    keeps its details in 32 bits.
-    """
-
-    def __init__(self, context: moderngl.Context, mesh: Mesh, mirrored: bool) -> None:
-        self.mesh = mesh
-        arrays = (mesh.vertices - mesh.center, mesh.normals, mesh.colors)
-        self._vertices = context.buffer(np.concatenate(arrays, axis=1).astype("f4").tobytes())
-        triangles = mesh.triangles[:, ::-1] if mirrored else mesh.triangles
+    def __init__(
+        self, context: moderngl.Context, mesh: Mesh, vertices: moderngl.Buffer,
+        triangles: NDArray[np.integer],
+    ) -> None:  # fmt: skip
+        self.mesh, self._vertices = mesh, vertices
         self._indices = context.buffer(np.ascontiguousarray(triangles, dtype="i4").tobytes())
         self._arrays: dict[int, moderngl.VertexArray] = {}
         self._some: dict[tuple[int, int], moderngl.VertexArray] = {}
-        self._topology: Topology | None = None
-        self._edges: HalfEdges | None = None
-
-    @property
-    def topology(self) -> Topology:
-        """The mesh's edges, found when first asked for."""
-        if self._topology is None:
-            self._topology = topology(self.mesh)
-        return self._topology
-
-    @property
-    def edges(self) -> HalfEdges:
-        """The same for outlines that are drawn as loops."""
-        if self._edges is None:
-            self._edges = half_edges(self.topology)
-        return self._edges
 
     def reorder(self, triangles: NDArray[np.int32]) -> None:
         """The same triangles (m, 3) in another order."""
@@ -59,7 +40,6 @@ class GpuMesh:
         """Give the GPU's memory back."""
         for array in (*self._arrays.values(), *self._some.values()):
             array.release()
-        self._vertices.release()
         self._indices.release()
 
     def draw(self, context: moderngl.Context, shader: Shader, first: int, count: int) -> None:
@@ -91,6 +71,58 @@ class GpuMesh:
         used = [a if a in shader.members else None for a in ATTRIBUTES]
         layout = " ".join("3f" if a else "12x" for a in used)
         return [(self._vertices, layout, *[a for a in used if a])]
+
+
+class GpuMesh(Triangles):
+    """One mesh's buffers and, where asked for, its edges. `mirrored` turns its triangles round.
+
+    Positions are relative to the centre of the mesh's bounds: an object far from the origin
+    keeps its details in 32 bits.
+    """
+
+    def __init__(self, context: moderngl.Context, mesh: Mesh, mirrored: bool) -> None:
+        arrays = (mesh.vertices - mesh.center, mesh.normals, mesh.colors)
+        vertices = context.buffer(np.concatenate(arrays, axis=1).astype("f4").tobytes())
+        turn = -1 if mirrored else 1
+        super().__init__(context, mesh, vertices, mesh.triangles[:, ::turn])
+        self._context, self._turn = context, turn
+        self._topology: Topology | None = None
+        self._edges: HalfEdges | None = None
+        self._details: tuple[list[Triangles], NDArray[np.float64]] | None = None
+
+    @property
+    def topology(self) -> Topology:
+        """The mesh's edges, found when first asked for."""
+        if self._topology is None:
+            self._topology = topology(self.mesh)
+        return self._topology
+
+    @property
+    def edges(self) -> HalfEdges:
+        """The same for outlines that are drawn as loops."""
+        if self._edges is None:
+            self._edges = half_edges(self.topology)
+        return self._edges
+
+    @property
+    def details(self) -> tuple[list[Triangles], NDArray[np.float64]]:
+        """Its levels of detail from fine to coarse, found when first asked for, and how far each is
+        off, in the mesh's units."""
+        if self._details is None:
+            found = levels(self.mesh)
+            parts = [
+                Triangles(self._context, self.mesh, self._vertices, part[:, :: self._turn])
+                for part in found.triangles
+            ]
+            self._details = parts, found.errors
+        return self._details
+
+    def release(self) -> None:
+        """Give the GPU's memory back."""
+        super().release()
+        for part in self._details[0] if self._details else ():
+            part.release()
+        self._vertices.release()
 
 
 class MeshStore:

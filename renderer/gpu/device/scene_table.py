@@ -9,16 +9,17 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.gpu.device.meshes import GpuMesh, MeshStore
+from seethrough.renderer.gpu.device.meshes import GpuMesh, MeshStore, Triangles
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.look import floor
+from seethrough.renderer.look.detail import DETAILS
 from seethrough.renderer.look.shadows import floor_map
 from seethrough.renderer.plan.coverage import Triangles, triangles
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 
-Run = tuple[GpuMesh, int, int]  # a mesh, its first row in the sequence, how many instances
+Run = tuple[Triangles, int, int]  # a mesh, its first row in the sequence, how many instances
 
 SHADOWS = 15  # the texture unit of the floor's shadows: the last that every driver has
 # Of one frame: the driver would have to wait for what is drawn from one before it is written again.
@@ -120,28 +121,62 @@ class SceneTable:
         parts: list[NDArray[np.int64]],
         camera: Camera,
         numbers: list[NDArray[np.float64]] | None = None,
+        slope: float = 0.0,
     ) -> tuple[moderngl.Texture, list[list[Run]]]:
         """Upload the objects of all `parts`, and say which instanced draws make up each part.
 
         Objects of one part are put together by mesh. `numbers` has for each part a number to go
-        with every object of the scene (n,). The texture holds them until as many sequences as
+        with every object of the scene (n,). Models may be off by a `slope` of their distance, as
+        levels of detail are; 0: all are whole. The texture holds them until as many sequences as
         there are textures were made after it.
         """
         number = np.repeat(np.arange(len(parts)), [len(p) for p in parts])
         objects = np.concatenate([*parts, np.zeros(0, np.int64)])
-        by_mesh = np.lexsort((objects, self.slot[objects], number))
-        objects, number = objects[by_mesh], number[by_mesh]
+        level = self._level(objects, camera, slope)
+        by_mesh = np.lexsort((objects, level, self.slot[objects], number))
+        objects, number, level = objects[by_mesh], number[by_mesh], level[by_mesh]
         extra = np.zeros(len(objects))
         for k, values in enumerate(numbers or []):
             extra[number == k] = values[objects[number == k]]
         sequence = self._upload(objects, camera, extra)
         slots = self.slot[objects]
         another = (number[1:] != number[:-1]) | (slots[1:] != slots[:-1])
+        another |= level[1:] != level[:-1]
         cuts = [0, *(np.nonzero(another)[0] + 1).tolist(), len(objects)]
         runs: list[list[Run]] = [[] for _ in parts]
         for a, b in pairwise(cuts if len(objects) else []):
-            runs[number[a]].append((self.meshes[slots[a]], a, b - a))
+            mesh: Triangles = self.meshes[slots[a]]
+            if level[a]:
+                mesh = self.meshes[slots[a]].details[0][level[a] - 1]
+            runs[number[a]].append((mesh, a, b - a))
         return sequence, runs
+
+    def _level(
+        self, objects: NDArray[np.int64], camera: Camera, slope: float
+    ) -> NDArray[np.int64]:
+        """(k,) in which level of detail to draw each object, 0 for whole: the coarsest that is off
+        by no more than a slope of its distance wherever the object is nearest."""
+        if slope <= 0 or not len(objects):
+            return np.zeros(len(objects), np.int64)
+        away = self.scene.centers[objects] - camera.eye
+        depth = away @ camera.forward
+        near = depth - self.scene.radii[objects]
+        # What lies aside shows larger than at its depth, by the slope of the ray to it.
+        aside = np.linalg.norm(away, axis=1) / np.maximum(depth, camera.near)
+        most = slope * near / aside
+        most[near <= camera.near] = 0.0
+        found: NDArray[np.int64] = (self._errors[objects] <= most[:, None]).sum(axis=1)
+        return found
+
+    @cached_property
+    def _errors(self) -> NDArray[np.float64]:
+        """(n, levels) how far each object's levels are off, in world units; infinite for none."""
+        errors = np.full((len(self.meshes), DETAILS), np.inf)
+        for row, mesh in zip(errors, self.meshes, strict=True):
+            row[: len(mesh.details[1])] = mesh.details[1]
+        own = np.array([o.mesh.radius for o in self.scene.objects])
+        stretch: NDArray[np.float64] = self.scene.radii / own
+        return errors[self.slot] * stretch[:, None]
 
     def _upload(
         self, objects: NDArray[np.int64], camera: Camera, extra: NDArray[np.float64]

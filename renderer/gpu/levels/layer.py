@@ -240,7 +240,8 @@ class Layer:
             if len(counted):
                 occluders = np.concatenate([np.zeros(0, np.int64), *parts[2:]])
                 extra = [*extra, counted, occluders]
-        sequence, runs = table.sequence([*parts, *extra], camera)
+        slope = table.scene.look.detail_error * scale * camera.pixel(size[1])
+        sequence, runs = table.sequence([*parts, *extra], camera, slope=slope)
         self._bind(table, sequence)
         return runs[: len(parts)], runs[len(parts) :]
 
