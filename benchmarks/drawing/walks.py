@@ -74,7 +74,8 @@ def walked() -> Iterator[Walked]:
     for (slot, number), rows in ways.items():
         trials = [t for s in session_for(slot, study.plan) for t in s.trials]
         trial = next(t for t in trials if t.number == number)
-        state = scenes.begin(TASKS[trial.task], trial, ASPECT)
+        task = TASKS[trial.task]
+        state = scenes.begin(task, trial, ASPECT)
         way = np.array(rows)
         yield Walked(
             *(slot, number, trial.levels["transparency"], study.part(trial.levels).technique),

@@ -120,8 +120,8 @@ def _may(
         t, k = corners[i] // 3, corners[i] % 3
         mine = triangles[t, k]
         for j in range(len(corners)):  # which vertex at v goes with mine
-            s, l = corners[j] // 3, corners[j] % 3
-            if turned[j] == -1 and triangles[s, l] == mine:
+            s, e = corners[j] // 3, corners[j] % 3
+            if turned[j] == -1 and triangles[s, e] == mine:
                 for n in range(3):
                     if place_of[triangles[s, n]] == v:
                         if turned[i] >= 0 and turned[i] != triangles[s, n]:
@@ -129,7 +129,10 @@ def _may(
                         turned[i] = triangles[s, n]
         if turned[i] < 0:
             return False
-        b, c = places[place_of[triangles[t, (k + 1) % 3]]], places[place_of[triangles[t, (k + 2) % 3]]]
+        b, c = (
+            places[place_of[triangles[t, (k + 1) % 3]]],
+            places[place_of[triangles[t, (k + 2) % 3]]],
+        )
         before, after = _normal(places[u], b, c), _normal(places[v], b, c)
         if before[0] * after[0] + before[1] * after[1] + before[2] * after[2] < TURN:
             return False
@@ -138,8 +141,11 @@ def _may(
         t, k = corners[i] // 3, corners[i] % 3
         one = place_of[triangles[t, (k + 1) % 3]]
         for j in range(len(others)):
-            s, l = others[j] // 3, others[j] % 3
-            if one == place_of[triangles[s, (l + 1) % 3]] or one == place_of[triangles[s, (l + 2) % 3]]:
+            s, e = others[j] // 3, others[j] % 3
+            if (
+                one == place_of[triangles[s, (e + 1) % 3]]
+                or one == place_of[triangles[s, (e + 2) % 3]]
+            ):
                 shared += 1
                 break
     return 0 < going <= 2 and shared <= going
@@ -182,7 +188,11 @@ def collapsed(
                     heap.append((cost, u, v, 0))
     heapify(heap)
     stamp = np.zeros(len(places), np.int64)
-    mine, others, turned = np.empty(MOST, np.int64), np.empty(MOST, np.int64), np.empty(MOST, np.int64)
+    mine, others, turned = (
+        np.empty(MOST, np.int64),
+        np.empty(MOST, np.int64),
+        np.empty(MOST, np.int64),
+    )
     starts = np.zeros(len(errors) + 1, np.int64)
     found = np.empty((len(errors) * m, 3), np.int64)
     for level in range(len(errors)):
@@ -190,7 +200,10 @@ def collapsed(
             cost, u, v, when = heappop(heap)
             if when != stamp[u] + stamp[v] or head[u] < 0 or head[v] < 0:
                 continue
-            n, o = _round(head, following, alive, u, mine), _round(head, following, alive, v, others)
+            n, o = (
+                _round(head, following, alive, u, mine),
+                _round(head, following, alive, v, others),
+            )
             if n <= 0 or o <= 0:
                 continue
             if not _may(mine[:n], others[:o], u, v, places, place_of, triangles, turned):

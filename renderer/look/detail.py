@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -42,7 +43,7 @@ def levels(mesh: Mesh) -> Levels:
     found, starts = collapsed(
         mesh.vertices[first], place_of, triangles, across(place_of[triangles]), errors
     )
-    parts = tuple(found[a:b] for a, b in zip(starts[:-1], starts[1:], strict=True))
+    parts = tuple(found[a:b] for a, b in pairwise(starts.tolist()))
     return Levels(parts, errors)
 
 

@@ -19,6 +19,7 @@ from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.masks import masks
 from seethrough.renderer.plan import clusters, levels, order
 from seethrough.renderer.plan.blending import Blending, merged_parts
+from seethrough.renderer.plan.outside import holes, wide
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import Boxes, screen_boxes
 from seethrough.renderer.scene.rooms import seen as seen_through_doorways
@@ -45,7 +46,6 @@ SHORTCUTS = {
     "still": "a frame in which nothing changed is shown again",
 }
 
-WORTH = 64  # pixels to save by drawing a triangle once more
 SORTED = 24  # pixels to sort more for a triangle less
 
 # Why an object is drawn as it is (FramePlan.reasons).
@@ -325,7 +325,7 @@ def _with_levels(
         parts, doubtful = np.array([[0, 0, *size]]), doubtful[:0]
     keep = np.zeros(len(masked), dtype=bool)
     keep[base.opaque] = True
-    holes = _holes(what.reach[masked], size)
+    around = holes(what.reach[masked], size)
     alone = np.nonzero(what.blended & ~united.clustered)[0]
     return replace(
         base,
@@ -333,8 +333,10 @@ def _with_levels(
         levels=tuple(Level(objects, targets) for objects, targets in pairs),
         exact=parts,
         doubtful=doubtful,
-        wide=_wide(base, alone, holes, triangles, size),
-        holes=holes,
+        wide=alone[:0]
+        if "outside" in base.without
+        else wide(base.boxes, alone, around, triangles, size),
+        holes=around,
         clusters=united.members,
     )
 
@@ -367,35 +369,6 @@ def _held(base: FramePlan, parts: Ints, triangles: Ints, size: tuple[int, int]) 
         opaque=base.opaque[~held],
         held=base.opaque[held],
     )
-
-
-def _holes(reach: Floats, size: tuple[int, int]) -> Ints:
-    """(k, 4) whole pixels that each mask can cover."""
-    low = np.clip(np.floor(reach[:, :2]), 0, size)
-    high = np.clip(np.ceil(reach[:, 2:]), 0, size)
-    rows = np.concatenate([low, high], axis=1)[(low < high).all(axis=1)]
-    return rows.astype(np.int64)
-
-
-def _wide(
-    base: FramePlan,
-    blended: Ints,
-    holes: Ints,
-    triangles: Ints,
-    size: tuple[int, int],
-) -> Ints:
-    """Blended objects of few triangles that cover much of the picture outside all masks.
-
-    Drawing them twice costs little, blending all their pixels much.
-    """
-    if "outside" in base.without or not len(holes):
-        return blended[:0]
-    box = base.boxes.extents[blended]
-    low, high = np.clip(box[:, :2], 0, size), np.clip(box[:, 2:], 0, size)
-    scope = np.array([*holes[:, :2].min(axis=0), *holes[:, 2:].max(axis=0)])
-    inside = np.clip(np.minimum(high, scope[2:]) - np.maximum(low, scope[:2]), 0, None)
-    outside = (high - low).prod(axis=1) - inside.prod(axis=1)
-    return blended[outside > WORTH * triangles[blended]]
 
 
 def _parts(

@@ -20,8 +20,8 @@ ATTRIBUTES = ("in_position", "in_normal", "in_color")
 _INT = struct.Struct("i").pack
 
 
-class Triangles:
-    """Triangles of a mesh on the GPU: all of them, or those of a level of detail."""
+class MeshPart:
+    """MeshPart of a mesh on the GPU: all of them, or those of a level of detail."""
 
     def __init__(
         self, context: moderngl.Context, mesh: Mesh, vertices: moderngl.Buffer,
@@ -73,7 +73,7 @@ class Triangles:
         return [(self._vertices, layout, *[a for a in used if a])]
 
 
-class GpuMesh(Triangles):
+class GpuMesh(MeshPart):
     """One mesh's buffers and, where asked for, its edges. `mirrored` turns its triangles round.
 
     Positions are relative to the centre of the mesh's bounds: an object far from the origin
@@ -88,7 +88,7 @@ class GpuMesh(Triangles):
         self._context, self._turn = context, turn
         self._topology: Topology | None = None
         self._edges: HalfEdges | None = None
-        self._details: tuple[list[Triangles], NDArray[np.float64]] | None = None
+        self._details: tuple[list[MeshPart], NDArray[np.float64]] | None = None
 
     @property
     def topology(self) -> Topology:
@@ -105,13 +105,13 @@ class GpuMesh(Triangles):
         return self._edges
 
     @property
-    def details(self) -> tuple[list[Triangles], NDArray[np.float64]]:
+    def details(self) -> tuple[list[MeshPart], NDArray[np.float64]]:
         """Its levels of detail from fine to coarse, found when first asked for, and how far each is
         off, in the mesh's units."""
         if self._details is None:
             found = levels(self.mesh)
             parts = [
-                Triangles(self._context, self.mesh, self._vertices, part[:, :: self._turn])
+                MeshPart(self._context, self.mesh, self._vertices, part[:, :: self._turn])
                 for part in found.triangles
             ]
             self._details = parts, found.errors

@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.gpu.device.meshes import GpuMesh, MeshStore, Triangles
+from seethrough.renderer.gpu.device.meshes import GpuMesh, MeshPart, MeshStore
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.look import floor
@@ -19,7 +19,7 @@ from seethrough.renderer.plan.coverage import Triangles, triangles
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 
-Run = tuple[Triangles, int, int]  # a mesh, its first row in the sequence, how many instances
+Run = tuple[MeshPart, int, int]  # a mesh, its first row in the sequence, how many instances
 
 SHADOWS = 15  # the texture unit of the floor's shadows: the last that every driver has
 # Of one frame: the driver would have to wait for what is drawn from one before it is written again.
@@ -145,15 +145,13 @@ class SceneTable:
         cuts = [0, *(np.nonzero(another)[0] + 1).tolist(), len(objects)]
         runs: list[list[Run]] = [[] for _ in parts]
         for a, b in pairwise(cuts if len(objects) else []):
-            mesh: Triangles = self.meshes[slots[a]]
+            mesh: MeshPart = self.meshes[slots[a]]
             if level[a]:
                 mesh = self.meshes[slots[a]].details[0][level[a] - 1]
             runs[number[a]].append((mesh, a, b - a))
         return sequence, runs
 
-    def _level(
-        self, objects: NDArray[np.int64], camera: Camera, slope: float
-    ) -> NDArray[np.int64]:
+    def _level(self, objects: NDArray[np.int64], camera: Camera, slope: float) -> NDArray[np.int64]:
         """(k,) in which level of detail to draw each object, 0 for whole: the coarsest that is off
         by no more than a slope of its distance wherever the object is nearest."""
         if slope <= 0 or not len(objects):
