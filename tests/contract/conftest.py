@@ -19,7 +19,7 @@ def _is_ours(path: Path) -> bool:
     if any(part.startswith(".") and part != ".ci" for part in parts[:-1]):
         return False
     if parts[0] == "data":
-        return parts[1] in ("README.md", "published")
+        return parts[1] in ("README.md", "published", "walks")
     return path.suffix not in {".nbi", ".nbc", ".pyc"}
 
 

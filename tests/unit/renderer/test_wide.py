@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.plan.planner import BLENDED, WORTH, plan
+from seethrough.renderer.plan.outside import WORTH
+from seethrough.renderer.plan.planner import BLENDED, plan
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
