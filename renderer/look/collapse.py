@@ -1,4 +1,4 @@
-"""Edges of a mesh collapsed one after the other, the cheapest first (Garland and Heckbert 1997).
+"""Edges of a mesh collapsed one after the other, the cheapest first (Garland1997).
 
 A collapse moves one corner onto the other end of an edge, so that what is left uses vertices that
 were there, with their own normals and colours. Where vertices of one place differ (a sharp edge, a

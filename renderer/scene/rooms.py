@@ -1,7 +1,7 @@
 """What can be seen of a scene that walls divide into rooms: what shows through their doorways.
 
 A line of sight leaves a room only where a doorway is, so a thing is seen only within what the
-doorways on some way to its room show of it on the screen (Luebke and Georges 1995). What is left
+doorways on some way to its room show of it on the screen (Luebke1995). What is left
 out would have been hidden by a wall, pixel for pixel, as long as walls are opaque.
 """
 

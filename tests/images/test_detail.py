@@ -19,7 +19,7 @@ from seethrough.renderer.techniques import named
 
 SIZE = (320, 240)
 EYE, AHEAD = np.array([0.0, 2.0, 0.0]), np.array([0.0, -0.1, -1.0])
-SHADE = 4  # of 255: colours between corners that lie farther apart
+SHADE = 16  # of 255: across a bend of few triangles the light runs otherwise
 NAMES = ("cat", "bike", "piano", "car", "chair", "plant", "lamp", "dog")
 
 
@@ -64,7 +64,6 @@ def test_nothing_moves_by_a_pixel(renderer, technique, distance):
     low, high = np.min(beside, axis=0) - SHADE, np.max(beside, axis=0) + SHADE
     other = ((coarse < low) | (coarse > high)).any(axis=2)
     changed = (np.abs(whole - coarse) > 2).any(axis=2)
-    print(technique, distance, other.mean(), changed.mean())
     assert other.mean() <= 0.0005
     # Along walks it is a tenth of that (`bench paths`): here eight models fill the small picture.
     assert changed.mean() <= 0.015

@@ -99,11 +99,7 @@ def test_a_border_of_colours_stays_where_it_is():
 
 def test_a_ball_grows_coarse_evenly():
     """Nothing turns inside out: all triangles of every level look away from the middle."""
-    mesh = (
-        shade(ball(1.0, (0.5, 0.5, 0.5), 40))
-        if not isinstance(ball(1.0, (0.5, 0.5, 0.5), 40), Mesh)
-        else ball(1.0, (0.5, 0.5, 0.5), 40)
-    )
+    mesh = shade(ball(1.0, (0.5, 0.5, 0.5), 40))
     for triangles in levels(mesh).triangles:
         a, b, c = (mesh.vertices[triangles[:, k]] for k in range(3))
         outward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c - 3 * mesh.center)
