@@ -235,4 +235,4 @@ def _of_memory() -> Iterator[Figure]:
     """Most memory of a process of its own that draws the walkthrough, where the system tells."""
     held = used_by(_MEMORY).peak
     if held is not None:
-        yield row("resident memory", "walkthrough 800×600", held, "MiB", 600, None)
+        yield row("resident memory", "walkthrough 800×600", held, "MiB", 450, None)

@@ -25,8 +25,8 @@ from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
-from seethrough.tasks.kit.controls import changed
-from seethrough.tasks.worlds.building.visit import Visit
+from seethrough.tasks.kit.controls import Walk, changed, walk
+from seethrough.tasks.worlds.building.building_parameters import BuildingParameters
 
 FILE = Path(__file__).resolve().parents[2] / "data" / "walks" / "published.csv"
 COLUMNS = ("slot", "trial", "time", "x", "z", "yaw")
@@ -45,7 +45,7 @@ class Walked:
     scene: Scene
     times: Floats
     places: Floats
-    visit: Visit
+    walk: Walk
 
     def frames(self, rate: float) -> tuple[Floats, list[Camera]]:
         """Times and cameras of those frames, `rate` a second, that differ from the one before.
@@ -59,7 +59,7 @@ class Walked:
 
     def camera(self, x: float, z: float, yaw: float) -> Camera:
         """What the walker sees from a place."""
-        return changed(self.visit.walk, x=x, z=z, yaw=yaw).camera()
+        return changed(self.walk, x=x, z=z, yaw=yaw).camera()
 
 
 def walked() -> Iterator[Walked]:
@@ -74,12 +74,13 @@ def walked() -> Iterator[Walked]:
     for (slot, number), rows in ways.items():
         trials = [t for s in session_for(slot, study.plan) for t in s.trials]
         trial = next(t for t in trials if t.number == number)
-        task = TASKS[trial.task]
+        task, place = TASKS[trial.task], scenes.setting(trial).place
+        assert isinstance(place, BuildingParameters)
         state = scenes.begin(task, trial, ASPECT)
         way = np.array(rows)
         yield Walked(
             *(slot, number, trial.levels["transparency"], study.part(trial.levels).technique),
-            TASKS[trial.task].view(state).scene, way[:, 0], way[:, 1:], state.visit,
+            task.view(state).scene, way[:, 0], way[:, 1:], walk(place, (0.0, 0.0)),
         )  # fmt: skip
 
 

@@ -30,7 +30,7 @@ HOUSES = {
         grid=9, objects=12, types=KINDS, wall_thickness=0.6, door_width=1.0, door_height=4.9
     ),
 }
-POSES = 16  # of each place a walker can be at, in each house
+POSES = 20  # of each place a walker can be at, in each house
 
 
 def house(name: str, seed: int = 3):
@@ -61,19 +61,23 @@ def in_a_wall(rng, building):
 def at_the_edge(rng, building):
     """Outside, in an outer wall, or just within it."""
     half = building.parameters.side / 2
-    x, z = rng.choice([-1, 1]) * (half + rng.normal(0, 0.4)), rng.uniform(-half, half)
+    x, z = rng.choice([-1, 1]) * (half + rng.uniform(-0.2, 0.5)), rng.uniform(-half, half)
     return (x, z) if rng.random() < 0.5 else (z, x)
 
 
 def cameras(place, name):
-    """Walkers' views from such places; every fourth from some height, looking up or down."""
+    """Walkers' views from such places, every other along the walls; every fourth from some height,
+    looking up or down."""
     building, rng = house(name), np.random.default_rng(17)
     p = building.parameters
     for k in range(POSES):
         x, z = place(rng, building)
         tilted = k % 4 == 0
         y = rng.uniform(0.02, 1.2 * p.wall_height) if tilted else p.eye_height
-        turn = turned(rng.uniform(0, 2 * np.pi), rng.uniform(-0.7, 0.7) if tilted else 0.0)
+        yaw = rng.uniform(0, 2 * np.pi)
+        if k % 2:
+            yaw = rng.integers(4) * np.pi / 2 + rng.normal(0, 0.2)
+        turn = turned(yaw, rng.uniform(-0.7, 0.7) if tilted else 0.0)
         yield building.scene, Camera(np.array([x, y, z]), turn, p.fov_y, 0.1, 2 * p.side)
 
 
