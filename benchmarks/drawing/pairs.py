@@ -169,8 +169,9 @@ def _mark(picture: Image.Image, one: Pair, letters: str) -> None:
 
 
 def counted(truth: dict[str, dict[str, object]], answers: dict[str, str]) -> list[str]:
-    """A line for each kind of picture: how many answers are right. Raises ValueError where an
-    answer is missing or is neither A nor B."""
+    """A line for each kind of picture: how many answers are right. Names may go without ".png".
+    Raises ValueError where an answer is missing or is neither A nor B."""
+    answers = {Path(name).stem + ".png": said for name, said in answers.items()}
     bad = [name for name in truth if answers.get(name) not in ("A", "B")]
     if bad:
         raise ValueError(f"answers to {', '.join(bad)}: expected A or B")

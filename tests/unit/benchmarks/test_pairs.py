@@ -39,7 +39,7 @@ def test_answers_are_counted_by_cues():
         "2.png": {"cues": "with", "nearer": "A", **kinds},
         "3.png": {"cues": "with", "nearer": "B", **kinds},
     }
-    answers = {"1.png": "B", "2.png": "A", "3.png": "B"}
+    answers = {"1.png": "B", "2": "A", "3": "B"}
     lines = pairs.counted(truth, answers)
     assert "all, without cues: 0 of 1 right" in lines
     assert "all, with cues: 2 of 2 right" in lines
