@@ -205,10 +205,10 @@ def cell_table(
             )
     factors = [*names, *cells.factors]
     shown = [*factors, "n", "trials", "mean", "sd", *(["geometric"] if logs else []), "median"]
-    said = " ".join(
+    whole_note = " ".join(
         words for words in (note, *_rough(rows, kind == "bound", logs is not None)) if words
     )
-    return Table(key, title, cell_columns(factors), tuple(rows), tuple(shown), said)
+    return Table(key, title, cell_columns(factors), tuple(rows), tuple(shown), whole_note)
 
 
 SHARES = (
