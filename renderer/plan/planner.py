@@ -32,7 +32,6 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
 
 SHORTCUTS = {
     "cull": "objects outside the view are not drawn",
-    "rooms": "where walls are opaque, only what shows through doorways is drawn",
     "opaque": "only objects in front of a mask are blended and put in order",
     "masks": "only targets with something penetrable in front get a mask",
     "levels": "objects that overlap nowhere on the screen are drawn together",
@@ -44,6 +43,7 @@ SHORTCUTS = {
     "held": "objects that lie in a part sorted by pixel are drawn there alone",
     "removed": "what a hole takes is not drawn: things, of large meshes single triangles",
     "still": "a frame in which nothing changed is shown again",
+    "rooms": "where walls are opaque, only what shows through doorways is drawn",
 }
 
 SORTED = 24  # pixels to sort more for a triangle less
