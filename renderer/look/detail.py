@@ -39,7 +39,7 @@ def levels(mesh: Mesh) -> Levels:
     corner = place_of[triangles]
     whole = (corner != np.roll(corner, 1, axis=1)).all(axis=1)
     triangles = triangles[whole]
-    errors = STEPS * mesh.radius
+    errors: Floats = np.asarray(STEPS * mesh.radius, dtype=np.float64)
     found, starts = collapsed(
         mesh.vertices[first], place_of, triangles, across(place_of[triangles]), errors
     )

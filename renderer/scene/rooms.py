@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Bools, Floats
 from seethrough.renderer.scene.camera import Camera
-from seethrough.renderer.scene.projection import screen_boxes
 
 _BITS = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)])
 _AXES = np.arange(3)
@@ -98,6 +97,8 @@ def _views(
     rooms: Rooms, first: list[int], camera: Camera, size: tuple[int, int]
 ) -> list[tuple[int, View]]:
     """Rooms and what of the screen shows each, once for every way of doorways that leads there."""
+    from seethrough.renderer.scene.projection import screen_boxes  # worlds need no kernels
+
     corners = rooms.openings[:, _BITS, _AXES]
     boxes = screen_boxes(corners, camera, size)
     around = boxes.extents + np.array([-MARGIN, -MARGIN, MARGIN, MARGIN])

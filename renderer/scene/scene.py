@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.scene.geometry import Mesh
 from seethrough.renderer.scene.look import PLAIN, Look
-from seethrough.renderer.scene.rooms import Rooms
 
 if TYPE_CHECKING:
     from seethrough.renderer.plan.separation import Separations
+    from seethrough.renderer.scene.rooms import Rooms
 
 Color = tuple[float, float, float]
 
