@@ -10,7 +10,7 @@ from seethrough.renderer.techniques.base import Parameters
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 DYNAMIC = DynamicTransparency()
-SMALL, SIZE, LARGE = (200, 150), (400, 300), (1200, 900)
+SMALL, SIZE, LARGE = (200, 150), (400, 300), (1040, 780)
 
 
 @dataclass(frozen=True, eq=False)

@@ -106,8 +106,8 @@ def _through(frame: FramePlan) -> Bools:
         through[found] = True
     if len(frame.held):
         low, high = frame.boxes.extents[:, None, :2], frame.boxes.extents[:, None, 2:]
-        meets = (low <= frame.exact[:, 2:]) & (high >= frame.exact[:, :2])
-        through |= meets.all(axis=2).any(axis=1)
+        meets = np.all((low <= frame.exact[:, 2:]) & (high >= frame.exact[:, :2]), axis=2)
+        through |= np.any(meets, axis=1)
     return through
 
 
