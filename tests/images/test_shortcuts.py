@@ -88,14 +88,14 @@ def test_what_a_hole_leaves_of_large_meshes_is_drawn_without_a_trace(context, na
     scene = Scene(tuple(replace(o, transform=mirror @ o.transform) for o in jeep_scene().objects))
     middle = np.array([0.0, 0.42, 0.0])
     eyes = [np.array([a * 3.4, 1.1, b * 3.4]) for a, b in ((0.4, 0.9), (-0.9, -0.4), (0.1, 0.2))]
+    renderers = [Renderer(context, SIZE, without=w) for w in ({"still"}, {"still", "removed"})]
     drawn_of = []
     for cap in CAPS:
         technique = replace(named(name), cap=cap)
         for eye in eyes:
             camera = look_at(eye, middle, fov_y=0.6, near=0.05, far=20)
             pictures = []
-            for without in ({"still"}, {"still", "removed"}):
-                renderer = Renderer(context, SIZE, without=frozenset(without))
+            for renderer in renderers:
                 with renderer.context.query(primitives=True) as query:
                     renderer.draw(scene, camera, technique)
                 pictures.append(renderer.read())
