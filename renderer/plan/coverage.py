@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Bits, Floats, Ints
+from seethrough.renderer.arrays import Bits, Floats, Ints, Real
 from seethrough.renderer.plan.blocks import BLOCK
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
@@ -58,6 +58,24 @@ def lens(camera: Camera, size: tuple[int, int]) -> NDArray[np.float64]:
 
 
 @njit(cache=True, nogil=True)
+def cut_by_near_plane(
+    points: Floats, span: Ints, turn: Floats, move: Floats, lens: Floats, seen: Real
+) -> bool:
+    """Whether a point of an object lies nearer than the near plane; if none does, `seen` (p, 3) has
+    column, row and view depth of each in the span (first, end) of `points` (p, 3)."""
+    for p in range(span[0], span[1]):
+        x, y, z = points[p, 0], points[p, 1], points[p, 2]
+        depth = -(turn[2, 0] * x + turn[2, 1] * y + turn[2, 2] * z + move[2])
+        if depth < lens[3]:
+            return True
+        s = lens[0] / depth
+        seen[p, 0] = lens[1] + s * (turn[0, 0] * x + turn[0, 1] * y + turn[0, 2] * z + move[0])
+        seen[p, 1] = lens[2] - s * (turn[1, 0] * x + turn[1, 1] * y + turn[1, 2] * z + move[1])
+        seen[p, 2] = depth
+    return False
+
+
+@njit(cache=True, nogil=True)
 def cover(
     points: Floats,
     corners: Ints,
@@ -80,20 +98,10 @@ def cover(
     first_row, first_column = part[1] // BLOCK, part[0] // BLOCK
     rows = min((part[3] + BLOCK - 1) // BLOCK, bits.shape[0])
     columns = min((part[2] + BLOCK - 1) // BLOCK, bits.shape[1])
-    flat = np.empty((len(points), 2), np.float32)
+    flat = np.empty((len(points), 3), np.float32)
     for k in range(len(numbers)):
         bit = np.uint64(1) << np.uint64(numbers[k])
-        m, v = turns[k], moves[k]
-        cut = False
-        for p in range(spans[k, 0, 0], spans[k, 0, 1]):
-            x, y, z = points[p, 0], points[p, 1], points[p, 2]
-            depth = -(m[2, 0] * x + m[2, 1] * y + m[2, 2] * z + v[2])
-            if depth < lens[3]:
-                cut = True
-                break
-            s = lens[0] / depth
-            flat[p, 0] = lens[1] + s * (m[0, 0] * x + m[0, 1] * y + m[0, 2] * z + v[0])
-            flat[p, 1] = lens[2] - s * (m[1, 0] * x + m[1, 1] * y + m[1, 2] * z + v[1])
+        cut = cut_by_near_plane(points, spans[k, 0], turns[k], moves[k], lens, flat)
         begin, end = spans[k, 1, 0], spans[k, 1, 1]
         if cut:
             begin, end = 0, 1

@@ -10,10 +10,10 @@ import numpy as np
 from numba import njit
 
 from seethrough.renderer.arrays import Bools, Floats, Ints, Ints32
-from seethrough.renderer.plan.coverage import SLACK
+from seethrough.renderer.plan.coverage import SLACK, cut_by_near_plane
 from seethrough.renderer.techniques.maps import BLOCK
+from seethrough.renderer.techniques.removal import SURE
 
-SURE = 1e-4  # of a depth: ten times what float32 may make of one
 EDGE_ON = 1.0  # square pixels of twice its area, below which float32 may turn a triangle round
 
 
@@ -43,19 +43,8 @@ def remaining(
     rows, columns = low.shape
     count = 0
     for k in range(len(spans)):
-        first, end = spans[k, 0]
-        m, v = turns[k], moves[k]
-        cut = False
-        for p in range(first, end):
-            x, y, z = points[p, 0], points[p, 1], points[p, 2]
-            depth = -(m[2, 0] * x + m[2, 1] * y + m[2, 2] * z + v[2])
-            if depth < lens[3]:
-                cut = True
-                break
-            s = lens[0] / depth
-            seen[p, 0] = lens[1] + s * (m[0, 0] * x + m[0, 1] * y + m[0, 2] * z + v[0])
-            seen[p, 1] = lens[2] - s * (m[1, 0] * x + m[1, 1] * y + m[1, 2] * z + v[1])
-            seen[p, 2] = depth
+        first = spans[k, 0, 0]
+        cut = cut_by_near_plane(points, spans[k, 0], turns[k], moves[k], lens, seen)
         for t in range(spans[k, 1, 0], spans[k, 1, 1]):
             i, j, n = corners[t]
             if not cut:

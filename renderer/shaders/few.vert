@@ -1,4 +1,5 @@
-// Provides a block of pixels as a point, and what exact_few.frag has to know of it. A template.
+// Provides a block of pixels as a point, and what exact_few.frag has to know of it; programs over
+// lists (list_blocks.py) know nothing of theirs. A template.
 uniform vec2 size;  // of whole blocks
 
 in vec2 in_place;  // left, top, y down
