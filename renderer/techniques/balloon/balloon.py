@@ -90,14 +90,15 @@ class Balloon(base.Plain[BalloonParameters, Pointing]):
         moved = np.nonzero(moves.any(axis=1))[0]
         if not len(moved):
             return Shown(scene)
-        objects, rods = list(scene.objects), []
-        for k in moved:
-            transform = scene.transforms[k].copy()
-            transform[:3, 3] += moves[k]
+        moves, objects = moves[moved], list(scene.objects)
+        transforms = scene.transforms[moved]
+        transforms[:, :3, 3] += moves
+        for k, transform in zip(moved.tolist(), transforms, strict=True):
             objects[k] = replace(objects[k], transform=transform)
-            if p.trace > 0:
-                rods.append(_rod(scene.centers[k], moves[k], p.trace * p.radius))
-        return Shown(replace(scene, objects=(*objects, *rods)))
+        if p.trace > 0:
+            for transform in rods(scene.centers[moved], moves, p.trace * p.radius):
+                objects.append(Object(_box(), transform, ROD, kind="rod"))
+        return Shown(replace(scene, objects=tuple(objects)))
 
 
 def pushed(scene: Scene, middle: Floats, radius: float) -> Floats:
@@ -116,18 +117,18 @@ def _box() -> geometry.Mesh:
     return geometry.box()
 
 
-def _rod(start: Floats, move: Floats, thickness: float) -> Object:
-    """A thin box from one point along a move."""
-    length = float(np.linalg.norm(move))
-    along = move / length
-    side = np.cross(along, (0.0, 1.0, 0.0) if abs(along[1]) < 0.9 else (1.0, 0.0, 0.0))
-    side /= np.linalg.norm(side)
-    transform = np.eye(4)
-    transform[:3, 0] = side * thickness
-    transform[:3, 1] = along * length
-    transform[:3, 2] = np.cross(side, along) * thickness
-    transform[:3, 3] = start + move / 2
-    return Object(_box(), transform, ROD, kind="rod")
+def rods(starts: Floats, moves: Floats, thickness: float) -> Floats:
+    """(k, 4, 4) transforms of a box of side 1 to thin ones from points (k, 3) along moves (k, 3)."""
+    along = moves / np.linalg.norm(moves, axis=1, keepdims=True)
+    upright = np.abs(along[:, 1:2]) >= 0.9
+    side = np.cross(along, np.where(upright, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    found = np.tile(np.eye(4), (len(moves), 1, 1))
+    found[:, :3, 0] = side * thickness
+    found[:, :3, 1] = moves
+    found[:, :3, 2] = np.cross(side, along) * thickness
+    found[:, :3, 3] = starts + moves / 2
+    return found
 
 
 TECHNIQUE = Balloon()
