@@ -52,7 +52,7 @@ class United:
 
 def fitting(scene: Scene) -> Bools:
     """(n,) what may be part of a cluster: convex, no target, in no group with others."""
-    convex = np.array([o.mesh.convex for o in scene.objects], dtype=bool)
+    convex = scene.convex
     alone = np.bincount(scene.group_of)[scene.group_of] == 1 if len(convex) else convex
     return convex & alone & ~scene.targets
 

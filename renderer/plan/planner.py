@@ -71,8 +71,8 @@ class FramePlan:
     drawn by that alone. `wide` are blended objects
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
     else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
-    are in levels. `ruled` are drawn last, each surface as the technique's rule has it. `boxes` are
-    the extents of all objects. `reasons` (n,) say why each object is
+    are in levels. `ruled` are drawn last, each surface as the technique's rule has it, which was
+    asked about `shot` (None: there are none). `boxes` are the extents of all objects. `reasons` (n,) say why each object is
     drawn as it is, `behind` (n,) which target it is that makes it blend (−1: none).
     """
 
@@ -92,6 +92,7 @@ class FramePlan:
     held: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
     doubtful: Floats = field(default_factory=lambda: np.zeros((0, 4)))
     ruled: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
+    shot: Shot | None = None
 
     @property
     def ordered(self) -> int:
@@ -235,7 +236,8 @@ def _ruled(frame: FramePlan, touched: Bools, shot: Shot) -> FramePlan:
         return _in_rooms(frame, shot.scene, shot.camera, shot.size)
     reasons = np.where(touched & (frame.reasons == OPAQUE), RULED, frame.reasons)
     opaque = frame.opaque
-    return replace(frame, opaque=opaque[~ruled], ruled=opaque[ruled], reasons=reasons)
+    own = {"opaque": opaque[~ruled], "ruled": opaque[ruled]}
+    return replace(frame, **own, reasons=reasons, shot=shot)
 
 
 def _fit(scene: Scene, technique: DynamicTransparency) -> Bools:

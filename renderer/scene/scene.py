@@ -158,6 +158,11 @@ class Scene:
         return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)
 
     @cached_property
+    def convex(self) -> NDArray[np.bool_]:
+        """(n,) which objects are known to be convex."""
+        return np.array([o.mesh.convex for o in self.objects], dtype=bool)
+
+    @cached_property
     def in_room(self) -> NDArray[np.bool_] | None:
         """(n, r) which of the rooms each object may be in; None: no walls stand about any."""
         if self.rooms is None or not self.rooms.stand(self.transforms):

@@ -89,8 +89,7 @@ class Removal(base.Plain[P, base.State, base.Known]):
         near, far = shot.boxes.near[among], shot.boxes.far[among]
         least, most = bounds(pictures["clip"], shot.boxes.extents[among]).T
         gone = far * (1 + SURE) < least
-        convex = np.array([shot.scene.objects[i].mesh.convex for i in among.tolist()], dtype=bool)
-        whole = convex & (near > shot.camera.near) & (near > most * (1 + SURE))
+        whole = shot.scene.convex[among] & (near > shot.camera.near) & (near > most * (1 + SURE))
         return base.Cut(among[whole], among[~(whole | gone)], pictures["clip"])
 
     def sides(self, p: P) -> bool:

@@ -125,10 +125,9 @@ class Layer:
             self._set_state()
             self._masks.begin(counts)
             self._blend_levels(table, camera, frame, runs[2:], technique, target, after_level)
-        if len(frame.ruled):
-            shot = Shot(table.scene, camera, size, scale, covered=frame.boxes)
+        if frame.shot is not None:
             for name in painters.of(technique):
-                self._draw_ruled(name, table, frame, technique, state, shot, target)
+                self._draw_ruled(name, table, frame, technique, state, frame.shot, target)
                 if after_level is not None and name == REMOVAL:
                     after_level(frame.ruled)
         if exact is not None:

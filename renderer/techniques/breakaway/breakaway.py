@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Ints
 from seethrough.renderer.declared import key
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques import reaching, removal
 from seethrough.renderer.techniques.base import Bools, Floats, Shot
 from seethrough.renderer.techniques.seen import Look, Surfaces
@@ -99,10 +102,16 @@ class Breakaway(removal.Removal[BreakawayParameters, None, Holes]):
 
 def holes(shot: Shot) -> Holes:
     """One for each target of which something lies beyond the near plane."""
+    return _holes(shot.scene, shot.camera, shot.size)
+
+
+@lru_cache(maxsize=1)
+def _holes(scene: Scene, camera: Camera, size: tuple[int, int]) -> Holes:
+    """A frame's plan and its picture ask for the same ones."""
     from seethrough.renderer.techniques.breakaway.border import hulls
 
-    camera, (width, height) = shot.camera, shot.size
-    points, starts = shot.scene.target_hulls
+    width, height = size
+    points, starts = scene.target_hulls
     lens = np.array([camera.lens(height), 0.5 * width, 0.5 * height, camera.near])
     return Holes(*hulls((points - camera.eye) @ camera.rotation, starts, lens))
 
