@@ -72,8 +72,9 @@ class FramePlan:
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
     else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
     are in levels. `ruled` are drawn last, each surface as the technique's rule has it, which was
-    asked about `shot` (None: there are none). `boxes` are the extents of all objects. `reasons` (n,) say why each object is
-    drawn as it is, `behind` (n,) which target it is that makes it blend (−1: none).
+    asked about `shot` (None: there are none). `boxes` are the extents of all objects. `reasons`
+    (n,) say why each object is drawn as it is, `behind` (n,) which target it is that makes it
+    blend (−1: none).
     """
 
     opaque: Ints

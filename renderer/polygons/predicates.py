@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import numba
 import numpy as np
-from igl import predicates as igl_predicates
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Floats, Whole
@@ -109,6 +108,9 @@ def exact_sides(corners: Floats, points: Floats) -> NDArray[np.int8]:
     Exact unless a product of three coordinates under- or overflows (below 1e-100, above 1e90).
     """
     a, b, c = (np.ascontiguousarray(corners[:, i]) for i in range(3))
+    # Few programs come this far, and loading it takes every one of them a quarter of a second.
+    from igl import predicates as igl_predicates
+
     # libigl counts a point above the counter-clockwise side as negative.
     return (-igl_predicates.orient3d(a, b, c, np.ascontiguousarray(points))).astype(np.int8)
 

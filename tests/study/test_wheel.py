@@ -54,6 +54,7 @@ def seethrough(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Seethro
     (there / "dependencies.pth").write_text(sysconfig.get_path("purelib") + "\n", "utf-8")
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "DISPLAY")}
+    environment["NUMBA_DISABLE_JIT"] = "1"  # to compile everything anew takes half a minute
 
     def run(*words: str) -> subprocess.CompletedProcess[str]:
         command = [str(python.with_name("seethrough")), *words]

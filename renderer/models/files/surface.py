@@ -12,8 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from seethrough.renderer.arrays import Floats
 from seethrough.renderer.models.files.part import Part
@@ -156,6 +154,10 @@ def _consistent(triangles: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArra
     Each triangle stands twice in a graph, as it is and turned; sides that agree join equals,
     others join opposites. A part whose two copies are one graph has only one side (Möbius).
     """
+    # Where it is called: it takes a third of a second, and most programs read no such file.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     m = len(triangles)
     edge, upward = _edges(triangles)
     order = np.argsort(edge, kind="stable")

@@ -118,7 +118,8 @@ def _box() -> geometry.Mesh:
 
 
 def rods(starts: Floats, moves: Floats, thickness: float) -> Floats:
-    """(k, 4, 4) transforms of a box of side 1 to thin ones from points (k, 3) along moves (k, 3)."""
+    """(k, 4, 4) transforms that make of a cube of side 1 a rod from each point (k, 3) along its
+    move (k, 3)."""
     along = moves / np.linalg.norm(moves, axis=1, keepdims=True)
     upright = np.abs(along[:, 1:2]) >= 0.9
     side = np.cross(along, np.where(upright, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
