@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
+from typing import TYPE_CHECKING
 
 import moderngl
 
 from seethrough.renderer.look.shaders import GLSL
 from seethrough.renderer.scene import lighting
+
+if TYPE_CHECKING:
+    from jinja2 import Template
 
 LIT = """
 vec3 lit(vec3 color, vec3 normal, vec3 offset) {
@@ -66,6 +70,12 @@ def program(
 
 
 def _filled_in(name: str, values: Mapping[str, object]) -> str:
+    return _template(name).render(values)
+
+
+@cache
+def _template(name: str) -> Template:
+    """To read one takes several times as long as to fill it in."""
     from jinja2 import Environment  # for the few frames that need it
 
-    return Environment(line_statement_prefix="%").from_string(_source(name)).render(values)
+    return Environment(line_statement_prefix="%").from_string(_source(name))
