@@ -237,8 +237,8 @@ def _ruled(frame: FramePlan, touched: Bools, shot: Shot) -> FramePlan:
         return _in_rooms(frame, shot.scene, shot.camera, shot.size)
     reasons = np.where(touched & (frame.reasons == OPAQUE), RULED, frame.reasons)
     opaque = frame.opaque
-    own = {"opaque": opaque[~ruled], "ruled": opaque[ruled]}
-    return replace(frame, **own, reasons=reasons, shot=shot)
+    frame = replace(frame, opaque=opaque[~ruled], ruled=opaque[ruled])
+    return replace(frame, reasons=reasons, shot=shot)
 
 
 def _fit(scene: Scene, technique: DynamicTransparency) -> Bools:

@@ -108,14 +108,14 @@ class AdaptiveCutaway(removal.Removal[AdaptiveParameters, None, Cones]):
 def _hole(p: AdaptiveParameters, depth: Floats, shot: Shot) -> Floats:
     """(h·w,) the greatest of all cones at each pixel, tried one by one."""
     height, width = depth.shape
-    pixels = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1).reshape(-1, 2)
-    points = np.nonzero(depth.ravel() > 0)[0]
     wide = np.tan(np.radians(p.angle)) * shot.camera.lens(shot.size[1])  # slopes in pixels
-    found = np.zeros(height * width)
-    for q in points:
-        away = np.hypot(*(pixels - pixels[q]).T)
-        np.maximum(found, depth.flat[q] * wide / (away + wide), out=found)
-    return found
+    rows, columns = np.arange(1 - height, height), np.arange(1 - width, width)
+    falls = np.hypot(rows[:, None], columns) + wide  # about a point in the middle
+    found = np.zeros((height, width))
+    for r, c in np.argwhere(depth > 0).tolist():
+        about = falls[height - 1 - r : 2 * height - 1 - r, width - 1 - c : 2 * width - 1 - c]
+        np.maximum(found, depth[r, c] * wide / about, out=found)
+    return found.ravel()
 
 
 TECHNIQUE = AdaptiveCutaway()
