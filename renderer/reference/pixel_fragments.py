@@ -98,8 +98,9 @@ def _clipped(
     for sign, limit in ((1.0, near), (-1.0, far)):
         above = sign * (-rows[..., 2] - limit)
         whole = (above >= 0).all(axis=1)
+        cut = ~whole & (above >= 0).any(axis=1)
         pieces, names = [rows[whole]], [owners[whole]]
-        for triangle, side, owner in zip(rows[~whole], above[~whole], owners[~whole], strict=True):
+        for triangle, side, owner in zip(rows[cut], above[cut], owners[cut], strict=True):
             polygon = []
             for k in range(3):
                 j = (k + 1) % 3
