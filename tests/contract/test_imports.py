@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -114,6 +115,7 @@ def what_imports_did(root: Path, modules: list[str]) -> dict[str, list[str]]:
     return json.loads(printed.partition("FOUND ")[2])
 
 
+@cache
 def _imported(source: Path) -> list[str]:
     """Every module a file imports, anywhere in it; `from a import b` counts as a and a.b."""
     names = []

@@ -160,7 +160,7 @@ def test_ring_masks_of_two_hundred_targets(context, monkeypatch):
         renderer.draw(some, CAMERA, technique)
         pictures.append(renderer.read())
     assert (
-        renderer.draw(Scene((wall, *balls)), CAMERA, replace(technique, ring_size=300)).masks > 190
+        renderer.draw(Scene((wall, *balls)), CAMERA, replace(technique, ring_size=150)).masks > 190
     )
     renderer.draw(some, CAMERA, technique)
     pictures.append(renderer.read())
