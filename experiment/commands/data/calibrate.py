@@ -107,6 +107,7 @@ def _fit(a: argparse.Namespace, start: Profile, own: Crowd, last: Crowd, others:
             lambda p: last.play(p, calibration.FITTED),
         )
     best = replace(best, name=a.out.stem)
+    write(a.out, best, _provenance(a, start.name, misfit, []))  # before a check of minutes
     every = calibration.FITTED + calibration.SEEN
     before, after = (calibration.measured(others.play(p, every)) for p in (start, best))
     table = calibration.table(after, before)
@@ -197,6 +198,7 @@ def _provenance(
 ) -> dict[str, object]:
     from seethrough.experiment.people.fitted.calibration import FITTED, SEEN
 
+    checked = {"checked": f"{a.check} other participants, seed {a.check_seed}", "table": [*table]}
     return {
         "command": _command(a),
         "code": _code(),
@@ -208,8 +210,7 @@ def _provenance(
         "seen": list(SEEN),
         "source": "Elmqvist2009, tables 3 and 4: means, s.d., and the r that each F implies",
         "misfit": round(misfit, 4),
-        "checked": f"{a.check} other participants, seed {a.check_seed}",
-        "table": list(table),
+        **(checked if table else {"checked": "not yet"}),
         "made": datetime.now(UTC).date().isoformat(),
     }
 

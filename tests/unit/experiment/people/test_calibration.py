@@ -31,7 +31,14 @@ from seethrough.experiment.people.fitted.fitting import (
 )
 from seethrough.experiment.people.fitted.priors import FREE, with_free
 from seethrough.experiment.people.persons.person import TRAITS, Person, mood_for
-from seethrough.experiment.people.persons.profile_file import SHIPPED, find, read, write
+from seethrough.experiment.people.persons.profile_file import (
+    SHIPPED,
+    find,
+    made_by,
+    provenance_of,
+    read,
+    write,
+)
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design.design import generator
@@ -223,6 +230,26 @@ def test_the_calibrated_profile_ships_with_its_provenance():
     assert profile.name == "calibrated" and profile != AVERAGE
     text = (SHIPPED / "calibrated.toml").read_text(encoding="utf-8")
     assert "never evidence" in text and "seen" in text and "seethrough calibrate" in text
+
+
+def test_a_check_that_is_interrupted_leaves_the_fitted_profile(tmp_path, monkeypatch):
+    """It could be searched and profiled; it says that nobody checked it."""
+
+    def play(crowd, profile, tasks):
+        if crowd.seed == 1:  # the other participants
+            raise KeyboardInterrupt
+        return [{**r, "time": r["time"] * profile.pace / 1.7} for r in published_rows()]
+
+    monkeypatch.setattr(Crowd, "play", play)
+    out = tmp_path / "own.toml"
+    words = f"calibrate demo --evaluations 2 --tables {tmp_path / 't.db'} --out {out}"
+    assert cli.main(words.split()) == 130
+    fitted = read(out)
+    assert fitted.name == "own"
+    assert_allclose(fitted.pace, 1.7, rtol=1e-6)
+    said = provenance_of(out)
+    assert said["checked"] == "not yet" and "table" not in said and said["last"] == 192
+    assert made_by(str(out)) == (said["command"], ())
 
 
 def test_the_command_that_made_a_profile_can_be_given_again():
