@@ -130,9 +130,11 @@ def grouped(
     slices: Ints,
     masks: Ints,
     every: bool,
+    together: int = 0,
 ) -> tuple[NDArray[np.uint32], Ints, Bools]:
     """Blocks (k, 2) with their bits (k, 2), as `shown` gives them, grouped by how many bits they
-    have of both kinds: the least of `slices` and of `masks` (ascending) that is enough.
+    have of both kinds: the least of `slices` and of `masks` (ascending) that is enough. No more
+    than `together` blocks are one group, of what is enough for all.
 
     Returns for each block that has not too many, and a mask unless `every` is wanted, a row of
     words: left and top as float32; for each of its slices the word in `corners` (s,), then as many
@@ -143,11 +145,20 @@ def grouped(
     groups, most = len(slices) * len(masks), (slices[-1], masks[-1])
     group, over = np.full(len(found), -1), np.zeros(len(found), np.bool_)
     starts = np.zeros(groups + 1, np.int64)
+    least = np.zeros(2, np.int64)
     for i in range(len(found)):
         n, m = _count(which[i, 0]), _count(which[i, 1])
         over[i] = n > most[0] or m > most[1]
         if not over[i] and (every or m > 0):
-            group[i] = np.searchsorted(slices, n) * len(masks) + np.searchsorted(masks, m)
+            least[0] = max(least[0], np.searchsorted(slices, n))
+            least[1] = max(least[1], np.searchsorted(masks, m))
+    if len(found) > together:
+        least[:] = 0
+    for i in range(len(found)):
+        n, m = _count(which[i, 0]), _count(which[i, 1])
+        if not over[i] and (every or m > 0):
+            kind = max(np.searchsorted(slices, n), least[0]) * len(masks)
+            group[i] = kind + max(np.searchsorted(masks, m), least[1])
             starts[group[i] + 1] += 1
     starts = np.cumsum(starts)
     rows = np.empty((starts[-1], 2 + most[0] + 3 * most[1]), np.uint32)

@@ -144,9 +144,9 @@ class ExactMasks:
             painter.set(first_way=slices.way(bases[k][0], corners[k]), slices=bases[k][1])
             for t, owner in zip(targets.tolist(), owners[k].tolist(), strict=True):
                 place = extents[t].tolist() if owner >= 0 else (0.0, 0.0, 0.0, 0.0)
+                way = slices.way(max(owner, 0), corners[k])
                 shader = painter.shader_of(t)
-                shader.set(beside=float(depths[t]), target=t, extents=tuple(place))
-                shader.set(way=slices.way(max(owner, 0), corners[k]))
+                shader.set(beside=float(depths[t]), target=t, extents=tuple(place), way=way)
                 painter.draw_one(t)
         pipeline.within(self.entries.framebuffer, None)
         return sum(len(targets) for targets in parts)

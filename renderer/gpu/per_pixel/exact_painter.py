@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
+from typing import NamedTuple
 
 import moderngl
 import numpy as np
@@ -36,6 +37,8 @@ from seethrough.renderer.plan.blocks import BLOCK
 from seethrough.renderer.plan.planner import impenetrable
 
 TEXELS = 24_000_000  # of all slices of one part: what is larger is drawn in bands
+LITTLE = 100_000  # texels of all cells: so few are emptied at once, not where they are drawn into
+FEW = 5_000  # triangles: what they cover is found before another thread would have begun
 _PER_ROW, _SURFACES_PER_ROW = 1024, 4096
 
 
@@ -59,6 +62,7 @@ class ExactPainter:
         self._sorter = PixelSorter(context)
         self._slices: Cells | None = None
         self._textures: dict[str, moderngl.Texture] = {}
+        self._known: dict[bytes, _Shown] = {}
 
     def begin(self, job: ExactJob, made: MaskPainter | None = None) -> None:
         """Take on the plan's exact parts, with the masks already `made` for the frame if there are
@@ -102,6 +106,7 @@ class ExactPainter:
         whole = np.array([[0, 0, *job.size]])
         if job.technique.granularity != "pixel":
             self._select(job, whole)
+        self._known = {}
         self._fill(job, whole, whole=True)
         textures = [self._context.texture(job.size, 4, dtype="f4") for _ in range(4)]
         framebuffer = self._context.framebuffer(textures)
@@ -122,12 +127,14 @@ class ExactPainter:
     def _batches(self, job: ExactJob, parts: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
         """The parts, cut into bands that fit into memory, as many at a time as fit together."""
         rows = []
+        self._known = {}
         for part in parts:
-            targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
-            reach = np.ascontiguousarray(job.frame.reach[targets])
-            masks = order.apart(reach).max(initial=0) if len(targets) else 0
-            cells = int(max(_sets(job, part)[1].max(initial=0), masks)) + 1
-            rows += [(band, cells) for band in bands(part, cells, self._tallest)]
+            shown = _shown(job, part)
+            cells = int(max(shown.which.max(initial=0), shown.mask.max(initial=0))) + 1
+            cut = bands(part, cells, self._tallest)
+            if len(cut) == 1:
+                self._known[part.tobytes()] = shown
+            rows += [(band, cells) for band in cut]
         batch: list[NDArray[np.int64]] = []
         used, size = 0, np.zeros(2, np.int64)
         for part, cells in rows:
@@ -156,19 +163,17 @@ class ExactPainter:
         # For each cell of masks: the cells of its targets, the part's first one and how many.
         owners: list[NDArray[np.int64]] = []
         bases: list[tuple[int, int]] = []
-        shown: list[tuple[Ints, Ints, Floats, Ints]] = []
+        shown: list[_Shown] = []
         for part in parts:
             corner = (int(part[0]), int(job.size[1] - part[3]))
-            objects, which = _sets(job, part)
-            targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
-            reach = np.ascontiguousarray(job.frame.reach[targets])
-            mask = order.apart(reach) if len(targets) else np.zeros(0, np.int64)
+            known = self._known.pop(part.tobytes(), None)
+            shown.append(_shown(job, part) if known is None else known)
+            objects, which, targets, reach, mask = shown[-1]
             slice_of = np.full(len(job.frame.reach), -1)
             slice_of[objects] = which + self._slice_base[-1]
             count = int(mask.max(initial=-1)) + 1
             owners += [slice_of[targets[mask == k]] for k in range(count)]
             bases += [(self._slice_base[-1], int(which.max(initial=-1)) + 1)] * count
-            shown.append((objects, which, reach, mask))
             boxes = job.frame.boxes.extents[objects] + SLACK
             emptied[0].append(touched(boxes, which + self._slice_base[-1], part))
             emptied[1].append(touched(reach, mask + self._mask_base[-1], part))
@@ -181,11 +186,12 @@ class ExactPainter:
                 where += [corner] * count
                 base.append(base[-1] + count)
         # More than bits can tell apart: there every cell is looked at everywhere.
-        many = [max(w.max(initial=0), m.max(initial=0)) >= MOST for _, w, _, m in shown]
+        many = [max(s.which.max(initial=0), s.mask.max(initial=0)) >= MOST for s in shown]
         whole |= any(many)
-        wiped = [None if whole else np.concatenate(rows) for rows in emptied]
+        little = width * height * max(len(slices), len(entries)) <= LITTLE
+        wiped = [None if whole or little else np.concatenate(rows) for rows in emptied]
         covering = [
-            None if m else self._cover(job, part, row[0], row[1])
+            None if m else self._cover(job, part, row.objects, row.which)
             for m, part, row in zip(many, parts, shown, strict=True)
         ]
         size = (width, height)
@@ -195,7 +201,7 @@ class ExactPainter:
         draws += self._masks.look_up(job)
         self._looked_up = None if whole else self._masks.looked_up(job)
         self._bits = [
-            None if begun is None else self._bits_of(job, begun, row[2], row[3])
+            None if begun is None else self._bits_of(job, begun, row.reach, row.mask)
             for begun, row in zip(covering, shown, strict=True)
         ]
         over = any(too_many(b[0], b[1]) for b in self._bits if b is not None)
@@ -206,18 +212,22 @@ class ExactPainter:
 
     def _cover(
         self, job: ExactJob, part: Ints, objects: Ints, which: Ints
-    ) -> tuple[Bits, Future[None]]:
-        """Begin to find which slices can show in each block of a part, beside the drawing."""
+    ) -> tuple[Bits, Future[None] | None]:
+        """Find which slices can show in each block of a part; of many triangles, begin to, beside
+        the drawing."""
         table, bits = job.table, np.zeros(blocks.shape(job.size), np.uint64)
         every = table.triangles
         turns, moves = table.poses(objects, job.camera)
         spans, boxes = every.spans[objects], job.frame.boxes.extents[objects] + SLACK
         lens = coverage.lens(job.camera, job.size)
         args = (every.points, every.corners, spans, which, turns, moves, lens, boxes, part, bits)
-        return bits, table.outlines.beside(coverage.cover, *args)
+        if int(np.diff(spans[:, 1]).sum()) > FEW:
+            return bits, table.outlines.beside(coverage.cover, *args)
+        coverage.cover(*args)
+        return bits, None
 
     def _bits_of(
-        self, job: ExactJob, covering: tuple[Bits, Future[None]], reach: Floats, mask: Ints
+        self, job: ExactJob, covering: tuple[Bits, Future[None] | None], reach: Floats, mask: Ints
     ) -> tuple[Bits, Bits, Bits]:
         """(h, w) of each block: which slices can show in it, which masks by their numbers, and
         which cells of masks."""
@@ -226,7 +236,8 @@ class ExactPainter:
             one = np.zeros(len(job.frame.doubtful), np.int64)
             marks *= blocks.covered(job.frame.doubtful, one, marks.shape)
         slices, begun = covering
-        begun.result()
+        if begun is not None:
+            begun.result()
         return slices, marks, blocks.covered(reach, mask, marks.shape) * (marks != 0)
 
     def _fill_slices(
@@ -246,7 +257,8 @@ class ExactPainter:
         self._context.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._context.depth_func = "<"
         base = job.table.first_triangle.astype(float)
-        sequence, runs = job.table.sequence(parts, job.camera, [base] * len(parts))
+        numbers = [base] * len(parts) if surfaces else None
+        sequence, runs = job.table.sequence(parts, job.camera, numbers)
         shaders = [self._slice[surfaces, floor] for floor in (False, True)]
         for shader in shaders:
             job.use(shader, sequence)
@@ -335,8 +347,18 @@ class ExactPainter:
         )
 
 
-def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The objects that a part of the picture shows, and the slice of each."""
+class _Shown(NamedTuple):
+    """What a part of the picture shows: k `objects` and the slice of `which` each, and t `targets`
+    with masks, the `reach` of these (t, 4) and the cell of each `mask` (t,)."""
+
+    objects: Ints
+    which: Ints
+    targets: Ints
+    reach: Floats
+    mask: Ints
+
+
+def _shown(job: ExactJob, part: Ints) -> _Shown:
     boxes = job.frame.boxes
     here = boxes.inside & _overlapping(boxes.extents, part)
     if len(job.frame.doubtful):
@@ -344,7 +366,9 @@ def _sets(job: ExactJob, part: NDArray[np.int64]) -> tuple[NDArray[np.int64], ND
         here &= np.any([_overlapping(boxes.extents, box) for box in wider], axis=0)
     objects = np.nonzero(here)[0]
     grown = np.ascontiguousarray(boxes.extents[objects] + SLACK)
-    return objects, order.apart(grown) if len(objects) else np.zeros(0, np.int64)
+    targets = job.frame.masked[_overlapping(job.frame.reach[job.frame.masked], part)]
+    reach = np.ascontiguousarray(job.frame.reach[targets])
+    return _Shown(objects, order.apart(grown), targets, reach, order.apart(reach))
 
 
 def _overlapping(extents: NDArray[np.float64], part: NDArray[np.int64]) -> NDArray[np.bool_]:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 # Numbers that there is a program for: each takes its time to compile, at first use.
 SLICES = np.array([1, 2, 3, 4, 6, 8, 12, 16])
 MASKS = np.array([0, 1, 2, 4, 8])
+TOGETHER = 64  # blocks: to draw so few at once costs less than to shade none of them too long
 _SLICE_GROUPS = [f"slices{k}" for k in range(SLICES[-1] // 4)]
 _MASK_GROUPS = [f"masks{k}" for k in range(3 * MASKS[-1] // 4)]
 
@@ -62,7 +63,8 @@ class FewSorter:
         else:
             words = _cell_words(filled.entries, bases[1])
         rows, starts, over = blocks.grouped(
-            found, which, _corners(filled.slices, bases[0]), words, SLICES, MASKS, every
+            *(found, which, _corners(filled.slices, bases[0]), words, SLICES, MASKS, every),
+            TOGETHER,
         )
         self._write(rows)
         self._context.enable_only(moderngl.PROGRAM_POINT_SIZE)

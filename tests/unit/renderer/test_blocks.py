@@ -115,6 +115,24 @@ def test_blocks_are_grouped_by_how_much_they_hold(every):
         assert got == expected.get(key, [])
 
 
+@pytest.mark.parametrize("every", [False, True])
+def test_few_blocks_are_one_group_of_what_is_enough_for_all(every):
+    """One has most slices, another most masks; one too many and one no mask."""
+    which = np.array([[0b1111, 0b1], [0b1, 0b111], [0b1, 0b11111], [0b1, 0]], np.uint64)
+    found = np.arange(8).reshape(4, 2) * BLOCK
+    corners, words = np.arange(64, dtype=np.uint32), np.zeros((65, 3), np.uint32)
+    counts = np.array([1, 2, 4, 8]), np.array([0, 1, 3])
+    args = found, which, corners, words, *counts, every
+    rows, starts, over = grouped(*args, len(found))
+    apart = grouped(*args, len(found) - 1)
+    assert over.tolist() == apart[2].tolist() == [False, False, True, False]
+    drawn = 3 if every else 2
+    assert np.nonzero(np.diff(starts))[0].tolist() == [2 * 3 + 2]
+    assert len(rows) == starts[-1] == drawn
+    assert (np.diff(apart[1]) > 0).sum() == drawn
+    assert sorted(map(tuple, rows.tolist())) == sorted(map(tuple, apart[0].tolist()))
+
+
 def test_the_most_bits_are_counted_where_there_are_both():
     slices = np.array([[0b111, 0b11111, 0b1]], np.uint64)
     masks = np.array([[0b1, 0, 0b1111]], np.uint64)
