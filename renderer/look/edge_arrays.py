@@ -102,27 +102,34 @@ def tables() -> tuple[Floats32, NDArray[np.uint16]]:
 class Room(NamedTuple):
     """What smoothing needs besides, kept from frame to frame.
 
-    Of pixels that take a part of a neighbour, in the order in which they were found (p,): where,
-    how far off the neighbour is, the part, and the new colour (p, 3). slot (p,): 1 + where each
-    pixel of the picture stands in that order, all 0 between frames. How much of a pixel has ink
-    (p,), all 0 between frames, and the pixels that have any (p,). How many there are of both kinds
-    (2,).
+    Where lines are seen, in the order in which they are walked (s,): which line, in which pixel,
+    how far off the neighbour is that it runs nearer to, how far across, and how much of the line is
+    seen. Of pixels that take a part of a neighbour, in the order in which they were found (p,):
+    where, how far off the neighbour is, the part, and the new colour (p, 3). slot (p,): 1 + where
+    each pixel of the picture stands in that order, all 0 between frames. How much of a pixel has
+    ink (p,), all 0 between frames, and the pixels that have any (p,).
     """
 
+    line: NDArray[np.int32]
+    at: NDArray[np.int32]
+    beside: NDArray[np.int32]
+    place: Floats
+    seen: Floats
     slot: NDArray[np.int32]
     pixels: NDArray[np.int32]
-    aside: NDArray[np.int32]
+    takes: NDArray[np.int32]
     part: Floats32
     colors: NDArray[np.uint16]
     ink: Floats32
     inked: NDArray[np.int32]
-    counts: Ints
 
 
-def room(pixels: int) -> Room:
-    """For parts of a picture of no more than so many pixels."""
+def room(steps: int, pixels: int) -> Room:
+    """For lines of so many pixels together, in parts of a picture of no more than so many."""
+    each = np.zeros((3, steps + 1), np.int32)
     return Room(
+        *each, np.zeros(steps + 1), np.zeros(steps + 1),
         np.zeros(pixels, np.int32), np.zeros(pixels, np.int32), np.zeros(pixels, np.int32),
         np.zeros(pixels, np.float32), np.zeros((pixels, 3), np.uint16),
-        np.zeros(pixels, np.float32), np.zeros(pixels, np.int32), np.zeros(2, np.int64),
+        np.zeros(pixels, np.float32), np.zeros(pixels + 1, np.int32),
     )  # fmt: skip

@@ -16,13 +16,14 @@ Codes = NDArray[np.uint8]
 @njit(cache=True, nogil=True, error_model="numpy")
 def lines_of(edges: Edges, poses: Poses, view: View, out: Lines, box: Ints) -> int:
     """Put the lines of all objects into `out`, which has room for all edges. Returns how many there
-    are; `box` (4,) becomes the left, lower, right and upper border of the pixels they run along."""
+    are; `box` (5,) becomes the left, lower, right and upper border of the pixels they run along,
+    and how many those are, line by line."""
     longest = np.zeros(2, np.int64)
     for m in range(len(edges.starts) - 1):
         for k in range(2):
             longest[k] = max(longest[k], edges.starts[m + 1, k] - edges.starts[m, k])
     found, front = np.empty(longest[0], np.int32), np.zeros(longest[1] + 1, np.uint8)
-    box[0], box[1], box[2], box[3] = view.width, view.height, 0, 0
+    box[0], box[1], box[2], box[3], box[4] = view.width, view.height, 0, 0, 0
     count = 0
     for o in range(len(poses.mesh)):
         turn, move = poses.turn[o], poses.move[o]
@@ -105,4 +106,5 @@ def _line(
     along, across = (0, 1) if flat else (1, 0)
     box[along], box[along + 2] = min(box[along], first), max(box[along + 2], last)
     box[across], box[across + 2] = min(box[across], low), max(box[across + 2], high)
+    box[4] += last - first
     return count + 1

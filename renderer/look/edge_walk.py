@@ -6,17 +6,22 @@ A line counts where it can be seen: one of the two pixels beside it is as far aw
 farther. What shows through something transparent has no depth of its own in the picture; there the
 colours have to break at the line, and nowhere more beside it.
 
-Most of what is walked is hidden, and on a processor each first touch of a place in memory costs more
-than all that is worked out there: so depth is asked first, and all else is kept in the order in which
-it is found.
+Much of what is walked is hidden, and what a processor cannot guess costs it more than all that is
+worked out for a pixel: so what can be seen is put together first, and only that is looked at again.
+Arrays are taken out of their tuples before loops, which otherwise count references to them.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats32
 from seethrough.renderer.look.edge_arrays import STEPS, Lines, Picture, Room, View
+
+Halves = NDArray[np.uint16]
+Whole = NDArray[np.uint32]
 
 NEARER = 0.004  # of its depth, by which a pixel may be nearer than a line on its surface
 UNIT = 1.0 / (2**32 - 1)
@@ -30,104 +35,132 @@ FIRM = 0.1  # the same, from which on an outline through something has all of it
 def smoothed(lines: Lines, count: int, view: View, picture: Picture, room: Room) -> tuple[int, int]:
     """Smooth the picture's colours by the first `count` lines, as `view` says, and draw outlines.
     Returns the first and the last + 1 of the rows that were changed."""
-    room.counts[:] = 0
-    for k in range(count):
-        _walk(k, lines, view, picture, room)
+    steps = _walk(lines, count, view, picture, room)
+    taking = _take(steps, picture, room) if view.smooth else 0
+    inked = _ink(steps, lines, view, picture, room) if view.half > 0.0 else 0
     first, last = len(picture.depth), -1
-    for pixels, there in ((room.pixels, room.counts[0]), (room.inked, room.counts[1])):
+    for pixels, there in ((room.pixels, taking), (room.inked, inked)):
         for i in range(there):
             first, last = min(first, pixels[i]), max(last, pixels[i])
-    _apply(picture, room)
-    _draw_ink(picture, room)
+    _apply(taking, picture, room)
+    _draw_ink(inked, picture, room)
     return first // picture.row, last // picture.row + 1
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _walk(k: int, lines: Lines, view: View, picture: Picture, room: Room) -> None:
-    """Take what a line says of the pixels that it runs through."""
-    flat, through, half = lines.flat[k], lines.through[k], lines.inked[k]
-    u0, v0, w0 = lines.numbers[k, 0], lines.numbers[k, 1], lines.numbers[k, 2]
-    dv, dw, slope = lines.numbers[k, 3], lines.numbers[k, 4], lines.numbers[k, 5]
-    # Of the part of the picture: the first pixel along and across, and from one to the next.
-    left, low, along, across = picture.left, picture.below, 1, picture.row
-    wide = view.height
-    if not flat:
-        left, low, along, across, wide = low, left, across, along, view.width
-    depth, slot = picture.depth, room.slot
-    for i in range(lines.span[k, 0], lines.span[k, 1]):
-        t = (i + 0.5 - u0) * slope
-        v = v0 + t * dv
-        j = int(np.floor(v))
-        if j < 1 or j >= wide - 1:
-            continue
-        part = v - j  # of the pixel, below the line
-        aside = across if part > 0.5 else -across
-        p = (i - left) * along + (j - low) * across
-        if not through:
-            z = UNIT * max(depth[p], depth[p + aside])
-            if view.a * (w0 + t * dw) < (1.0 - NEARER) * (view.b - z):
+def _walk(lines: Lines, count: int, view: View, picture: Picture, room: Room) -> int:
+    """Find the pixels that lines run through where they can be seen. Returns how many there are.
+    Nothing branches there that a processor cannot guess."""
+    span, numbers, columns, see_through = lines.span, lines.numbers, lines.flat, lines.through
+    depth, color, decoded = picture.depth, picture.color, picture.decoded
+    line, at, beside, place, seen = room.line, room.at, room.beside, room.place, room.seen
+    steps = 0
+    for k in range(count):
+        flat, through = columns[k], see_through[k]
+        u0, v0, w0 = numbers[k, 0], numbers[k, 1], numbers[k, 2]
+        dv, dw, slope = numbers[k, 3], numbers[k, 4], numbers[k, 5]
+        # Of the part of the picture: the first pixel along and across; from one to the next.
+        left, low, along, across = picture.left, picture.below, 1, picture.row
+        wide = view.height
+        if not flat:
+            left, low, along, across, wide = low, left, across, along, view.width
+        for i in range(span[k, 0], span[k, 1]):
+            t = (i + 0.5 - u0) * slope
+            v = v0 + t * dv
+            j = int(np.floor(v))
+            if j < 1 or j >= wide - 1:
                 continue
-        part = min(part, 1.0 - part)
-        held = slot[p] - 1
-        smooths = view.smooth and part > (room.part[held] if held >= 0 else 0.0)
-        if not smooths and half == 0.0:
-            continue
-        beyond = j < wide - 2 if aside > 0 else j > 1
-        shown = 1.0
-        if through:
-            step = _breaks(picture, p, aside, beyond)
-            if step == 0.0:
-                continue
-            shown = min(step / FIRM, 1.0)
-        if smooths:
-            if held < 0:
-                held = room.counts[0]
-                room.counts[0] += 1
-                slot[p], room.pixels[held] = held + 1, p
-            room.part[held], room.aside[held] = part, aside
-        if half > 0.0 and (through or _parts(picture, p, aside, beyond)):
-            first = max(int(np.floor(v - half)), 0)
-            for q in range(first, min(int(np.ceil(v + half)), wide)):
-                covered = min(q + 1.0, v + half) - max(float(q), v - half)
-                _ink(p + (q - j) * across, shown * covered, room)
-
-
-@njit(cache=True, nogil=True, forceinline=True, error_model="numpy")
-def _ink(p: int, part: float, room: Room) -> None:
-    """Ink on a part of a pixel, unless there is more."""
-    if part > room.ink[p]:
-        if room.ink[p] == 0.0:
-            room.inked[room.counts[1]] = p
-            room.counts[1] += 1
-        room.ink[p] = part
+            p = (i - left) * along + (j - low) * across
+            aside = across if v - j > 0.5 else -across
+            line[steps], at[steps], beside[steps], place[steps] = k, p, aside, v
+            if through:
+                beyond = j < wide - 2 if aside > 0 else j > 1
+                step = _breaks(color, decoded, p, aside, beyond)
+                seen[steps] = min(step / FIRM, 1.0)
+                steps += step > 0.0
+            else:
+                z = UNIT * max(depth[p], depth[p + aside])
+                hidden = view.a * (w0 + t * dw) < (1.0 - NEARER) * (view.b - z)
+                seen[steps] = 1.0
+                steps += not hidden
+    return steps
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _apply(picture: Picture, room: Room) -> None:
-    """Give the pixels that lines run through their new colours, and make the room empty again."""
+def _take(steps: int, picture: Picture, room: Room) -> int:
+    """Find what each pixel takes of a neighbour: the largest part of all. Returns of how many."""
+    at, beside, place, slot = room.at, room.beside, room.place, room.slot
+    pixels, parts, takes = room.pixels, room.part, room.takes
+    count = 0
+    for s in range(steps):
+        part = place[s] - np.floor(place[s])
+        part, p = min(part, 1.0 - part), at[s]
+        held = slot[p] - 1
+        if part > (parts[held] if held >= 0 else 0.0):
+            if held < 0:
+                held = count
+                count += 1
+                slot[p], pixels[held] = count, p
+            parts[held], takes[held] = part, beside[s]
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _ink(steps: int, lines: Lines, view: View, picture: Picture, room: Room) -> int:
+    """Find how much of each pixel has ink. Returns of how many any has."""
+    columns, through, width = lines.flat, lines.through, lines.inked
+    depth, color, decoded = picture.depth, picture.color, picture.decoded
+    line, at, beside, place, seen = room.line, room.at, room.beside, room.place, room.seen
+    ink, inked = room.ink, room.inked
+    count = 0
+    for s in range(steps):
+        k, p, v = line[s], at[s], place[s]
+        half, aside, j = width[k], beside[s], int(np.floor(v))
+        across, wide = (picture.row, view.height) if columns[k] else (1, view.width)
+        if half == 0.0:
+            continue
+        beyond = j < wide - 2 if aside > 0 else j > 1
+        if not (through[k] or _parts(depth, color, decoded, p, aside, beyond)):
+            continue
+        low, high = v - half, v + half
+        for q in range(max(int(np.floor(low)), 0), min(int(np.ceil(high)), wide)):
+            part = seen[s] * (min(q + 1.0, high) - max(float(q), low))
+            r = p + (q - j) * across
+            if part > ink[r]:
+                inked[count] = r
+                count += ink[r] == 0.0
+                ink[r] = part
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _apply(count: int, picture: Picture, room: Room) -> None:
+    """Give so many pixels their new colours, and make the room empty again."""
     color, decoded, encoded = picture.color, picture.decoded, picture.encoded
-    for i in range(room.counts[0]):
-        p = room.pixels[i]
-        q, part = p + room.aside[i], room.part[i]
+    pixels, takes, parts, colors, slot = room.pixels, room.takes, room.part, room.colors, room.slot
+    for i in range(count):
+        p = pixels[i]
+        q, part = p + takes[i], parts[i]
         for n in range(3):
             own, other = decoded[color[p, n]], decoded[color[q, n]]
             mixed = own + part * (other - own)
-            room.colors[i, n] = encoded[int(min(max(mixed, 0.0), 1.0) * STEPS + 0.5)]
-    for i in range(room.counts[0]):
-        p = room.pixels[i]
-        room.slot[p] = 0
+            colors[i, n] = encoded[int(min(max(mixed, 0.0), 1.0) * STEPS + 0.5)]
+    for i in range(count):
+        p = pixels[i]
+        slot[p] = 0
         for n in range(3):
-            color[p, n] = room.colors[i, n]
+            color[p, n] = colors[i, n]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _draw_ink(picture: Picture, room: Room) -> None:
-    """Put the ink onto the picture, and make the room empty again."""
+def _draw_ink(count: int, picture: Picture, room: Room) -> None:
+    """Put the ink of so many pixels onto the picture, and make the room empty again."""
     color, decoded, encoded = picture.color, picture.decoded, picture.encoded
-    for i in range(room.counts[1]):
-        p = room.inked[i]
-        part = DARK * min(room.ink[p], np.float32(1.0))
-        room.ink[p] = 0.0
+    ink, inked = room.ink, room.inked
+    for i in range(count):
+        p = inked[i]
+        part = DARK * min(ink[p], np.float32(1.0))
+        ink[p] = 0.0
         for n in range(3):
             own = decoded[color[p, n]]
             mixed = min(max(own + part * (INK - own), 0.0), 1.0)
@@ -135,38 +168,33 @@ def _draw_ink(picture: Picture, room: Room) -> None:
 
 
 @njit(cache=True, nogil=True, forceinline=True)
-def _depth(picture: Picture, p: int) -> float:
-    """The buffer's number from 0 to 1."""
-    return UNIT * picture.depth[p]
-
-
-@njit(cache=True, nogil=True, forceinline=True)
-def _parts(picture: Picture, p: int, aside: int, beyond: bool) -> bool:
+def _parts(
+    depth: Whole, color: Halves, decoded: Floats32, p: int, aside: int, beyond: bool
+) -> bool:  # fmt: skip
     """Whether one surface ends between a pixel and the one `aside`: the buffer's depths, which are
     linear on a plane, jump there, or colours break. Edges that lie within a surface part nothing.
     `beyond`: whether the picture has a pixel beyond that one."""
-    here, there = _depth(picture, p), _depth(picture, p + aside)
-    before = abs(here - _depth(picture, p - aside))
-    after = abs(_depth(picture, p + 2 * aside) - there) if beyond else 0.0
+    here, there = UNIT * depth[p], UNIT * depth[p + aside]
+    before = abs(here - UNIT * depth[p - aside])
+    after = abs(UNIT * depth[p + 2 * aside] - there) if beyond else 0.0
     jump = JUMP * abs(there - here) - FLAT
-    return jump > max(before, after) or _breaks(picture, p, aside, beyond) > 0.0
+    return jump > max(before, after) or _breaks(color, decoded, p, aside, beyond) > 0.0
 
 
 @njit(cache=True, nogil=True, forceinline=True)
-def _breaks(picture: Picture, p: int, aside: int, beyond: bool) -> float:
+def _breaks(color: Halves, decoded: Floats32, p: int, aside: int, beyond: bool) -> float:
     """By how much colours break between the two pixels, 0 if they break more beside them in that
     direction, or not to be seen."""
-    step = _step(picture, p, p + aside)
-    if step < LEAST or _step(picture, p, p - aside) > step:
+    step = _step(color, decoded, p, p + aside)
+    if step < LEAST or _step(color, decoded, p, p - aside) > step:
         return 0.0
-    return 0.0 if beyond and _step(picture, p + aside, p + 2 * aside) > step else step
+    return 0.0 if beyond and _step(color, decoded, p + aside, p + 2 * aside) > step else step
 
 
 @njit(cache=True, nogil=True, forceinline=True)
-def _step(picture: Picture, p: int, q: int) -> float:
+def _step(color: Halves, decoded: Floats32, p: int, q: int) -> float:
     """The largest difference of two pixels in a channel."""
     found = 0.0
     for n in range(3):
-        own, other = picture.color[p, n], picture.color[q, n]
-        found = max(found, abs(picture.decoded[own] - picture.decoded[other]))
+        found = max(found, abs(decoded[color[p, n]] - decoded[color[q, n]]))
     return found

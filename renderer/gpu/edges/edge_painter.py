@@ -32,7 +32,7 @@ class EdgePainter:
         self._sets: dict[int, tuple[Mesh, EdgeSet]] = {}
         self._edges: dict[tuple[int, ...], edge_arrays.Edges] = {}
         self._tables = edge_arrays.tables()
-        self._lines, self._room = edge_arrays.lines(0), edge_arrays.room(0)
+        self._lines, self._room = edge_arrays.lines(0), edge_arrays.room(0, 0)
         self._color, self._depth = memoryview(bytearray()), memoryview(bytearray())
 
     def draw(
@@ -57,25 +57,20 @@ class EdgePainter:
         poses = edge_arrays.Poses(
             table.slot[objects], *self._poses(table, objects, camera), _through(frame)[objects]
         )
-        edges, around = self._joined(table), np.zeros(4, np.int64)
+        edges, around = self._joined(table), np.zeros(5, np.int64)
         most = int(np.diff(edges.starts[:, 0])[poses.mesh].sum())
         if most > len(self._lines.flat):
             self._lines = edge_arrays.lines(most)
         count = lines_of(edges, poses, view, self._lines, around)
         if count:
-            self._draw(count, view, target, _about(around, view))
+            self._draw(count, around, view, target)
 
     def _draw(
-        self, count: int, view: edge_arrays.View, target: FrameTarget, box: Box
+        self, count: int, around: Ints, view: edge_arrays.View, target: FrameTarget
     ) -> None:
-        """Draw the first so many lines, in a part of the picture (left, lower side, width and
-        height) that holds all that they change or look at."""
-        left, below, wide, high = box
-        pixels = wide * high
-        if pixels > len(self._room.slot):
-            self._room = edge_arrays.room(pixels)
-            self._color = memoryview(bytearray(8 * pixels))
-            self._depth = memoryview(bytearray(4 * pixels))
+        """Draw the first so many lines, which run `around` there (lines_of)."""
+        left, below, wide, high = box = _about(around, view)
+        self._make_room(int(around[4]), wide * high)
         read = target.framebuffer.read_into
         read(self._color, box, components=4, alignment=1, dtype="f2")
         # As whole numbers: to make others of them takes twice as long.
@@ -88,6 +83,15 @@ class EdgePainter:
         if first < last:
             rows = self._color[8 * wide * first : 8 * wide * last]
             target.color.write(rows, viewport=(left, below + first, wide, last - first))
+
+    def _make_room(self, steps: int, pixels: int) -> None:
+        """For lines of so many pixels together, and a part of the picture of so many."""
+        had = len(self._room.line), len(self._room.slot)
+        if steps > had[0] or pixels > had[1]:
+            steps, pixels = max(2 * steps, had[0]), max(pixels, had[1])
+            self._room = edge_arrays.room(steps, pixels)
+            self._color = memoryview(bytearray(8 * pixels))
+            self._depth = memoryview(bytearray(4 * pixels))
 
     def _poses(
         self, table: SceneTable, objects: NDArray[np.int64], camera: Camera
@@ -133,7 +137,7 @@ def _about(around: Ints, view: edge_arrays.View) -> Box:
     """Left, lower side, width and height of what lines that run within `around` change or look at:
     two pixels beside them, and what has ink."""
     margin = 2 + math.ceil(math.sqrt(2) * view.half)
-    left, below, right, above = around.tolist()
+    left, below, right, above = around[:4].tolist()
     left, below = max(left - margin, 0), max(below - margin, 0)
     right, above = min(right + margin, view.width), min(above + margin, view.height)
     return left, below, right - left, above - below
