@@ -14,12 +14,15 @@ STEPS = 4096  # of a colour between 0 and 1, when it becomes a 16-bit float agai
 
 
 class Edges(NamedTuple):
-    """Meshes' edges one after the other: ends (e, 2, 3), sides (e, 2), crease (e,), planes (f, 4),
-    and where each mesh's edges and planes begin (m + 1, 2)."""
+    """Meshes' edges one after the other: ends (e, 2, 3), sides (e, 2), crease (e,): 1 or 0, planes
+    (f, 4), and where each mesh's edges and planes begin (m + 1, 2).
+
+    Numbers without a sign: of others code would ask, edge by edge, whether they count from the end.
+    """
 
     ends: Floats
-    sides: NDArray[np.int32]
-    crease: Bools
+    sides: NDArray[np.uint32]
+    crease: NDArray[np.uint8]
     planes: Floats
     starts: Ints
 
@@ -52,6 +55,10 @@ class View(NamedTuple):
 
 Point: TypeAlias = tuple[float, float, float]
 """Right, up and depth, as the camera has it."""
+
+
+Box: TypeAlias = tuple[int, int, int, int]
+"""Four numbers of pixels."""
 
 
 class Lines(NamedTuple):
@@ -104,7 +111,7 @@ class Room(NamedTuple):
 
     Where lines are seen, in the order in which they are walked (s,): which line, in which pixel,
     how far off the neighbour is that it runs nearer to, how far across, and how much of the line is
-    seen. Of pixels that take a part of a neighbour, in the order in which they were found (p,):
+    seen if it is of what may show through others. Of pixels that take a part of a neighbour, in the order in which they were found (p,):
     where, how far off the neighbour is, the part, and the new colour (p, 3). slot (p,): 1 + where
     each pixel of the picture stands in that order, all 0 between frames. How much of a pixel has
     ink (p,), all 0 between frames, and the pixels that have any (p,).

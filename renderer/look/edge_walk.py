@@ -81,7 +81,6 @@ def _walk(lines: Lines, count: int, view: View, picture: Picture, room: Room) ->
             else:
                 z = UNIT * max(depth[p], depth[p + aside])
                 hidden = view.a * (w0 + t * dw) < (1.0 - NEARER) * (view.b - z)
-                seen[steps] = 1.0
                 steps += not hidden
     return steps
 
@@ -122,9 +121,10 @@ def _ink(steps: int, lines: Lines, view: View, picture: Picture, room: Room) -> 
         beyond = j < wide - 2 if aside > 0 else j > 1
         if not (through[k] or _parts(depth, color, decoded, p, aside, beyond)):
             continue
+        shown = seen[s] if through[k] else 1.0
         low, high = v - half, v + half
         for q in range(max(int(np.floor(low)), 0), min(int(np.ceil(high)), wide)):
-            part = seen[s] * (min(q + 1.0, high) - max(float(q), low))
+            part = shown * (min(q + 1.0, high) - max(float(q), low))
             r = p + (q - j) * across
             if part > ink[r]:
                 inked[count] = r

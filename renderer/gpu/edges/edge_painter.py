@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Bools, Floats, Ints
+from seethrough.renderer.arrays import Bools, Floats
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.lens import tight
 from seethrough.renderer.look import edge_arrays
+from seethrough.renderer.look.edge_arrays import Box
 from seethrough.renderer.look.edge_lines import lines_of
 from seethrough.renderer.look.edge_set import EdgeSet, edge_set
 from seethrough.renderer.look.edge_walk import smoothed
 from seethrough.renderer.plan.planner import UNSEEN, FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
-
-Box: TypeAlias = tuple[int, int, int, int]
 
 
 class EdgePainter:
@@ -57,20 +55,20 @@ class EdgePainter:
         poses = edge_arrays.Poses(
             table.slot[objects], *self._poses(table, objects, camera), _through(frame)[objects]
         )
-        edges, around = self._joined(table), np.zeros(5, np.int64)
+        edges = self._joined(table)
         most = int(np.diff(edges.starts[:, 0])[poses.mesh].sum())
         if most > len(self._lines.flat):
             self._lines = edge_arrays.lines(most)
-        count = lines_of(edges, poses, view, self._lines, around)
+        count, pixels, around = lines_of(edges, poses, view, self._lines)
         if count:
-            self._draw(count, around, view, target)
+            box = _about(around, view)
+            self._make_room(pixels, box[2] * box[3])
+            self._draw(count, view, target, box)
 
-    def _draw(
-        self, count: int, around: Ints, view: edge_arrays.View, target: FrameTarget
-    ) -> None:
-        """Draw the first so many lines, which run `around` there (lines_of)."""
-        left, below, wide, high = box = _about(around, view)
-        self._make_room(int(around[4]), wide * high)
+    def _draw(self, count: int, view: edge_arrays.View, target: FrameTarget, box: Box) -> None:
+        """Draw the first so many lines, which look at a part of the picture alone (left, lower
+        side, width, height)."""
+        left, below, wide, high = box
         read = target.framebuffer.read_into
         read(self._color, box, components=4, alignment=1, dtype="f2")
         # As whole numbers: to make others of them takes twice as long.
@@ -113,8 +111,10 @@ class EdgePainter:
                 sets.append(self._sets[id(mesh.mesh)][1])
             sizes = np.array([[len(s.ends), len(s.planes)] for s in sets])
             self._edges = {key: edge_arrays.Edges(
-                np.concatenate([s.ends for s in sets]), np.concatenate([s.sides for s in sets]),
-                np.concatenate([s.crease for s in sets]), np.concatenate([s.planes for s in sets]),
+                np.concatenate([s.ends for s in sets]),
+                np.concatenate([s.sides for s in sets]).astype(np.uint32),
+                np.concatenate([s.crease for s in sets]).astype(np.uint8),
+                np.concatenate([s.planes for s in sets]),
                 np.concatenate([np.zeros((1, 2), np.int64), np.cumsum(sizes, axis=0)]),
             )}  # fmt: skip
         return self._edges[key]
@@ -133,11 +133,11 @@ def _through(frame: FramePlan) -> Bools:
     return through
 
 
-def _about(around: Ints, view: edge_arrays.View) -> Box:
+def _about(around: Box, view: edge_arrays.View) -> Box:
     """Left, lower side, width and height of what lines that run within `around` change or look at:
     two pixels beside them, and what has ink."""
     margin = 2 + math.ceil(math.sqrt(2) * view.half)
-    left, below, right, above = around[:4].tolist()
+    left, below, right, above = around
     left, below = max(left - margin, 0), max(below - margin, 0)
     right, above = min(right + margin, view.width), min(above + margin, view.height)
     return left, below, right - left, above - below
