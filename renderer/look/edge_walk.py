@@ -126,10 +126,9 @@ def _ink(steps: int, lines: Lines, view: View, picture: Picture, room: Room) -> 
         for q in range(max(int(np.floor(low)), 0), min(int(np.ceil(high)), wide)):
             part = shown * (min(q + 1.0, high) - max(float(q), low))
             r = p + (q - j) * across
-            if part > ink[r]:
-                inked[count] = r
-                count += ink[r] == 0.0
-                ink[r] = part
+            inked[count] = r
+            count += (ink[r] == 0.0) & (part > 0.0)
+            ink[r] = max(ink[r], np.float32(part))
     return count
 
 
