@@ -46,6 +46,8 @@ class EdgePainter:
         both."""
         # What no doorway shows can have no line that is seen, and is most of a building.
         objects = np.nonzero(frame.boxes.inside & (frame.reasons != UNSEEN))[0]
+        if not len(objects):
+            return
         lens = tight(camera, frame)
         near, deep = lens.near, lens.far - lens.near
         view = edge_arrays.View(
@@ -61,7 +63,7 @@ class EdgePainter:
             self._lines = edge_arrays.lines(most)
         count, pixels, around = lines_of(edges, poses, view, self._lines)
         if count:
-            box = _about(around, view)
+            box = about(around, view)
             self._make_room(pixels, box[2] * box[3])
             self._draw(count, view, target, box)
 
@@ -133,7 +135,7 @@ def _through(frame: FramePlan) -> Bools:
     return through
 
 
-def _about(around: Box, view: edge_arrays.View) -> Box:
+def about(around: Box, view: edge_arrays.View) -> Box:
     """Left, lower side, width and height of what lines that run within `around` change or look at:
     two pixels beside them, and what has ink."""
     margin = 2 + math.ceil(math.sqrt(2) * view.half)
