@@ -111,10 +111,11 @@ class Room(NamedTuple):
 
     Where lines are seen, in the order in which they are walked (s,): which line, in which pixel,
     how far off the neighbour is that it runs nearer to, how far across, and how much of the line is
-    seen if it is of what may show through others. Of pixels that take a part of a neighbour, in the order in which they were found (p,):
-    where, how far off the neighbour is, the part, and the new colour (p, 3). slot (p,): 1 + where
-    each pixel of the picture stands in that order, all 0 between frames. How much of a pixel has
-    ink (p,), all 0 between frames, and the pixels that have any (p,).
+    seen if it is of what may show through others. Of pixels that take a part of a neighbour, in the
+    order in which they were found (p,): where, how far off the neighbour is, the part, and the new
+    colour (p, 3). slot (p,): 1 + where each pixel of the part stands in that order, all 0 between
+    frames. How much of a pixel has ink (p,), all 0 between frames, and the pixels that have any
+    (p,).
     """
 
     line: NDArray[np.int32]
@@ -133,9 +134,9 @@ class Room(NamedTuple):
 
 def room(steps: int, pixels: int) -> Room:
     """For lines of so many pixels together, in parts of a picture of no more than so many."""
-    each = np.zeros((3, steps + 1), np.int32)
+    line, at, beside = np.zeros((3, steps + 1), np.int32)
     return Room(
-        *each, np.zeros(steps + 1), np.zeros(steps + 1),
+        line, at, beside, np.zeros(steps + 1), np.zeros(steps + 1),
         np.zeros(pixels, np.int32), np.zeros(pixels, np.int32), np.zeros(pixels, np.int32),
         np.zeros(pixels, np.float32), np.zeros((pixels, 3), np.uint16),
         np.zeros(pixels, np.float32), np.zeros(pixels + 1, np.int32),

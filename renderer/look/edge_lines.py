@@ -61,7 +61,8 @@ def lines_of(edges: Edges, poses: Poses, view: View, out: Lines) -> tuple[int, i
             count += 1
             pixels += last - first
             x0, y0, x1, y1 = (first, low, last, high) if flat else (low, first, high, last)
-            left, below, right, above = min(left, x0), min(below, y0), max(right, x1), max(above, y1)
+            left, below = min(left, x0), min(below, y0)
+            right, above = max(right, x1), max(above, y1)
     return count, pixels, (left, below, right, above)
 
 

@@ -70,7 +70,7 @@ class EdgePainter:
     def _draw(self, count: int, view: edge_arrays.View, target: FrameTarget, box: Box) -> None:
         """Draw the first so many lines, which look at a part of the picture alone (left, lower
         side, width, height)."""
-        left, below, wide, high = box
+        left, below, wide = box[:3]
         read = target.framebuffer.read_into
         read(self._color, box, components=4, alignment=1, dtype="f2")
         # As whole numbers: to make others of them takes twice as long.
