@@ -10,6 +10,7 @@ import pytest
 
 from seethrough.benchmarks.drawing.looks import errors
 from seethrough.experiment.suites import technique_scenes
+from seethrough.renderer.gpu.edges import edge_painter
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.look.dressed import dressed
 from seethrough.renderer.look.edge_set import edge_set
@@ -138,6 +139,20 @@ def test_lines_that_the_near_plane_cuts_and_pictures_without_any(renderer):
     assert np.array_equal(drawn(renderer, empty), drawn(renderer, Scene(())))
 
 
+@pytest.mark.parametrize("way", ["standard", "dynamic"])
+@pytest.mark.parametrize("look", [EDGES, Look(outlines=6.0, antialiasing="edges")])
+def test_no_more_of_a_picture_is_looked_at_than_lines_need(context, monkeypatch, way, look):
+    """Against the whole of it, read and written: not a pixel is another."""
+    part, whole = (Renderer(context, SIZE) for _ in range(2))
+    for case in ("scattered 1", "room"):
+        scene, camera = dressed(CASES[case].scene, look), CASES[case].camera
+        one = drawn(part, scene, way, camera)
+        with monkeypatch.context() as patched:
+            patched.setattr(edge_painter, "about", lambda *_: (0, 0, *SIZE))
+            assert np.array_equal(one, drawn(whole, scene, way, camera))
+        assert (one != drawn(part, CASES[case].scene, way, camera)).any()
+
+
 def test_samples_are_the_looks_where_it_says_so(context):
     """And the renderer's, as display.samples has it, where it says auto."""
     scene = Scene((Object(geometry.box(3, 3, 3), transforms.rotation_z(0.3), (0, 0, 0)),))
@@ -154,7 +169,7 @@ def test_samples_are_the_looks_where_it_says_so(context):
 
 
 @pytest.mark.parametrize("turn", [0.03, 0.3, 0.75, 1.2])
-@pytest.mark.parametrize("width", [1.0, 2.5])
+@pytest.mark.parametrize("width", [1.0, 2.5, 11.0])
 def test_an_outline_is_as_wide_as_it_says(renderer, turn, width):
     """Down a column (or along a row) a line of width w covers w / cos of its slope."""
     plate = geometry.box(4.0, 4.0, 0.2)

@@ -162,6 +162,26 @@ def test_looks_are_the_same(renderers, look):
         assert np.array_equal(short, long)
 
 
+def test_lines_of_what_no_doorway_shows_do_not_shine_through_walls(context):
+    """What stands against a far wall's other side is no farther off than lines on it may be. Where
+    leaving that out changes a smoothed picture it comes nearer to sixteen samples a pixel."""
+    wide, high = size = (480, 360)
+    both = [Renderer(context, size, without=w) for w in ({"still"}, {"still", "rooms"})]
+    fine = Renderer(context, (4 * wide, 4 * high), window=high)
+    off, pixels = np.zeros(2), 0
+    for place in (anywhere, in_a_wall):
+        for scene, camera in cameras(place, "published"):
+            found = pictures(both, dressed(scene, LOOKS[2]), camera, Standard())
+            at = (found[0] != found[1]).any(axis=2)
+            if at.any():
+                fine.draw(scene, camera, Standard())
+                want = fine.read().reshape(high, 4, wide, 4, 3).mean(axis=(1, 3))
+                off += [np.abs(one - want)[at].sum() for one in found]
+                pixels += int(at.sum())
+    assert 0 < pixels < 1e-5 * 2 * POSES * wide * high
+    assert off[0] < 0.5 * off[1]
+
+
 def test_a_plan_says_what_no_doorway_shows():
     """And it can be told to draw everything."""
     building = house("published")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +13,11 @@ from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.lens import tight
 from seethrough.renderer.look import edge_arrays
+from seethrough.renderer.look.edge_arrays import Box
+from seethrough.renderer.look.edge_lines import lines_of
 from seethrough.renderer.look.edge_set import EdgeSet, edge_set
 from seethrough.renderer.look.edge_walk import smoothed
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.planner import UNSEEN, FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
 
@@ -24,10 +28,10 @@ class EdgePainter:
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._sets: dict[int, tuple[Mesh, EdgeSet]] = {}
-        self._lines: dict[tuple[int, ...], edge_arrays.Lines] = {}
+        self._edges: dict[tuple[int, ...], edge_arrays.Edges] = {}
         self._tables = edge_arrays.tables()
-        self._room = edge_arrays.room((1, 1))
-        self._color = self._depth = bytearray()
+        self._lines, self._room = edge_arrays.lines(0), edge_arrays.room(0, 0)
+        self._color, self._depth = memoryview(bytearray()), memoryview(bytearray())
 
     def draw(
         self,
@@ -37,39 +41,57 @@ class EdgePainter:
         target: FrameTarget,
         smooth: bool,
         width: float,
-    ) -> int:
+    ) -> None:
         """Smooth what was drawn into the target, or draw outlines so many pixels wide into it, or
-        both. Returns how many pixels were changed."""
-        objects = np.nonzero(frame.boxes.inside)[0]
+        both."""
+        # What no doorway shows can have no line that is seen, and is most of a building.
+        objects = np.nonzero(frame.boxes.inside & (frame.reasons != UNSEEN))[0]
         if not len(objects):
-            return 0
-        left, below, wide, high = box = _about(frame.boxes.extents[objects], target.size)
-        if self._room.best.shape != (high, wide):
-            self._room = edge_arrays.room((wide, high))
-            self._color, self._depth = bytearray(8 * wide * high), bytearray(4 * wide * high)
+            return
+        lens = tight(camera, frame)
+        near, deep = lens.near, lens.far - lens.near
+        view = edge_arrays.View(
+            1 / camera.pixel(target.size[1]), *target.size, near, near * lens.far / deep,
+            lens.far / deep, smooth, width / 2,
+        )  # fmt: skip
+        poses = edge_arrays.Poses(
+            table.slot[objects], *self._poses(table, objects, camera), _through(frame)[objects]
+        )
+        edges = self._joined(table)
+        most = int(np.diff(edges.starts[:, 0])[poses.mesh].sum())
+        if most > len(self._lines.flat):
+            self._lines = edge_arrays.lines(most)
+        count, pixels, around = lines_of(edges, poses, view, self._lines)
+        if count:
+            box = about(around, view)
+            self._make_room(pixels, box[2] * box[3])
+            self._draw(count, view, target, box)
+
+    def _draw(self, count: int, view: edge_arrays.View, target: FrameTarget, box: Box) -> None:
+        """Draw the first so many lines, which look at a part of the picture alone (left, lower
+        side, width, height)."""
+        left, below, wide = box[:3]
         read = target.framebuffer.read_into
         read(self._color, box, components=4, alignment=1, dtype="f2")
         # As whole numbers: to make others of them takes twice as long.
         read(self._depth, box, components=1, alignment=1, attachment=-1, dtype="u4")
         picture = edge_arrays.Picture(
-            np.frombuffer(self._color, np.uint16).reshape(high, wide, 4),
-            np.frombuffer(self._depth, np.uint32).reshape(high, wide), *self._tables,
+            np.frombuffer(self._color, np.uint16).reshape(-1, 4),
+            np.frombuffer(self._depth, np.uint32), left, below, wide, *self._tables,
         )  # fmt: skip
-        through = _through(frame)
-        poses = edge_arrays.Poses(
-            table.slot[objects], *self._poses(table, objects, camera), through[objects]
-        )
-        lens = tight(camera, frame)
-        near, deep = lens.near, lens.far - lens.near
-        view = edge_arrays.View(
-            1 / camera.pixel(target.size[1]), 0.5 * target.size[0] - left,
-            0.5 * target.size[1] - below, near, near * lens.far / deep, lens.far / deep,
-            smooth, width / 2,
-        )  # fmt: skip
-        changed = smoothed(self._joined(table), poses, view, picture, self._room)
-        if changed:
-            target.color.write(self._color, viewport=box)
-        return changed
+        first, last = smoothed(self._lines, count, view, picture, self._room)
+        if first < last:
+            rows = self._color[8 * wide * first : 8 * wide * last]
+            target.color.write(rows, viewport=(left, below + first, wide, last - first))
+
+    def _make_room(self, steps: int, pixels: int) -> None:
+        """For lines of so many pixels together, and a part of the picture of so many."""
+        had = len(self._room.line), len(self._room.slot)
+        if steps > had[0] or pixels > had[1]:
+            steps, pixels = max(2 * steps, had[0]), max(pixels, had[1])
+            self._room = edge_arrays.room(steps, pixels)
+            self._color = memoryview(bytearray(8 * pixels))
+            self._depth = memoryview(bytearray(4 * pixels))
 
     def _poses(
         self, table: SceneTable, objects: NDArray[np.int64], camera: Camera
@@ -80,22 +102,24 @@ class EdgePainter:
         eyes = np.einsum("kij,kj->ki", table.inverse[objects], camera.eye - matrix[:, :3, 3])
         return eyes, turns, moves
 
-    def _joined(self, table: SceneTable) -> edge_arrays.Lines:
+    def _joined(self, table: SceneTable) -> edge_arrays.Edges:
         """The edges of a scene's meshes."""
         key = tuple(id(mesh.mesh) for mesh in table.meshes)
-        if key not in self._lines:
+        if key not in self._edges:
             sets = []
             for mesh in table.meshes:
                 if id(mesh.mesh) not in self._sets:
                     self._sets[id(mesh.mesh)] = mesh.mesh, edge_set(mesh.mesh)
                 sets.append(self._sets[id(mesh.mesh)][1])
             sizes = np.array([[len(s.ends), len(s.planes)] for s in sets])
-            self._lines = {key: edge_arrays.Lines(
-                np.concatenate([s.ends for s in sets]), np.concatenate([s.sides for s in sets]),
-                np.concatenate([s.crease for s in sets]), np.concatenate([s.planes for s in sets]),
+            self._edges = {key: edge_arrays.Edges(
+                np.concatenate([s.ends for s in sets]),
+                np.concatenate([s.sides for s in sets]).astype(np.uint32),
+                np.concatenate([s.crease for s in sets]).astype(np.uint8),
+                np.concatenate([s.planes for s in sets]),
                 np.concatenate([np.zeros((1, 2), np.int64), np.cumsum(sizes, axis=0)]),
             )}  # fmt: skip
-        return self._lines[key]
+        return self._edges[key]
 
 
 def _through(frame: FramePlan) -> Bools:
@@ -111,11 +135,11 @@ def _through(frame: FramePlan) -> Bools:
     return through
 
 
-def _about(extents: Floats, size: tuple[int, int]) -> tuple[int, int, int, int]:
-    """Left, lower side, width and height of what is about all extents. Widths are multiples of 64:
-    room of another size has to be made anew."""
-    low = np.clip(np.floor(extents[:, :2].min(axis=0)) - 2, 0, size)
-    high = np.clip(np.ceil(extents[:, 2:].max(axis=0)) + 2, 0, size)
-    left, top = (int(v) // 64 * 64 for v in low)
-    right, bottom = (min(-(-int(v) // 64) * 64, s) for v, s in zip(high, size, strict=True))
-    return left, size[1] - bottom, right - left, bottom - top
+def about(around: Box, view: edge_arrays.View) -> Box:
+    """Left, lower side, width and height of what lines that run within `around` change or look at:
+    two pixels beside them, and what has ink."""
+    margin = 2 + math.ceil(math.sqrt(2) * view.half)
+    left, below, right, above = around
+    left, below = max(left - margin, 0), max(below - margin, 0)
+    right, above = min(right + margin, view.width), min(above + margin, view.height)
+    return left, below, right - left, above - below
