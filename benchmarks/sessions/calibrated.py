@@ -55,10 +55,7 @@ A profile interval: how far a constant may go while all others make the best of 
 objective has risen by what a 95 % interval allows. The ends are found with the slopes at the fit,
 played, and moved nearer where more happens than slopes say. A rise of 1, played, is an interval's
 end; more says that the interval is narrower still, less that it is wider. An end may be the limit
-of what may be fitted.
-
-The table was printed before ends were moved: where it says far more than 1, the interval is a
-bound, and too wide.""",
+of what may be fitted.""",
 }
 
 
