@@ -121,25 +121,30 @@ BLOCK = 16  # pixels of a picture that are looked at together
 
 @njit(cache=True)
 def block_bounds(picture: Floats32, extents: Floats) -> tuple[Floats, Floats]:
-    """The least and the greatest (rows, columns) of each block of a (h, w) picture, in the rows of
-    blocks that any of its parts (k, 4: left, top, right, bottom in pixels) reaches; of other rows
-    ∞ and −∞."""
+    """The least and the greatest (rows, columns) of each block of a (h, w) picture, in the rows and
+    columns of blocks that any of its parts (k, 4: left, top, right, bottom in pixels) reaches; of
+    others ∞ and −∞."""
     height, width = picture.shape
     rows, columns = (height + BLOCK - 1) // BLOCK, (width + BLOCK - 1) // BLOCK
     low, high = np.full((rows, columns), np.inf), np.full((rows, columns), -np.inf)
-    first, last = rows, 0
+    first, last, left, right = rows, 0, columns, 0
     for k in range(len(extents)):
         first = min(first, int(min(max(extents[k, 1] - 1, 0.0), height)) // BLOCK)
         last = max(last, int(max(min(extents[k, 3] + 1, height - 1.0), -1.0)) // BLOCK + 1)
+        left = min(left, int(min(max(extents[k, 0] - 1, 0.0), width)) // BLOCK)
+        right = max(right, int(max(min(extents[k, 2] + 1, width - 1.0), -1.0)) // BLOCK + 1)
+    begin, end = left * BLOCK, min(right * BLOCK, width)
     for i in range(first, last):
-        least, most = picture[i * BLOCK].copy(), picture[i * BLOCK].copy()
+        least = picture[i * BLOCK, begin:end].copy()
+        most = least.copy()
         for r in range(i * BLOCK + 1, min(i * BLOCK + BLOCK, height)):
-            for c in range(width):
-                value = picture[r, c]
+            row = picture[r, begin:end]
+            for c in range(len(row)):
+                value = row[c]
                 least[c] = value if value < least[c] else least[c]
                 most[c] = value if value > most[c] else most[c]
-        for c in range(width):
-            j = c // BLOCK
+        for c in range(len(least)):
+            j = left + c // BLOCK
             low[i, j], high[i, j] = min(low[i, j], least[c]), max(high[i, j], most[c])
     return low, high
 

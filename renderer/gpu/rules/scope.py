@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
+from math import ceil, floor
 
 from seethrough.renderer.errors import CannotDraw
 from seethrough.renderer.plan.planner import FramePlan
@@ -14,8 +14,10 @@ Scope = tuple[int, int, int, int]  # as OpenGL has it: x, y (up), width, height
 def scope_of(frame: FramePlan, size: tuple[int, int]) -> Scope:
     """The rectangle about the plan's ruled objects, in pixels, at least one of them."""
     boxes = frame.boxes.extents[frame.ruled]
-    left, top = np.clip(np.floor(boxes[:, :2].min(axis=0)) - 1, 0, size).astype(int).tolist()
-    right, bottom = np.clip(np.ceil(boxes[:, 2:].max(axis=0)) + 1, 0, size).astype(int).tolist()
+    low, high = boxes[:, :2].min(axis=0).tolist(), boxes[:, 2:].max(axis=0).tolist()
+    # As plain numbers: numpy takes as long for four of them as for all boxes.
+    left, top = (max(floor(min(max(x, 0), s + 1)) - 1, 0) for x, s in zip(low, size, strict=True))
+    right, bottom = (min(ceil(min(max(x, -1), s)) + 1, s) for x, s in zip(high, size, strict=True))
     return (left, size[1] - bottom, max(right - left, 1), max(bottom - top, 1))
 
 
