@@ -236,9 +236,8 @@ def _ruled(frame: FramePlan, touched: Bools, shot: Shot) -> FramePlan:
     if not ruled.any():
         return _in_rooms(frame, shot.scene, shot.camera, shot.size)
     reasons = np.where(touched & (frame.reasons == OPAQUE), RULED, frame.reasons)
-    opaque = frame.opaque
-    frame = replace(frame, opaque=opaque[~ruled], ruled=opaque[ruled])
-    return replace(frame, reasons=reasons, shot=shot)
+    rest, own = frame.opaque[~ruled], frame.opaque[ruled]
+    return replace(frame, opaque=rest, ruled=own, reasons=reasons, shot=shot)
 
 
 def _fit(scene: Scene, technique: DynamicTransparency) -> Bools:
