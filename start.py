@@ -357,11 +357,8 @@ def children() -> list[int]:
 
 
 def run_tests(words: list[str]) -> int:
-    """pytest, for two cores; its closing line is the last one printed, and no process is left.
-
-    Three at a time: what is played in a window waits for half of its time.
-    """
-    command = [PYTHON, "-m", "pytest", "-n", "3", "--dist", "loadscope", *words]
+    """pytest on two cores; its closing line is the last one printed, and no process is left."""
+    command = [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadscope", *words]
     linux = sys.platform == "linux"
     if linux:
         set_child_subreaper = 36  # what our descendants leave behind becomes our child
