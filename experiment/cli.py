@@ -139,6 +139,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         if not _is_interrupt(error):
             raise
         kept = "; every completed trial is saved" if {*words} & SAVING else ""
+        # Python remembers that Ctrl-C came out of a string of code, as dataclasses are made of, and
+        # would end by the signal whatever is returned here. The next string makes it forget.
+        exec("")
         return _failed([f"interrupted{kept}"], 130)
     except OSError as error:
         if streams.reader_is_gone():

@@ -124,3 +124,16 @@ def test_ctrl_c_is_one_line(tmp_path, words, begun):
             process.wait()
     said = [line for line in err.read_text().splitlines() if " after " not in line]
     assert len(said) == 1 and said[0].startswith("seethrough: interrupted"), err.read_text()
+
+
+def test_ctrl_c_in_a_string_of_code_has_its_status(tmp_path):
+    """As modules make their dataclasses: run by `python -m`, it would end by the signal instead."""
+    (tmp_path / "interrupted.py").write_text(
+        "import sys; from seethrough.experiment import cli\n"
+        "def run(words): exec('raise KeyboardInterrupt')\n"
+        "cli._run = run; sys.exit(cli.main([]))",
+        "utf-8",
+    )
+    command = [sys.executable, "-m", "interrupted"]
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (130, "seethrough: interrupted\n")
