@@ -34,7 +34,7 @@ from seethrough.renderer.techniques.standard.opaque import Standard
 
 SIZES = ((800, 600), (1280, 1024))
 VIEWS, TURNS = 6, 4
-LEAST = 1.5  # of a few turns of quick frames the least differs by a tenth from run to run
+LEAST = 1.5  # s: of a few turns of quick frames the least differs by a tenth from run to run
 # What a dynamic frame may cost, over the standard one, on a software rasteriser: (must, aim).
 COSTS = {"abstract": (2.0, 1.7), "walkthrough": (2.0, 1.5), "jeep": (2.0, 1.7)}
 COSTS_OF_LARGE = {**COSTS, "jeep": (2.3, 1.7)}  # at the larger of SIZES
@@ -168,7 +168,7 @@ def _of_many_targets(context: Context) -> Iterator[Figure]:
         cameras,
         context,
     )
-    yield row("200 targets / 20", "abstract 800×600", spent["200"] / spent["20"], "×", 3, 1.5)
+    yield row("200 targets / 20", "abstract 800×600", spent["200"] / spent["20"], "×", 2.5, 1.5)
 
 
 def _of_plan() -> Figure:
