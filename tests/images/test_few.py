@@ -4,14 +4,18 @@ against the exact picture, with masks that they look up themselves and with mask
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from sample_scenes import SHAPES
 
+from seethrough.renderer.gpu.device.outlines import Outlines
 from seethrough.renderer.gpu.per_pixel import exact_painter
 from seethrough.renderer.gpu.per_pixel.few_sorter import MASKS, SLICES, FewSorter
 from seethrough.renderer.gpu.renderer import Renderer
+from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.reference.reference import exact
 from seethrough.renderer.scene import transforms
 from seethrough.renderer.scene.camera import look_at
@@ -22,6 +26,7 @@ SIZE = (101, 77)  # ends within a block on two sides
 EXACT = DynamicTransparency(width=6, exact=True)
 CAMERA = look_at(np.array([0.0, 0.0, 12.0]), np.zeros(3), fov_y=0.6, near=1.0, far=60.0)
 TORUS = 3
+SMALL = np.array([[0.6, 0.6, 0.6, 1.0]] * 3 + [[1.0] * 4])  # times a transform: a smaller thing
 
 
 def world(seed, count, targets, shapes=(0, 2, TORUS), hard=0.0, target_shape=TORUS):
@@ -144,3 +149,30 @@ def test_of_coincident_objects_the_later_is_in_front(context, seed):
     shown = (pictures[1][..., 2] > pictures[1][..., 0] + 20).sum()  # blue
     assert shown > 2000
     assert wrong < 0.02 * shown
+
+
+def test_each_of_several_parts_shows_its_own(context):
+    """A heap of things on either side, of which one has more than the other."""
+    things = [
+        replace(thing, transform=transforms.translation(x, 0, 0) @ thing.transform * SMALL)
+        for x, heap in ((-2.4, world(1, 4, 1)), (2.4, world(2, 9, 2)))
+        for thing in heap.objects
+    ]
+    scene = Scene(tuple(things))
+    assert len(plan(scene, CAMERA, EXACT, SIZE).exact) == 2
+    assert difference(context, scene, EXACT).max() <= 1.0
+
+
+@pytest.mark.parametrize("few", [0, 10**9])
+def test_what_is_found_beside_the_drawing_is_waited_for(context, monkeypatch, few):
+    """Of many triangles another thread finds what they cover: here one that only then begins."""
+    begun = []
+
+    def late(outlines, kernel, *args):
+        begun.append(kernel)
+        return SimpleNamespace(result=partial(kernel, *args))
+
+    monkeypatch.setattr(exact_painter, "FEW", few)
+    monkeypatch.setattr(Outlines, "beside", late)
+    assert difference(context, world(3, 9, 2), EXACT).max() <= 1.0
+    assert bool(begun) == (few == 0)

@@ -131,10 +131,8 @@ class ExactPainter:
         for part in parts:
             shown = _shown(job, part)
             cells = int(max(shown.which.max(initial=0), shown.mask.max(initial=0))) + 1
-            cut = bands(part, cells, self._tallest)
-            if len(cut) == 1:
-                self._known[part.tobytes()] = shown
-            rows += [(band, cells) for band in cut]
+            self._known[part.tobytes()] = shown  # what is not cut into bands is asked for again
+            rows += [(band, cells) for band in bands(part, cells, self._tallest)]
         batch: list[NDArray[np.int64]] = []
         used, size = 0, np.zeros(2, np.int64)
         for part, cells in rows:

@@ -50,13 +50,15 @@ def test_rows_hold_what_each_pixel_says(seed, margin, jagged):
 
 @pytest.mark.parametrize("seed", range(6))
 def test_bounds_hold_what_lies_in_a_part(seed):
-    """Also of parts that reach out of the picture; of those outside nothing is known."""
+    """Asked together or alone, also if they reach out of the picture; of those outside nothing is
+    known."""
     rng = np.random.default_rng(seed)
     picture = rng.uniform(1, 9, (HEIGHT, WIDTH)).astype(np.float32)
     low = rng.uniform(-60, (WIDTH + 40, HEIGHT + 40), (5, 2))
     parts = np.concatenate([low, low + rng.uniform(0, 30, (5, 2))], axis=1)
+    alone = np.concatenate([bounds(picture, part[None]) for part in parts])
     for (least, most), (left, top, right, bottom) in zip(
-        bounds(picture, parts), parts, strict=True
+        [*bounds(picture, parts), *alone], [*parts, *parts], strict=True
     ):
         rows = slice(max(int(top), 0), max(int(bottom) + 1, 0))
         seen = picture[rows, max(int(left), 0) : max(int(right) + 1, 0)]
