@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +12,17 @@ from seethrough.renderer.plan import doubt as doubts
 from seethrough.renderer.plan import levels, order
 
 MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
+
+
+class Ordered(NamedTuple):
+    """The level of each object and of each mask (levels.levels), whether an order was `broken`;
+    the parts that are `doubtful` (k, 4), and whether these are so `much` that all is sorted."""
+
+    of_object: Ints
+    of_mask: Ints
+    broken: bool
+    doubtful: Floats
+    much: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +47,17 @@ class Blending:
             self.seen, self.extents, self.reach, self.relation, self.blended, self.masked
         )
 
-    def levels(self) -> tuple[Ints, Ints, Bools]:
-        """See levels.levels."""
-        return levels.levels(self._related)
+    def ordered(self, size: tuple[int, int], doubt: float, part_by_part: bool) -> Ordered:
+        """Everything in levels, as far as that is wanted: not of what is sorted by pixel anyway,
+        if that may be done `part_by_part`."""
+        doubtful, much = self.doubtful(np.zeros_like(self.uncertain), size, doubt)
+        none = np.zeros(0, np.int64)
+        if much and part_by_part:
+            return Ordered(none, none, False, doubtful, True)
+        of_object, of_mask, broken = levels.levels(self._related)
+        if broken.any():
+            doubtful, much = self.doubtful(broken, size, doubt)
+        return Ordered(of_object, of_mask, bool(broken.any()), doubtful, much and part_by_part)
 
     def doubtful(self, broken: Bools, size: tuple[int, int], doubt: float) -> tuple[Floats, bool]:
         """The parts to sort by pixel, and whether they are so much that all masks may be.

@@ -17,8 +17,9 @@ import numpy as np
 
 from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.masks import masks
-from seethrough.renderer.plan import clusters, levels, order
+from seethrough.renderer.plan import clusters, crossing, levels, order
 from seethrough.renderer.plan.blending import Blending, merged_parts
+from seethrough.renderer.plan.doubt import union
 from seethrough.renderer.plan.outside import holes, wide
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import Boxes, screen_boxes
@@ -40,6 +41,7 @@ SHORTCUTS = {
     "counting": "layers are counted only where they could take more light than is allowed",
     "outside": "large objects are blended only where masks are, and drawn opaque elsewhere",
     "parts": "only parts of the picture whose order is in doubt are sorted by pixel",
+    "crossing": "two targets that cross are drawn one within the other, not sorted by pixel",
     "held": "objects that lie in a part sorted by pixel are drawn there alone",
     "removed": "what a hole takes is not drawn: things, of large meshes single triangles",
     "still": "a frame in which nothing changed is shown again",
@@ -68,7 +70,8 @@ class FramePlan:
     what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
     parts of the picture (left, top, right, bottom) to sort by pixel, of each only the blocks that
     `doubtful` (k, 4) touch if there are any; objects that are `held` show nowhere else and are
-    drawn by that alone. `wide` are blended objects
+    drawn by that alone. `crossing` (k, 2) are targets that cross: the second one is drawn behind
+    the first as well, where it lies there (plan/crossing.py). `wide` are blended objects
     to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
     else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
     are in levels. `ruled` are drawn last, each surface as the technique's rule has it, which was
@@ -94,6 +97,7 @@ class FramePlan:
     doubtful: Floats = field(default_factory=lambda: np.zeros((0, 4)))
     ruled: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
     shot: Shot | None = None
+    crossing: Ints = field(default_factory=lambda: crossing.NONE)
 
     @property
     def ordered(self) -> int:
@@ -177,7 +181,10 @@ def plan(
     lost = uncertain & (blended & masked) & (blended & masked)[:, None]
     lost |= _beside(scene, camera, technique, boxes, relation, masked)
     what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked, lost)
-    return _with_levels(base, what, scene, technique, size)
+    pairs = crossing.NONE
+    if "crossing" not in without and crossing.fits(technique):
+        pairs = crossing.pairs(what, scene, boxes, hard)
+    return _with_levels(base, what, scene, technique, size, pairs)
 
 
 def _decided(
@@ -295,8 +302,10 @@ def _with_levels(
     scene: Scene,
     technique: DynamicTransparency,
     size: tuple[int, int],
+    pairs: Ints,
 ) -> FramePlan:
-    """The plan with blended objects and masks in levels, and the parts that no order gets right."""
+    """The plan with blended objects and masks in levels, and the parts that no order gets right.
+    `pairs` are the targets that could be drawn one within the other."""
     opaque, masked = ~what.blended, what.masked
     triangles, doubt = scene.triangle_counts, technique.doubt
     fit = _fit(scene, technique) & ~masked
@@ -311,28 +320,30 @@ def _with_levels(
         what.lost,
     )
     part_by_part = "parts" not in base.without
-    doubtful, much = what.doubtful(np.zeros_like(what.uncertain), size, doubt)
-    if not (much and part_by_part):
-        of_object, of_mask, broken = what.levels()
-        if broken.any():
-            doubtful, much = what.doubtful(broken, size, doubt)
-    if much and part_by_part:
+    ordered = crossing.in_order(what, pairs).ordered(size, doubt, part_by_part)
+    if len(pairs) and len(ordered.doubtful):  # what lies between the two may be drawn wrongly then
+        alone = what.ordered(size, doubt, part_by_part)
+        if union(alone.doubtful) <= union(ordered.doubtful):
+            pairs, ordered = crossing.NONE, alone
+    if ordered.much:
         return _held(base, what.parts(size), triangles, size)
+    of_object, of_mask, doubtful = ordered.of_object, ordered.of_mask, ordered.doubtful
     if "levels" in base.without:
         of_object, of_mask = levels.one_by_one(seen, of_object, of_mask)
-    last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
-    pairs = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
     parts = merged_parts(doubtful, size)
     if len(parts) and not part_by_part:
         parts, doubtful = np.array([[0, 0, *size]]), doubtful[:0]
     keep = np.zeros(len(masked), dtype=bool)
     keep[base.opaque] = True
     around = holes(what.reach[masked], size)
-    alone = np.nonzero(what.blended & ~united.clustered)[0]
+    by_itself = what.blended & ~united.clustered
+    by_itself[pairs] = False
+    alone = np.nonzero(by_itself)[0]
     return replace(
         base,
         opaque=np.nonzero(keep & opaque)[0],
-        levels=tuple(Level(objects, targets) for objects, targets in pairs),
+        levels=_levels(of_object, of_mask),
+        crossing=pairs,
         exact=parts,
         doubtful=doubtful,
         wide=alone[:0]
@@ -341,6 +352,13 @@ def _with_levels(
         holes=around,
         clusters=united.members,
     )
+
+
+def _levels(of_object: Ints, of_mask: Ints) -> tuple[Level, ...]:
+    """The levels, from what level each object and each mask has."""
+    last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
+    parts = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
+    return tuple(Level(objects, targets) for objects, targets in parts)
 
 
 def _grouped(level: Ints, last: int) -> list[Ints]:

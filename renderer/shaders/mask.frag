@@ -1,6 +1,7 @@
 // Provides a target's alpha mask, to be multiplied into the frame's alpha (004 §V-D).
 // What only some masks need is left out of the others' programs, for a software rasteriser executes
 // every branch: PICTURED (looked up, else by offset), RINGS, SEARCHLIGHT, COUNTED.
+// With AT_DEPTH a mask lies at a depth, on its target and beside it, and may be divided out again.
 // With CELLS instead a mask's entry for the exact picture: opacity, depth, the cap on the opacity
 // of what lies in front, and 1 where the mask is at its core. A depth of 0: no mask.
 uniform sampler2D distances;  // Euclidean, in pixels, −1 on the target, in tiles
@@ -14,6 +15,10 @@ uniform int ring_size;   // 0: no rings
 uniform float tau;       // least transmittance, 0: no guarantee
 uniform vec4 searchlight;  // x, y in pixels (y up), radius, softness; radius < 0: light everywhere
 uniform ivec2 shift;     // from this picture's pixels to the frame's
+#ifdef AT_DEPTH
+uniform float own, beside;  // as the depth buffer has it, 0 nearest
+uniform bool divided;
+#endif
 #ifdef CELLS
 uniform sampler2D depths;  // of the objects' fragments, in cells (exact.frag)
 uniform float beside;      // depth where the target does not show
@@ -119,6 +124,10 @@ void main() {
 #ifdef COUNTED
     float count = texelFetch(counts, pixel, 0).r;
     if (d <= 0.0 && count > 0.0) alpha = min(alpha, 1.0 - pow(tau, 1.0 / count));
+#endif
+#ifdef AT_DEPTH
+    gl_FragDepth = d > 0.0 ? beside : own;
+    if (divided) alpha = 1.0 / alpha;
 #endif
     picture = vec4(0.0, 0.0, 0.0, alpha);
 #endif

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import moderngl
@@ -15,6 +16,7 @@ from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.levels.crossing_painter import MASK, CrossingPainter, Ways
 from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
 from seethrough.renderer.gpu.levels.lens import clip_from_offset, tight
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
@@ -38,7 +40,6 @@ if TYPE_CHECKING:
 OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
 NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
-MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
 Blend = tuple[int, int, int, int]
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
@@ -76,6 +77,7 @@ class Layer:
         self._counter: LayerCounter | None = None
         self._exact: ExactPainter | None = None
         self._clusters: ClusterPainter | None = None
+        self._crossing: CrossingPainter | None = None
 
     def draw(
         self,
@@ -224,13 +226,16 @@ class Layer:
         pass and of each level, and those that `_looked_up` draws."""
         wide = np.zeros(len(frame.reasons), dtype=bool)
         wide[frame.wide] = True
+        apart = np.zeros(len(frame.reasons), dtype=bool)  # drawn otherwise, in their levels
+        apart[frame.crossing] = True
+        apart[[members[0] for members in frame.clusters]] = True
         parts = [frame.opaque, frame.wide]
-        leaders = [members[0] for members in frame.clusters]
         for level in frame.levels:
-            alone = level.objects
-            if leaders:
-                alone = alone[~np.isin(alone, leaders)]
-            parts += [alone[~wide[alone]], alone[wide[alone]]]
+            alone = level.objects[~apart[level.objects]]
+            within = wide[alone]
+            parts += [alone[~within], alone[within]]
+        levels, crossing = len(parts), frame.crossing.ravel()
+        parts += list(crossing[:, None])
         extra = []
         if frame.levels:
             own = by_masks(technique)
@@ -242,7 +247,8 @@ class Layer:
         slope = table.scene.look.detail_error * scale * camera.pixel(size[1])
         sequence, runs = table.sequence([*parts, *extra], camera, slope=slope)
         self._bind(table, sequence)
-        return runs[: len(parts)], runs[len(parts) :]
+        self._runs_of = dict(zip(crossing.tolist(), runs[levels:], strict=False))
+        return runs[:levels], runs[len(parts) :]
 
     def _looked_up(
         self,
@@ -352,6 +358,8 @@ class Layer:
         after_level: AfterLevel | None,
     ) -> None:
         every, least = "prepass" in frame.without, by_masks(technique).combine == "min"
+        crossing = self._cross(table, camera, frame, technique, target, after_level)
+        members = set(frame.crossing.ravel().tolist())
         for k, level in enumerate(frame.levels):
             for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
                 if wide and part:
@@ -361,10 +369,32 @@ class Layer:
                 self._draw_lit(part, table, OBJECT)
                 pipeline.within(target.framebuffer, None)
             self._draw_clusters(table, camera, frame, level)
+            for member in members.intersection(level.objects.tolist()):
+                self._draws += crossing(member)
             if after_level is not None and len(level.objects):
                 after_level(level.objects)
             if len(level.masks):
                 self._draw_masks(level.masks, least)
+
+    def _cross(
+        self, table: SceneTable, camera: Camera, frame: FramePlan, technique: Parameters,
+        target: FrameTarget, after_level: AfterLevel | None,
+    ) -> Callable[[int], int]:  # fmt: skip
+        """What draws one of two targets that cross."""
+        if self._crossing is None:
+            self._crossing = CrossingPainter(self._context, beside_floors(self._defines))
+        self._use(self._crossing.shader)
+        self._crossing.begin(
+            *(frame, table.scene, camera, by_masks(technique).alpha_target),
+            *(self._runs_of, self._masks, target.framebuffer),
+        )
+        ways = Ways(
+            depth=lambda runs: self._pass(self._depth, runs, NOTHING),
+            lit=lambda runs: self._draw_lit(runs, table, OBJECT),
+            multiplied=lambda shader, runs: self._pass(shader, runs, MASK),
+            told=after_level,
+        )
+        return partial(self._crossing.draw, ways=ways)
 
     def _draw_masks(self, targets: NDArray[np.int64], least: bool) -> None:
         context = self._context

@@ -123,17 +123,18 @@ class MaskPainter:
         }
         common = (*self._defines, *(name for name, wanted in used.items() if wanted))
         self._keys = {False: common, True: (*common, "PICTURED")}
-        self.set(
-            size=self._size,
-            width=self._width,
-            shift=shift,
-            alpha_target=technique.alpha_target,
-            alpha_edge=technique.alpha_edge,
-            tau=technique.min_transmittance,
-            ring_size=technique.ring_size,
-            searchlight=searchlight(technique, height),
+        self._values: dict[str, object] = {
+            "size": self._size,
+            "width": self._width,
+            "shift": shift,
+            "alpha_target": technique.alpha_target,
+            "alpha_edge": technique.alpha_edge,
+            "tau": technique.min_transmittance,
+            "ring_size": technique.ring_size,
+            "searchlight": searchlight(technique, height),
             **_UNITS,
-        )
+        }
+        self.set(**self._values)
 
     def set(self, **values: object) -> None:
         """Set uniforms of the programs that this frame's masks use."""
@@ -158,6 +159,15 @@ class MaskPainter:
         if count:
             array = self._array(self._keys[bool(self._pictured[target])])
             array.render(moderngl.TRIANGLES, count, int(self._first[target]))
+
+    def draw_at_depth(self, target: int, own: float, beside: float, divided: bool) -> None:
+        """Draw one target's mask as lying at two depths, on the target and beside it (0 to 1, 0
+        nearest); `divided`: take out again what it did to the frame's alpha."""
+        count = int(self._count[target])
+        if count:
+            key = (*self._keys[bool(self._pictured[target])], "AT_DEPTH")
+            self._shader(key).set(**self._values, own=own, beside=beside, divided=divided)
+            self._array(key).render(moderngl.TRIANGLES, count, int(self._first[target]))
 
     def draw(self, targets: NDArray[np.int64]) -> int:
         """Draw these targets' masks into the bound frame, those side by side in the buffer at

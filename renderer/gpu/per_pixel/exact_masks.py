@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.scene_table import SceneTable
+from seethrough.renderer.gpu.levels.lens import depth_values
 from seethrough.renderer.gpu.masks.looked_up import LookedUp
 from seethrough.renderer.gpu.masks.mask_painter import BITS, MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_sorter import COLORS, DEPTHS, PARTS
@@ -108,7 +109,7 @@ class ExactMasks:
         if not 0 < len(made.targets) <= BITS:
             return None
         texture = self._painter.distances
-        depths = _window_depth(job)
+        depths = depth_values(job.camera, job.table.scene.centers)
         return LookedUp(texture, made.targets, made.shift[made.targets], depths[made.targets],
                         job.width, technique.alpha_target, technique.alpha_edge)  # fmt: skip
 
@@ -128,7 +129,7 @@ class ExactMasks:
         self.entries = emptied(self._context, self.entries, size, len(parts), kind, cells.wiped)
         self._context.enable_only(moderngl.NOTHING)
         painter = self._painter
-        depths, extents = _window_depth(job), job.frame.boxes.extents + SLACK
+        depths, extents = depth_values(job.camera, job.table.scene.centers), job.frame.boxes.extents + SLACK
         painter.begin()
         assert slices.depth is not None  # slices have one
         slices.depth.use(DEPTHS)
@@ -150,11 +151,3 @@ class ExactMasks:
                 painter.draw_one(t)
         pipeline.within(self.entries.framebuffer, None)
         return sum(len(targets) for targets in parts)
-
-
-def _window_depth(job: ExactJob) -> NDArray[np.float64]:
-    """(n,) depth-buffer value of each object's centre; −1 behind the eye."""
-    depth = job.camera.depth(job.table.scene.centers)
-    near, far = job.camera.near, job.camera.far
-    safe = np.where(depth > 0, depth, 1.0)
-    return np.where(depth > 0, far / (far - near) * (1 - near / safe), -1.0)

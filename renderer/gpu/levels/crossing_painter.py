@@ -1,0 +1,108 @@
+"""Draws two targets that reach into one another, each in its place in the order.
+
+The first one is drawn with what of the last one lies behind it, told by the depth buffer; that has
+its share of the light as though it were drawn before, with its mask. Borders of masks lie at the
+depth of their target's centre (Elmqvist2009 §V-D, as sorted pixels have it): where the other target
+comes before that, the border counts, and only there. What is multiplied into the frame's alpha for
+one of the two is divided out again after it, so that nothing else is the wiser.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import NamedTuple
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from seethrough.renderer.gpu.device import pipeline
+from seethrough.renderer.gpu.device.programs import Shader, program
+from seethrough.renderer.gpu.device.scene_table import Run
+from seethrough.renderer.gpu.levels.lens import depth_values
+from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
+from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.scene import Scene
+
+MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
+_NEVER_BEYOND, _ALWAYS_BEYOND = 0.0, 1.0  # depths: nothing lies nearer, nothing farther
+
+
+class Ways(NamedTuple):
+    """How a frame draws objects: their depth alone, their colours, and with a shader what is
+    multiplied into its alpha; `told` is who is drawn, where that matters."""
+
+    depth: Callable[[list[Run]], None]
+    lit: Callable[[list[Run]], None]
+    multiplied: Callable[[Shader, list[Run]], None]
+    told: Callable[[NDArray[np.int64]], None] | None
+
+
+class CrossingPainter:
+    """The pairs of one frame at a time; `defines` as for what draws objects."""
+
+    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
+        self._context = context
+        self.shader = program(context, "object.vert", "opacity.frag", defines)
+
+    def begin(
+        self, frame: FramePlan, scene: Scene, camera: Camera, alpha: float,
+        runs: dict[int, list[Run]], masks: MaskPainter, into: moderngl.Framebuffer,
+    ) -> None:  # fmt: skip
+        """Take on a frame: masks leave `alpha` on their targets, `runs` draw each of these, and
+        `into` is what is drawn into."""
+        self._runs, self._masks, self._into, self._alpha = runs, masks, into, alpha
+        self._other = {int(a): int(b) for pair in frame.crossing for a, b in (pair, pair[::-1])}
+        self._first = set(frame.crossing[:, 0].tolist())
+        self._depths = depth_values(camera, scene.centers)
+
+    def draw(self, target: int, ways: Ways) -> int:
+        """Draw one of a pair in its place. Returns how many masks that took."""
+        other = self._other[target]
+        ways.depth(self._runs[target])
+        if target not in self._first:
+            self._mask(other, _ALWAYS_BEYOND, divided=True)
+            self._colors(target, ways)
+            self._mask(other, _ALWAYS_BEYOND, divided=False)
+            return 2
+        with self._beyond():
+            self._colors(other, ways)
+            self._multiply(other, self._alpha, ways)
+            self._mask(other, _NEVER_BEYOND, divided=False)
+        self._colors(target, ways)
+        with self._beyond():
+            self._mask(other, _NEVER_BEYOND, divided=True)
+            self._multiply(other, 1 / self._alpha, ways)
+        return 2
+
+    def _colors(self, target: int, ways: Ways) -> None:
+        ways.lit(self._runs[target])
+        if ways.told is not None:
+            ways.told(np.array([target]))
+
+    def _multiply(self, target: int, opacity: float, ways: Ways) -> None:
+        """What a mask does on its target itself, done by drawing that."""
+        self.shader.set(opacity=opacity)
+        ways.multiplied(self.shader, self._runs[target])
+
+    @contextmanager
+    def _beyond(self) -> Iterator[None]:
+        """Draw only what lies behind what is there, and leave the depths."""
+        self._context.depth_func = ">"
+        self._into.depth_mask = False
+        yield
+        self._into.depth_mask = True
+        self._context.depth_func = "<="
+
+    def _mask(self, target: int, own: float, divided: bool) -> None:
+        """A target's mask, with its border at the depth of its centre."""
+        context, written = self._context, self._into.depth_mask
+        context.disable(moderngl.CULL_FACE)
+        context.enable(moderngl.BLEND)
+        pipeline.blend(context, MASK)
+        self._into.depth_mask = False
+        self._masks.draw_at_depth(target, own, float(self._depths[target]), divided)
+        self._into.depth_mask = written
+        context.enable(moderngl.CULL_FACE)
