@@ -1,8 +1,6 @@
 """Alpha masks as arrays: the gradient, and the geometry that the shaders turn into one.
 
-A convex outline needs no picture of its own: its hull is drawn with the opacity over the target,
-and a skirt round it (a quad for each edge, a fan for each corner) carries the offset from the
-outline, whose length is the Euclidean distance. Each pixel is covered once.
+A convex outline needs no picture of its own: see skirts.py.
 """
 
 from __future__ import annotations
@@ -132,19 +130,6 @@ def reach(
     return extents + np.array([-1, -1, 1, 1]) * grow[:, None]
 
 
-def hulls_with_skirts(
-    pixels: NDArray[np.float64], starts: NDArray[np.int64], width: float
-) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
-    """Triangles for convex outlines: vertices (k, 5) and the first vertex of each (n + 1,).
-
-    `pixels` (v, 2) are the projected vertices of n targets, `starts` (n + 1,) where each begins.
-    A vertex is x, y in pixels, then its offset from the outline x, y, then −1 (drawn as a skirt).
-    """
-    if len(starts) == 1:
-        return np.zeros((0, 5), np.float32), np.zeros(1, np.int64)
-    return _hulls_with_skirts(np.ascontiguousarray(pixels), starts, float(width))
-
-
 @njit(cache=True)
 def convex_hull(points: Floats) -> Floats:
     """(h, 2) corners of the hull of (v, 2) points, turning one way round (monotone chain)."""
@@ -181,73 +166,3 @@ def convex_hull(points: Floats) -> Floats:
     for a in range(k):
         hull[a] = points[chain[a]]
     return hull
-
-
-@njit(cache=True)
-def _put(out: Floats32, k: int, x: float, y: float, ox: float, oy: float) -> int:
-    out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4] = x, y, ox, oy, -1.0
-    return k + 1
-
-
-_BLUNT = 1.0  # radians: the corner of two triangles lies an eighth of the width too far out
-
-
-@njit(cache=True)
-def _fan(out: Floats32, k: int, corner: Floats, a: Floats, b: Floats, width: float) -> int:
-    """Two or three triangles round a corner from unit normal a to b, outside the circle of
-    `width`, by little."""
-    turn = np.arctan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
-    half = turn / 2 if turn < _BLUNT else turn / 4
-    c, s, r = np.cos(half), np.sin(half), width / np.cos(half)
-    rim = np.empty((4, 2))
-    rim[0], rim[2], rim[3] = a * width, b * width, b * width
-    rim[1, 0], rim[1, 1] = r * (c * a[0] - s * a[1]), r * (s * a[0] + c * a[1])
-    if turn >= _BLUNT:
-        rim[2, 0], rim[2, 1] = r * (c * b[0] + s * b[1]), r * (c * b[1] - s * b[0])
-    for t in range(2 if turn < _BLUNT else 3):
-        k = _put(out, k, corner[0], corner[1], 0.0, 0.0)
-        for o in (rim[t], rim[t + 1]):
-            k = _put(out, k, corner[0] + o[0], corner[1] + o[1], o[0], o[1])
-    return k
-
-
-@njit(cache=True)
-def _hull_with_skirt(hull: Floats, width: float, out: Floats32, k: int) -> int:
-    n = len(hull)
-    normals = np.empty((n, 2))
-    for a in range(n):
-        edge = hull[(a + 1) % n] - hull[a]
-        length = np.hypot(edge[0], edge[1])
-        normals[a, 0], normals[a, 1] = edge[1] / length, -edge[0] / length
-    for a in range(1, n - 1):
-        for p in (hull[0], hull[a], hull[a + 1]):
-            k = _put(out, k, p[0], p[1], 0.0, 0.0)
-    if width == 0:
-        return k
-    for a in range(n):
-        p, q, o = hull[a], hull[(a + 1) % n], normals[a] * width
-        for t in ((p, 0), (q, 0), (q, 1), (p, 0), (q, 1), (p, 1)):
-            x, y = t[0][0] + t[1] * o[0], t[0][1] + t[1] * o[1]
-            k = _put(out, k, x, y, t[1] * o[0], t[1] * o[1])
-        k = _fan(out, k, q, normals[a], normals[(a + 1) % n], width)
-    return k
-
-
-@njit(cache=True)
-def _hulls_with_skirts(pixels: Floats, starts: Ints, width: float) -> tuple[Floats32, Ints]:
-    n = len(starts) - 1
-    out = np.empty((18 * len(pixels) + 72 * n, 5), np.float32)
-    firsts = np.zeros(n + 1, np.int64)
-    k = 0
-    for a in range(n):
-        hull = convex_hull(pixels[starts[a] : starts[a + 1]])
-        if len(hull) < 3:  # seen edge-on, or smaller than the arithmetic: give it a tiny area
-            low, high = hull[0] - 1e-4, hull[0] + 1e-4
-            for p in hull:
-                low, high = np.minimum(low, p - 1e-4), np.maximum(high, p + 1e-4)
-            hull = np.empty((4, 2))
-            hull[0, 0], hull[0, 1], hull[1, 0], hull[1, 1] = low[0], low[1], high[0], low[1]
-            hull[2, 0], hull[2, 1], hull[3, 0], hull[3, 1] = high[0], high[1], low[0], high[1]
-        k = _hull_with_skirt(hull, width, out, k)
-        firsts[a + 1] = k
-    return out[:k], firsts

@@ -1,6 +1,6 @@
 // Provides a target's alpha mask, to be multiplied into the frame's alpha (004 §V-D).
 // What only some masks need is left out of the others' programs, for a software rasteriser executes
-// every branch: PICTURED (looked up, else by offset), RINGS, SEARCHLIGHT, COUNTED.
+// every branch: PICTURED (looked up, else by offset), ELLIPSES, RINGS, SEARCHLIGHT, COUNTED.
 // With AT_DEPTH a mask lies at a depth, on its target and beside it, and may be divided out again.
 // With CELLS instead a mask's entry for the exact picture: opacity, depth, the cap on the opacity
 // of what lies in front, and 1 where the mask is at its core. A depth of 0: no mask.
@@ -95,11 +95,12 @@ void main() {
 #ifdef PICTURED
     float d = texelFetch(distances, pixel + ivec2(extra), 0).r;
 #else
-    float d = length(offset);
-    if (kind == -2) {
-        float r = length(offset / extra);
-        d = r > 1.0 ? d * (1.0 - 1.0 / r) : 0.0;
-    }
+#ifdef ELLIPSES
+    float r = length(offset / extra);
+    float d = r > 1.0 ? length(offset) * (1.0 - 1.0 / r) : 0.0;
+#else
+    float d = length(vec2(offset.x - clamp(offset.x, 0.0, extra.x), offset.y));
+#endif
 #endif
 #ifdef RINGS
     float outside = ring(pixel);

@@ -2,9 +2,9 @@
 uniform vec2 size;
 
 in vec2 in_place;
-in vec2 in_offset;  // from a hull's outline; or from an ellipse's centre, along its axes
-in float in_kind;   // −1: offset from a hull; −2: an ellipse; from 0: looked up, the ring's grid
-in vec2 in_extra;   // the semi-axes of an ellipse; or the way from the window's pixels to the tile
+in vec2 in_offset;  // along an edge of a hull and off it; or from an ellipse's centre, by its axes
+in float in_kind;   // from 0: the ring's grid
+in vec2 in_extra;   // the edge's length; semi-axes; or the way from the window's pixels to the tile
 
 out vec2 offset;
 flat out int kind;

@@ -17,13 +17,15 @@ from seethrough.renderer.gpu.device import tiles
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.masks import masks
 from seethrough.renderer.masks.silhouettes import near_cuts, silhouette
+from seethrough.renderer.masks.skirts import hulls_with_skirts
 from seethrough.renderer.plan.blocks import BLOCK
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene import projection
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
-VERTEX = 7  # place x, y; offset x, y; kind; semi-axes, or the way to the tile
+VERTEX = 7  # place x, y; offset x, y; kind; an edge's length, semi-axes, or the way to the tile
+ELLIPSES = ("circle", "ellipse", "oriented-ellipse")
 
 _CORNERS = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
 _SIGNS = np.array([[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]])
@@ -66,7 +68,7 @@ def mask_geometry(
     masked = np.concatenate(levels) if levels else frame.masked
     convex, closed = _kinds(table, masked)
     hulled = _hulled(frame, masked, technique, convex & closed)
-    ellipses = technique.mask in ("circle", "ellipse", "oriented-ellipse")
+    ellipses = technique.mask in ELLIPSES
     shaped = np.ones_like(hulled) if ellipses else hulled
     plain, pictured = masked[shaped], masked[~shaped]
     vertices: NDArray[np.floating]
@@ -183,7 +185,7 @@ def _hulls(
             clouds[k] = cloud if len(cloud) else np.full((1, 2), -1e6)
         starts = np.cumsum([0] + [len(c) for c in clouds])
         pixels = np.concatenate(clouds)
-    vertices, firsts = masks.hulls_with_skirts(pixels, starts, width)
+    vertices, firsts = hulls_with_skirts(pixels, starts, width)
     rows = np.zeros((len(vertices), VERTEX), vertices.dtype)
     rows[:, : vertices.shape[1]] = vertices
     return rows, firsts
@@ -209,7 +211,7 @@ def _ellipses(
         rows[k, :, 0] = x + offset[:, 0] * ux - offset[:, 1] * uy
         rows[k, :, 1] = y + offset[:, 0] * uy + offset[:, 1] * ux
         rows[k, :, 2:4] = offset
-        rows[k, :, 4] = -2
+        rows[k, :, 4] = -1
         rows[k, :, 5:7] = a, b
     return rows.reshape(-1, VERTEX), 6 * np.arange(len(targets) + 1)
 

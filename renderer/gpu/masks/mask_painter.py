@@ -12,7 +12,7 @@ from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.masks.distance_painter import DistancePainter
-from seethrough.renderer.gpu.masks.mask_maker import MaskGeometry, mask_geometry
+from seethrough.renderer.gpu.masks.mask_maker import ELLIPSES, MaskGeometry, mask_geometry
 from seethrough.renderer.plan import blocks
 from seethrough.renderer.plan.planner import FramePlan
 from seethrough.renderer.scene.camera import Camera
@@ -118,6 +118,7 @@ class MaskPainter:
                 texture.use(unit)
         used = {
             "RINGS": technique.mask == "ring",
+            "ELLIPSES": technique.mask in ELLIPSES,
             "SEARCHLIGHT": technique.mode == "active",
             "COUNTED": counts is not None,
         }

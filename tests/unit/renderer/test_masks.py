@@ -11,6 +11,7 @@ from scipy.spatial import ConvexHull
 
 from seethrough.renderer.masks import contours, masks
 from seethrough.renderer.masks.silhouettes import topology
+from seethrough.renderer.masks.skirts import hulls_with_skirts
 from seethrough.renderer.reference.pixel_fragments import distances, fragments
 from seethrough.renderer.scene import transforms
 from seethrough.renderer.scene.camera import look_at
@@ -43,16 +44,64 @@ def test_the_hull_is_that_of_qhull(points):
 
 
 def test_a_hull_with_its_skirt_covers_hull_and_rim_once():
-    """The area of the triangles is that of a square, its four rims and a polygon about a circle."""
+    """The area of the triangles is that of a square grown by the width on all sides."""
     square = np.array([[0, 0], [20, 0], [20, 20], [0, 20.0]])
-    rows, first = masks.hulls_with_skirts(square, np.array([0, 4]), 5.0)
+    rows, first = hulls_with_skirts(square, np.array([0, 4]), 5.0)
     a, b, c = rows[:, :2].astype(float).reshape(-1, 3, 2).swapaxes(0, 1)
     u, v = b - a, c - a
     area = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2
-    # A corner of 90° is two kites about the circle's tangents at 0, 45 and 90°.
-    corners = 4 * 2 * 25 * np.tan(np.pi / 8)
-    assert area == pytest.approx(400 + 4 * 20 * 5 + corners)
+    assert area == pytest.approx(30**2)
     assert first.tolist() == [0, len(rows)]
+
+
+@st.composite
+def outlines(draw):
+    """Points about some place: round ones, needles, slivers and specks."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32)))
+    spread = np.exp(rng.uniform(-3, 3.5, 2))
+    turned = rng.normal(size=(draw(st.integers(3, 24)), 2)) * spread
+    angle = rng.uniform(0, np.pi)
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    return turned @ turn + 60.0
+
+
+@given(outlines(), st.floats(0.5, 25))
+@settings(max_examples=150, deadline=None)
+def test_a_skirt_says_how_far_away_the_hull_is(cloud, width):
+    """At random places: in one triangle at most, in one up to the width, and there the distance to
+    the nearest of Qhull's edges, as the shader makes it of what the corners carry."""
+    rows, _ = hulls_with_skirts(cloud, np.array([0, len(cloud)]), width)
+    rng = np.random.default_rng(1)
+    low, high = cloud.min(axis=0) - 1.2 * width, cloud.max(axis=0) + 1.2 * width
+    places = rng.uniform(low, high, (300, 2))
+    hull = ConvexHull(cloud)
+    inside = (hull.equations[:, :2] @ places.T + hull.equations[:, 2:]).max(axis=0)
+    p, q = cloud[hull.simplices].swapaxes(0, 1)
+    along = np.clip(
+        ((places[:, None] - p) * (q - p)).sum(axis=2) / ((q - p) ** 2).sum(axis=1), 0, 1
+    )
+    away = np.linalg.norm(places[:, None] - p - along[..., None] * (q - p), axis=2).min(axis=1)
+    truth = np.where(inside <= 0, 0.0, away)
+    found, times = skirted(rows.astype(float), places)
+    # Places on the sides of triangles to what float32 holds of 100 pixels are nobody's case here.
+    assert (times <= 1).all() and (times[truth < width * (1 - 1e-3)] == 1).all()
+    np.testing.assert_allclose(found[times == 1], truth[times == 1], atol=2e-4)
+
+
+def skirted(rows, places):
+    """What the shader finds at places, and in how many triangles each lies."""
+    found, times = np.full(len(places), np.nan), np.zeros(len(places), int)
+    for a, b, c in rows.reshape(-1, 3, 6):
+        solid = np.array([b[:2] - a[:2], c[:2] - a[:2]]).T
+        if abs(np.linalg.det(solid)) < 1e-9:
+            continue
+        u, v = np.linalg.solve(solid, (places - a[:2]).T)
+        here = (u > 1e-7) & (v > 1e-7) & (u + v < 1 - 1e-7)
+        offset = a[2:4] + u[:, None] * (b - a)[2:4] + v[:, None] * (c - a)[2:4]
+        beyond = offset[:, 0] - np.clip(offset[:, 0], 0, a[5])
+        found[here] = np.hypot(beyond, offset[:, 1])[here]
+        times += here
+    return found, times
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -113,7 +162,7 @@ def test_a_circle_and_ellipses_hold_their_points():
 def test_what_is_seen_edge_on_gets_the_box_about_its_points(points):
     """A ten-thousandth of a pixel about them, however they lie and whichever comes first."""
     cloud = np.array(points, float)
-    rows, _ = masks.hulls_with_skirts(cloud, np.array([0, len(cloud)]), 0.0)
+    rows, _ = hulls_with_skirts(cloud, np.array([0, len(cloud)]), 0.0)
     low, high = cloud.min(axis=0) - 1e-4, cloud.max(axis=0) + 1e-4
     np.testing.assert_allclose(rows[:, :2].min(axis=0), low, atol=1e-6)  # they are float32
     np.testing.assert_allclose(rows[:, :2].max(axis=0), high, atol=1e-6)
