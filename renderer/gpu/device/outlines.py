@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 # Compiled code is kept on disk until this file changes: change it with the kernels of contours.py.
 _CORES = os.cpu_count() or 1
 _WORTH = 30_000  # edges to look at for which a second thread is worth waking
+_LITTLE = 60_000  # edges and pixels that are looked at before another thread would have begun
 
 
 class Wanted(NamedTuple):
@@ -84,6 +85,9 @@ class Outlines:
         threads = min(count, _CORES, 8, 1 + work // _WORTH)
         bits = np.zeros((threads, *shape), np.uint64)
         solids, starts = self._solids, self._starts
+        if work + int(wanted.windows[:, 2:].prod(axis=1).sum()) <= _LITTLE:
+            _fill(solids, starts, which, wanted, out, bits[0], 0, 1)
+            return [], bits[:1]
         jobs = [
             self.beside(_fill, solids, starts, which, wanted, out, bits[k], k, threads)
             for k in range(threads)
