@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from ctypes import CFUNCTYPE
 from typing import TypeAlias
 
 import moderngl
@@ -27,3 +29,12 @@ def blend(context: moderngl.Context, factors: Factors) -> None:
 def combine(context: moderngl.Context, color: int, alpha: int | None = None) -> None:
     """How the two are put together; alpha otherwise if it is given."""
     context.blend_equation = (color, color if alpha is None else alpha)
+
+
+def flushing(context: moderngl.Context) -> Callable[[], None]:
+    """What lets the driver begin with what it was given so far: a software rasteriser then draws
+    beside whatever the next draws take to be made. moderngl has no name for glFlush."""
+    flush: Callable[[], None] = CFUNCTYPE(None)(
+        context.mglo._context.load_opengl_function("glFlush")
+    )
+    return flush

@@ -73,6 +73,7 @@ class Layer:
         self._bare = program(context, "object.vert", "object.frag", bare) if drawn_on else None
         self._depth = program(context, "object.vert", "depth.frag", bare)
         self._flat = program(context, "flat.vert", "depth.frag", bare)
+        self._flush = pipeline.flushing(context)
         self._masks = MaskPainter(context, defines)
         self._counter: LayerCounter | None = None
         self._exact: ExactPainter | None = None
@@ -121,6 +122,7 @@ class Layer:
         if after_level is not None:
             after_level(None)
         if frame.levels:
+            self._flush()
             if exact is None:
                 counts = self._looked_up(table, frame, camera, technique, rest, size)
                 target.framebuffer.use()

@@ -27,6 +27,8 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicT
 
 _STRIP = 4  # vertices of a rectangle as a triangle strip
 _LOOKED_UP = 3  # texture unit
+# Of distances: the driver would have to wait for what is drawn from one before it is written again.
+_TURNS = 3
 
 
 class DistancePainter:
@@ -41,10 +43,16 @@ class DistancePainter:
         self._buffers: dict[str, moderngl.Buffer] = {}
         self._arrays: dict[str, moderngl.VertexArray] = {}
         self._pictures: dict[str, tuple[moderngl.Texture, moderngl.Framebuffer]] = {}
+        self._turn = 0
 
     def texture(self, name: str) -> moderngl.Texture | None:
         """The picture "distances" or "rings" of the last frame, if there is one."""
-        return self._pictures[name][0] if name in self._pictures else None
+        place = self._place(name)
+        return self._pictures[place][0] if place in self._pictures else None
+
+    def _place(self, name: str) -> str:
+        """Where the picture of that name is, in this frame."""
+        return f"{name} {self._turn}" if name == "distances" else name
 
     def begin(
         self,
@@ -142,6 +150,7 @@ class DistancePainter:
 
     def _bound(self, name: str, size: tuple[int, int], dtype: str) -> moderngl.Framebuffer:
         """The framebuffer of a picture at least of `size`, bound."""
+        name = self._place(name)
         if name in self._pictures:
             old = self._pictures[name][0].size
             if old[0] < size[0] or old[1] < size[1]:
@@ -177,9 +186,12 @@ class DistancePainter:
         """Upload the distances from the outlines of closed meshes."""
         for job in self._jobs:
             job.result()
+        self._turn = (self._turn + 1) % _TURNS
         framebuffer = self._bound("distances", self._whole, "f4")
         rows, used = self._found.shape
-        self._pictures["distances"][0].write(self._found, viewport=(0, 0, used, rows))
+        self._pictures[self._place("distances")][0].write(
+            self._found, viewport=(0, 0, used, rows)
+        )
         return framebuffer
 
     def _draw_rings(self, runs: list[list[Run]], technique: DynamicTransparency) -> int:
