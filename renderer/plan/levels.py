@@ -2,23 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numba import njit
 
 from seethrough.renderer.arrays import Bools, Ints
 from seethrough.renderer.plan.order import Related, meet
-
-
-class Queue(NamedTuple):
-    """For how many others objects and masks wait (2, n), which have their level (2, n), and the
-    levels found so far (n,). A tuple, because compiled code takes it."""
-
-    waits: Ints
-    done: Bools
-    of_object: Ints
-    of_mask: Ints
 
 
 @njit(cache=True)
@@ -30,58 +18,96 @@ def levels(related: Related) -> tuple[Ints, Ints, Bools]:
     one goes before what it waits for: broken[i, j] of object i in front that goes before j or its
     mask, broken[j, i] of object j behind that goes after the mask of i.
     """
+    order, n = related.seen, len(related.extents)
+    starts, links = _links(related)
+    waits, done = np.zeros(2 * n, np.int64), np.zeros((2, n), np.bool_)
+    for follower in links:
+        waits[follower] += 1
+    level, broken = np.full(2 * n, -2, np.int64), np.zeros((n, n), np.bool_)
+    ready, count, left = np.empty(2 * n, np.int64), 0, 0
+    for i in order:
+        for kind, there in ((0, related.blended[i]), (1, related.masked[i])):
+            if there:
+                level[kind * n + i] = -kind
+                left += 1
+                if waits[kind * n + i] == 0:
+                    ready[count] = kind * n + i
+                    count += 1
+    while left:
+        if count == 0:
+            kind, i = _stuck(related, done)
+            _break(related, done, kind, i, broken)
+            ready[0], count = kind * n + i, 1
+        count -= 1
+        node = ready[count]
+        done[node // n, node % n] = True
+        left -= 1
+        for follower in links[starts[node] : starts[node + 1]]:
+            if done[follower // n, follower % n]:
+                continue
+            level[follower] = max(level[follower], level[node] + (follower < n))
+            waits[follower] -= 1
+            if waits[follower] == 0:
+                ready[count] = follower
+                count += 1
+    return level[:n], level[n:], broken
+
+
+@njit(cache=True)
+def _links(related: Related) -> tuple[Ints, Ints]:
+    """What follows on what: of node k, which is object k or from n on the mask of object k − n,
+    the followers links[starts[k] : starts[k + 1]]."""
     order, extents, reach = related.seen, related.extents, related.reach
     relation, blended, masked = related.relation, related.blended, related.masked
-    n, m = len(extents), len(order)
-    of_object, of_mask = np.full(n, -2, np.int64), np.full(n, -2, np.int64)
-    waits, done = np.zeros((2, n), np.int64), np.zeros((2, n), np.bool_)
-    queue = Queue(waits, done, of_object, of_mask)
-    broken = np.zeros((n, n), np.bool_)
-    for a in range(m):
-        i = order[a]
-        if masked[i] and blended[i]:
-            waits[1, i] += 1
-        for b in range(m):
-            j = order[b]
-            if not blended[i] or i == j:
+    n = len(extents)
+    starts, links = np.zeros(2 * n + 1, np.int64), np.empty(0, np.int64)
+    for fill in range(2):  # count them first
+        if fill:
+            starts = np.cumsum(starts)
+            links = np.empty(starts[-1], np.int64)
+            # Of each node as many as were counted, from its end.
+            starts[:-1] = starts[1:]
+        for i in order:
+            if not blended[i]:
                 continue
-            if blended[j] and relation[i, j] == 1 and meet(extents, i, extents, j):
-                waits[0, i] += 1
-            if masked[j] and meet(extents, i, reach, j):
-                if relation[i, j] == 1:
-                    waits[0, i] += 1
-                elif relation[i, j] == -1:
-                    waits[1, j] += 1
-    left = 0
-    for a in range(m):
-        i = order[a]
-        left += blended[i]
-        left += masked[i]
-        of_object[i] = 0 if blended[i] else -2
-        of_mask[i] = -1 if masked[i] else -2
-    while left:
-        moved = False
-        for kind in range(2):
-            for a in range(m):
-                i = order[a]
-                there = blended[i] if kind == 0 else masked[i]
-                if not there or done[kind, i] or waits[kind, i] > 0:
+            if masked[i]:
+                _link(starts, links, i, n + i)
+            for j in order:
+                sign = relation[i, j]
+                if sign == 0:
                     continue
-                done[kind, i] = moved = True
-                left -= 1
-                _release(kind, i, related, queue)
-        if not moved:
-            kind, i = _stuck(related, done)
-            waits[kind, i] = 0
-            for b in range(m):
-                j = order[b]
-                if kind == 0 and relation[i, j] == 1:
-                    broken[i, j] = (
-                        blended[j] and not done[0, j] and meet(extents, i, extents, j)
-                    ) or (masked[j] and not done[1, j] and meet(extents, i, reach, j))
-                elif kind == 1 and relation[j, i] == -1 and blended[j] and not done[0, j]:
-                    broken[j, i] = meet(extents, j, reach, i)
-    return of_object, of_mask, broken
+                if sign == 1 and blended[j] and meet(extents, i, extents, j):
+                    _link(starts, links, j, i)
+                if masked[j] and meet(extents, i, reach, j):
+                    if sign == 1:
+                        _link(starts, links, n + j, i)
+                    else:
+                        _link(starts, links, i, n + j)
+    return starts, links
+
+
+@njit(cache=True)
+def _link(starts: Ints, links: Ints, node: int, follower: int) -> None:
+    """Count a follower; or put it down, once there is room."""
+    if len(links):
+        starts[node] -= 1
+        links[starts[node]] = follower
+    else:
+        starts[node + 1] += 1
+
+
+@njit(cache=True)
+def _break(related: Related, done: Bools, kind: int, i: int, broken: Bools) -> None:
+    """Say what object (0, i) or mask (1, i) goes before although it waits for it."""
+    extents, reach, relation = related.extents, related.reach, related.relation
+    blended, masked = related.blended, related.masked
+    for j in related.seen:
+        if kind == 0 and relation[i, j] == 1:
+            broken[i, j] = (blended[j] and not done[0, j] and meet(extents, i, extents, j)) or (
+                masked[j] and not done[1, j] and meet(extents, i, reach, j)
+            )
+        elif kind == 1 and relation[j, i] == -1 and blended[j] and not done[0, j]:
+            broken[j, i] = meet(extents, j, reach, i)
 
 
 @njit(cache=True)
@@ -114,42 +140,6 @@ def _stuck(related: Related, done: Bools) -> tuple[int, int]:
         if blended[order[a]] and not done[0, order[a]]:
             return 0, order[a]
     return 1, order[0]  # not reached: a mask waits for nothing but objects
-
-
-@njit(cache=True)
-def _release(kind: int, i: int, related: Related, queue: Queue) -> None:
-    """Object or mask i has its level: those that wait for it come after it."""
-    order, extents, reach = related.seen, related.extents, related.reach
-    relation, blended, masked = related.relation, related.blended, related.masked
-    waits, done, of_object, of_mask = queue.waits, queue.done, queue.of_object, queue.of_mask
-    for b in range(len(order)):
-        j = order[b]
-        if kind == 0:
-            if i == j:
-                if masked[i]:
-                    waits[1, i] -= 1
-                    of_mask[i] = max(of_mask[i], of_object[i])
-                continue
-            if (
-                blended[j]
-                and not done[0, j]
-                and relation[j, i] == 1
-                and meet(extents, i, extents, j)
-            ):
-                waits[0, j] -= 1
-                of_object[j] = max(of_object[j], of_object[i] + 1)
-            if masked[j] and not done[1, j] and relation[i, j] == -1 and meet(extents, i, reach, j):
-                waits[1, j] -= 1
-                of_mask[j] = max(of_mask[j], of_object[i])
-        elif (
-            i != j
-            and blended[j]
-            and not done[0, j]
-            and relation[j, i] == 1
-            and meet(extents, j, reach, i)
-        ):
-            waits[0, j] -= 1
-            of_object[j] = max(of_object[j], of_mask[i] + 1)
 
 
 def one_by_one(order: Ints, of_object: Ints, of_mask: Ints) -> tuple[Ints, Ints]:

@@ -141,6 +141,31 @@ def compare(
 
 
 @njit(cache=True)
+def near_each_other(placed: Placed) -> Ints:
+    """(k, 2) places in the order, the nearer one first, of all whose boxes overlap on the screen:
+    of targets what their masks can reach. Swept from left to right."""
+    order, m = placed.seen, len(placed.seen)
+    boxes = np.empty((m, 4))
+    for a in range(m):
+        i = order[a]
+        boxes[a] = placed.reach[i] if placed.targets[i] else placed.extents[i]
+    rows = np.argsort(boxes[:, 0])
+    found = np.empty((m * (m - 1) // 2, 2), np.int64)
+    k = 0
+    for p in range(m):
+        a = rows[p]
+        right, top, bottom = boxes[a, 2], boxes[a, 1], boxes[a, 3]
+        for q in range(p + 1, m):
+            b = rows[q]
+            if boxes[b, 0] > right:
+                break
+            if boxes[b, 1] <= bottom and boxes[b, 3] >= top:
+                found[k, 0], found[k, 1] = max(a, b), min(a, b)
+                k += 1
+    return found[:k]
+
+
+@njit(cache=True)
 def decide(
     placed: Placed, blend: Bools, known: Signs, by_center: bool
 ) -> tuple[Signs, Bools, Bools, Bools]:
@@ -156,45 +181,38 @@ def decide(
     targets, hard = placed.targets, placed.hard
     centers, sides, radius = placed.centers, placed.sides, placed.radius
     near, far = placed.near, placed.far
-    n, m = len(extents), len(order)
+    n = len(extents)
     relation = np.zeros((n, n), np.int8)
     uncertain = np.zeros((n, n), np.bool_)
     blended, masked = blend.copy(), np.zeros(n, np.bool_)
-    chosen = np.empty(m, np.int64)
+    pairs = near_each_other(placed)
     for both in range(2):  # first every object against the targets, then all that blend
-        count = 0  # of those that `chosen` holds: targets; then what blends
-        for a in range(m):
-            i = order[a]
-            mine = blended[i] if both else targets[i]
-            if both and not mine:
-                continue
-            for b in range(a if mine and not both else count):
-                j = order[b] if mine and not both else chosen[b]  # j is farther by its centre
-                i_over_j = targets[j] and not hard[i] and meet(extents, i, reach, j)
-                j_over_i = targets[i] and not hard[j] and meet(extents, j, reach, i)
-                if both:
-                    if relation[i, j] != 0 or not meet(extents, i, extents, j):
-                        continue
-                elif not (i_over_j or j_over_i):
+        for a, b in pairs:
+            i, j = order[a], order[b]  # j is farther by its centre
+            if both:
+                if not (blended[i] and blended[j]) or relation[i, j] != 0:
                     continue
-                found = IN_FRONT
-                if not by_center:
-                    found = compare(centers, sides, radius, near, far, i, j)
-                    if found == UNCERTAIN:
-                        found = known[i, j]
-                doubt = found == UNCERTAIN
-                if doubt:
-                    before = targets[i] and (not targets[j] or (hard[i] and not hard[j]))
-                    found = BEHIND if before else IN_FRONT
-                    uncertain[i, j] = uncertain[j, i] = True
-                relation[i, j], relation[j, i] = found, -found
-                if not both and i_over_j and (found == IN_FRONT or doubt):
-                    blended[i] = masked[j] = True
-                if not both and j_over_i and (found == BEHIND or doubt):
-                    blended[j] = masked[i] = True
-            if mine:
-                chosen[count] = i
-                count += 1
+            elif not (targets[i] or targets[j]):
+                continue
+            i_over_j = targets[j] and not hard[i] and meet(extents, i, reach, j)
+            j_over_i = targets[i] and not hard[j] and meet(extents, j, reach, i)
+            if not (meet(extents, i, extents, j) if both else i_over_j or j_over_i):
+                continue
+            found = IN_FRONT
+            if not by_center:
+                found = compare(centers, sides, radius, near, far, i, j)
+                if found == UNCERTAIN:
+                    found = known[i, j]
+            doubt = found == UNCERTAIN
+            if doubt:
+                before = targets[i] and (not targets[j] or (hard[i] and not hard[j]))
+                found = BEHIND if before else IN_FRONT
+                uncertain[i, j] = uncertain[j, i] = True
+            relation[i, j], relation[j, i] = found, -found
+            if not both and i_over_j and (found == IN_FRONT or doubt):
+                blended[i] = masked[j] = True
+            if not both and j_over_i and (found == BEHIND or doubt):
+                blended[j] = masked[i] = True
     return relation, uncertain, blended, masked
 
 
@@ -216,7 +234,6 @@ def overlapped(placed: Placed) -> Bools:
     return found
 
 
-@njit(cache=True)
 def doubtful(
     related: Related, uncertain: Bools, broken: Bools, lost: Bools, size: Floats
 ) -> tuple[Floats, Bools]:
@@ -226,37 +243,47 @@ def doubtful(
 
     Only where a mask reaches does the order show at all: elsewhere the depth buffer is exact.
     """
+    n = len(uncertain)
+    rows, columns = np.divmod(np.flatnonzero(uncertain | broken | lost), n)  # 2-D is slower
+    found = np.unique(np.maximum(rows, columns) * n + np.minimum(rows, columns))
+    return _doubtful(related, np.stack(np.divmod(found, n), axis=1), broken, lost, size)
+
+
+@njit(cache=True)
+def _doubtful(
+    related: Related, pairs: Ints, broken: Bools, lost: Bools, size: Floats
+) -> tuple[Floats, Bools]:
+    """The same of these pairs (p, 2)."""
     order, extents, reach = related.seen, related.extents, related.reach
     relation, blended, masked = related.relation, related.blended, related.masked
-    m = len(order)
-    found, must = np.empty((m * m // 2 + 1, 4)), np.zeros(m * m // 2 + 1, np.bool_)
+    m, n = len(order), len(extents)
+    there = np.zeros(n, np.bool_)
+    there[order] = True
+    found, must = np.empty((len(pairs), 4)), np.zeros(len(pairs), np.bool_)
     count = 0
-    for a in range(m):
-        for b in range(a):
-            i, j = order[a], order[b]
-            doubt = uncertain[i, j] or broken[i, j] or broken[j, i] or lost[i, j] or lost[j, i]
-            if not doubt or not (blended[i] or blended[j]):
+    for i, j in pairs:
+        if not (there[i] and there[j]) or not (blended[i] or blended[j]):
+            continue
+        low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf
+        for c in range(m):
+            s = order[c]
+            if not masked[s]:
                 continue
-            low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf
-            for c in range(m):
-                s = order[c]
-                if not masked[s]:
-                    continue
-                x0 = max(0.0, max(reach[s, 0], _low(extents, reach, i, j, s, 0)))
-                y0 = max(0.0, max(reach[s, 1], _low(extents, reach, i, j, s, 1)))
-                x1 = min(size[0], min(reach[s, 2], _high(extents, reach, i, j, s, 2)))
-                y1 = min(size[1], min(reach[s, 3], _high(extents, reach, i, j, s, 3)))
-                if x0 < x1 and y0 < y1:
-                    low_x, low_y = min(low_x, x0), min(low_y, y0)
-                    high_x, high_y = max(high_x, x1), max(high_y, y1)
-            if low_x < high_x:
-                found[count, 0], found[count, 1] = low_x, low_y
-                found[count, 2], found[count, 3] = high_x, high_y
-                must[count] = lost[i, j] or lost[j, i]
-                behind = j if relation[i, j] == IN_FRONT else i
-                if (broken[i, j] or broken[j, i]) and masked[behind]:
-                    must[count] |= _share(extents, i, j, behind) > LITTLE
-                count += 1
+            x0 = max(0.0, max(reach[s, 0], _low(extents, reach, i, j, s, 0)))
+            y0 = max(0.0, max(reach[s, 1], _low(extents, reach, i, j, s, 1)))
+            x1 = min(size[0], min(reach[s, 2], _high(extents, reach, i, j, s, 2)))
+            y1 = min(size[1], min(reach[s, 3], _high(extents, reach, i, j, s, 3)))
+            if x0 < x1 and y0 < y1:
+                low_x, low_y = min(low_x, x0), min(low_y, y0)
+                high_x, high_y = max(high_x, x1), max(high_y, y1)
+        if low_x < high_x:
+            found[count, 0], found[count, 1] = low_x, low_y
+            found[count, 2], found[count, 3] = high_x, high_y
+            must[count] = lost[i, j] or lost[j, i]
+            behind = j if relation[i, j] == IN_FRONT else i
+            if (broken[i, j] or broken[j, i]) and masked[behind]:
+                must[count] |= _share(extents, i, j, behind) > LITTLE
+            count += 1
     return found[:count], must[:count]
 
 

@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from seethrough.renderer.plan.levels import levels
-from seethrough.renderer.plan.order import BEHIND, IN_FRONT, Placed, Related, decide, doubtful
+from seethrough.renderer.plan.order import (
+    BEHIND,
+    IN_FRONT,
+    Placed,
+    Related,
+    decide,
+    doubtful,
+    near_each_other,
+)
 
 WIDE = np.tile([0.0, 0, 100, 100], (6, 1))  # every box overlaps every other
 
@@ -36,6 +44,34 @@ def test_what_is_not_broken_holds(seed):
                 assert not masked[j] or of_object[i] > of_mask[j]
             assert relation[j, i] == BEHIND
         assert not masked[i] or of_mask[i] >= of_object[i]
+        if of_object[i] > 0 and not broken.any():  # no later than what it waits for has it
+            behind = relation[i] == IN_FRONT
+            assert of_object[i] - 1 in (*of_object[behind & blended], *of_mask[behind & masked])
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_all_that_overlap_are_compared(seed):
+    """By brute force over all pairs of boxes at random, of targets what their masks reach; some lie
+    behind the eye, with boxes from ∞ to −∞."""
+    rng = np.random.default_rng(seed)
+    n = 30
+    low = rng.uniform(0, 100, (n, 2))
+    extents = np.concatenate([low, low + rng.exponential(15, (n, 2))], axis=1)
+    extents[rng.random(n) < 0.1] = np.array([np.inf, np.inf, -np.inf, -np.inf])
+    reach = extents + np.array([-8.0, -8, 8, 8])
+    targets, order = rng.random(n) < 0.4, rng.permutation(n)[:25]
+    zeros = np.zeros(n)
+    placed = Placed(
+        *(order, extents, reach, np.zeros((n, 3)), np.zeros((n, 3, 3)), zeros, zeros, zeros),
+        *(targets, np.zeros(n, bool)),
+    )
+    boxes = np.where(targets[:, None], reach, extents)[order]
+    expected = {
+        (a, b) for a in range(25) for b in range(a)
+        if (boxes[a, :2] <= boxes[b, 2:]).all() and (boxes[a, 2:] >= boxes[b, :2]).all()
+    }  # fmt: skip
+    found = [tuple(pair) for pair in near_each_other(placed).tolist()]
+    assert len(found) == len(set(found)) and set(found) == expected
 
 
 def test_of_a_circle_with_a_target_the_target_loses_nothing():
