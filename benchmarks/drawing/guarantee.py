@@ -159,8 +159,10 @@ def each_drawn(renderer: Renderer, scene: Scene, camera: Camera, ways: Ways) -> 
     last: tuple[DynamicTransparency, bytes] | None = None
     for way, technique in ways.items():
         frame = plan(scene, camera, technique, renderer.size, renderer.without)
-        this = (replace(technique, doubt=0.0), frame.exact.tobytes() + frame.doubtful.tobytes()
-                + frame.crossing.tobytes())
+        this = (
+            replace(technique, doubt=0.0),
+            frame.exact.tobytes() + frame.doubtful.tobytes() + frame.crossing.tobytes(),
+        )
         if this != last:
             renderer.draw(scene, camera, technique)
         last = this

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from seethrough.renderer.arrays import Bools, Floats, Ints
+from seethrough.renderer.arrays import Bools, Ints
 from seethrough.renderer.plan.blending import Blending
 from seethrough.renderer.plan.order import IN_FRONT
 from seethrough.renderer.scene.projection import Boxes
@@ -35,25 +35,26 @@ def pairs(what: Blending, scene: Scene, boxes: Boxes, hard: Bools) -> Ints:
     """(k, 2) the targets of each pair that is lost, if they can be drawn one within the other: the
     one to go first, then the other, which is convex.
 
-    Not what crosses two others, nor where something impenetrable may stand before both: the depth
-    buffer tells whose surface lies behind.
+    Nothing goes last twice, and no pairs close a ring: then what is behind one of a pair, as the
+    depth buffer tells, is behind that one and no other. Nor is it so where something impenetrable
+    may stand before both.
     """
-    found = np.argwhere(what.lost)  # of each pair both ways round
-    found = found[found[:, 0] < found[:, 1]]
+    rows, columns = np.divmod(np.flatnonzero(what.lost), len(hard))
+    found = np.stack([rows, columns], axis=1)[rows < columns]  # each pair is there both ways round
     if not len(found):
         return NONE
-    many = np.bincount(found.ravel(), minlength=len(hard)) > 1
-    near, far, extents, convex = boxes.near, boxes.far, what.extents, scene.convex
-    kept = []
+    kept: list[tuple[int, int]] = []
+    chain = {t: t for t in found.ravel().tolist()}  # of each target, one name for all it hangs on
+    free = {t: bool(scene.convex[t]) for t in chain}
     for i, j in found.tolist():
         first, last = (i, j) if _goes_first(what, i, j) else (j, i)
-        if not convex[last]:
+        if not free[last]:
             first, last = last, first
-        low = np.minimum(extents[i, :2], extents[j, :2])
-        high = np.maximum(extents[i, 2:], extents[j, 2:])
-        before = hard & (near < max(far[i], far[j])) & _meets(extents, low, high)
-        if convex[last] and not (many[i] or many[j] or before.any()):
+        if free[last] and chain[i] != chain[j] and not _before(boxes, hard, i, j):
             kept.append((first, last))
+            free[last] = False
+            old, new = chain[j], chain[i]
+            chain = {t: new if name == old else name for t, name in chain.items()}
     return np.array(kept, np.int64).reshape(-1, 2)
 
 
@@ -74,6 +75,11 @@ def in_order(what: Blending, found: Ints) -> Blending:
     return replace(what, relation=relation, uncertain=uncertain, lost=lost)
 
 
-def _meets(extents: Floats, low: Floats, high: Floats) -> Bools:
-    """(n,) which extents (n, 4) overlap the box from `low` to `high` on the screen."""
-    return (extents[:, :2] <= high).all(axis=1) & (extents[:, 2:] >= low).all(axis=1)
+def _before(boxes: Boxes, hard: Bools, i: int, j: int) -> bool:
+    """Whether any of what is `hard` may stand before both."""
+    k = np.nonzero(hard & (boxes.near < max(boxes.far[i], boxes.far[j])))[0]
+    both, extents = boxes.extents[[i, j]], boxes.extents[k]
+    meets = (extents[:, :2] <= both[:, 2:].max(axis=0)) & (
+        extents[:, 2:] >= both[:, :2].min(axis=0)
+    )
+    return bool(meets.all(axis=1).any())

@@ -1,4 +1,4 @@
-"""Draws two targets that reach into one another, each in its place in the order.
+"""Draws targets that reach into one another, two by two, each in its place in the order.
 
 The first one is drawn with what of the last one lies behind it, told by the depth buffer; that has
 its share of the light as though it were drawn before, with its mask. Borders of masks lie at the
@@ -20,13 +20,12 @@ from numpy.typing import NDArray
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run
-from seethrough.renderer.gpu.levels.lens import depth_values
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.projection import depth_values
 from seethrough.renderer.scene.scene import Scene
 
-MASK = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
 _NEVER_BEYOND, _ALWAYS_BEYOND = 0.0, 1.0  # depths: nothing lies nearer, nothing farther
 
 
@@ -54,28 +53,32 @@ class CrossingPainter:
         """Take on a frame: masks leave `alpha` on their targets, `runs` draw each of these, and
         `into` is what is drawn into."""
         self._runs, self._masks, self._into, self._alpha = runs, masks, into, alpha
-        self._other = {int(a): int(b) for pair in frame.crossing for a, b in (pair, pair[::-1])}
-        self._first = set(frame.crossing[:, 0].tolist())
-        self._depths = depth_values(camera, scene.centers)
+        self._first = {int(last): int(first) for first, last in frame.crossing}
+        self._lasts: dict[int, list[int]] = {}
+        for first, last in frame.crossing.tolist():
+            self._lasts.setdefault(first, []).append(last)
+        self._depths = depth_values(scene.centers, camera)
 
     def draw(self, target: int, ways: Ways) -> int:
         """Draw one of a pair in its place. Returns how many masks that took."""
-        other = self._other[target]
+        lasts, first = self._lasts.get(target, []), self._first.get(target)
         ways.depth(self._runs[target])
-        if target not in self._first:
-            self._mask(other, _ALWAYS_BEYOND, divided=True)
-            self._colors(target, ways)
-            self._mask(other, _ALWAYS_BEYOND, divided=False)
-            return 2
         with self._beyond():
-            self._colors(other, ways)
-            self._multiply(other, self._alpha, ways)
-            self._mask(other, _NEVER_BEYOND, divided=False)
+            for last in lasts:
+                self._colors(last, ways)
+                self._multiply(last, self._alpha, ways)
+            for last in lasts:
+                self._mask(last, _NEVER_BEYOND, divided=False)
+        if first is not None:
+            self._mask(first, _ALWAYS_BEYOND, divided=True)
         self._colors(target, ways)
+        if first is not None:
+            self._mask(first, _ALWAYS_BEYOND, divided=False)
         with self._beyond():
-            self._mask(other, _NEVER_BEYOND, divided=True)
-            self._multiply(other, 1 / self._alpha, ways)
-        return 2
+            for last in lasts:
+                self._mask(last, _NEVER_BEYOND, divided=True)
+                self._multiply(last, 1 / self._alpha, ways)
+        return 2 * (len(lasts) + (first is not None))
 
     def _colors(self, target: int, ways: Ways) -> None:
         ways.lit(self._runs[target])
@@ -101,7 +104,7 @@ class CrossingPainter:
         context, written = self._context, self._into.depth_mask
         context.disable(moderngl.CULL_FACE)
         context.enable(moderngl.BLEND)
-        pipeline.blend(context, MASK)
+        pipeline.blend(context, pipeline.MASK)
         self._into.depth_mask = False
         self._masks.draw_at_depth(target, own, float(self._depths[target]), divided)
         self._into.depth_mask = written
