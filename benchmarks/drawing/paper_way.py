@@ -9,10 +9,10 @@ import numpy as np
 
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.meshes import MeshStore
+from seethrough.renderer.gpu.device.pipeline import MASK, NOTHING, OBJECT
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.levels.layer import MASK, NOTHING, OBJECT
 from seethrough.renderer.gpu.levels.lens import clip_from_offset
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene.camera import Camera

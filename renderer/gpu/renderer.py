@@ -15,7 +15,8 @@ from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.edges.edge_painter import EdgePainter
 from seethrough.renderer.gpu.levels.layer import FrameStats, Layer
 from seethrough.renderer.look.shaders import defines
-from seethrough.renderer.plan.planner import SHORTCUTS, FramePlan, plan
+from seethrough.renderer.plan.frame_plan import SHORTCUTS, FramePlan
+from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.scene.visibility import Drawn, Visibility, visibility, visibility_of_shares

@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Floats, Floats32, Ints
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Object
 

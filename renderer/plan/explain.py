@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.plan import clusters
-from seethrough.renderer.plan.planner import (
+from seethrough.renderer.plan.frame_plan import (
     BLENDED,
     HARD,
     OPAQUE,

@@ -9,7 +9,7 @@ Where no order of objects is right, that part of the picture is sorted pixel by 
 from __future__ import annotations
 
 from collections.abc import Set
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
@@ -20,6 +20,16 @@ from seethrough.renderer.masks import masks
 from seethrough.renderer.plan import clusters, crossing, levels, order
 from seethrough.renderer.plan.blending import Blending, merged_parts
 from seethrough.renderer.plan.doubt import union
+from seethrough.renderer.plan.frame_plan import (
+    BLENDED,
+    HARD,
+    OPAQUE,
+    OUTSIDE,
+    RULED,
+    UNSEEN,
+    FramePlan,
+    Level,
+)
 from seethrough.renderer.plan.outside import holes, wide
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import Boxes, screen_boxes
@@ -31,78 +41,7 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
     by_masks,
 )
 
-SHORTCUTS = {
-    "cull": "objects outside the view are not drawn",
-    "opaque": "only objects in front of a mask are blended and put in order",
-    "masks": "only targets with something penetrable in front get a mask",
-    "levels": "objects that overlap nowhere on the screen are drawn together",
-    "prepass": "only concave objects in front of a mask get a pre-pass for depth",
-    "hulls": "the mask of a convex target is its hull with a skirt, without a picture of its own",
-    "counting": "layers are counted only where they could take more light than is allowed",
-    "outside": "large objects are blended only where masks are, and drawn opaque elsewhere",
-    "parts": "only parts of the picture whose order is in doubt are sorted by pixel",
-    "crossing": "two targets that cross are drawn one within the other, not sorted by pixel",
-    "held": "objects that lie in a part sorted by pixel are drawn there alone",
-    "removed": "what a hole takes is not drawn: things, of large meshes single triangles",
-    "still": "a frame in which nothing changed is shown again",
-    "rooms": "where walls are opaque, only what shows through doorways is drawn",
-}
-
 SORTED = 24  # pixels to sort more for a triangle less
-
-# Why an object is drawn as it is (FramePlan.reasons).
-OUTSIDE, OPAQUE, HARD, BLENDED, RULED, UNSEEN = range(6)
-
-
-@dataclass(frozen=True, eq=False)
-class Level:
-    """Objects (indices) that overlap nowhere on the screen, then the masks of targets."""
-
-    objects: Ints
-    masks: Ints
-
-
-@dataclass(frozen=True, eq=False)
-class FramePlan:
-    """What to draw, in this order: `opaque` with a depth buffer, each level, then `exact`.
-
-    The first level holds masks only. `masked` are all targets that get a mask, `reach` (n, 4)
-    what each mask can cover, `counted` those whose layers must be counted, `exact` (k, 4) the
-    parts of the picture (left, top, right, bottom) to sort by pixel, of each only the blocks that
-    `doubtful` (k, 4) touch if there are any; objects that are `held` show nowhere else and are
-    drawn by that alone. `crossing` (k, 2) are targets that cross: the second one is drawn behind
-    the first as well, where it lies there (plan/crossing.py). `wide` are blended objects
-    to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
-    else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
-    are in levels. `ruled` are drawn last, each surface as the technique's rule has it, which was
-    asked about `shot` (None: there are none). `boxes` are the extents of all objects. `reasons`
-    (n,) say why each object is drawn as it is, `behind` (n,) which target it is that makes it
-    blend (−1: none).
-    """
-
-    opaque: Ints
-    levels: tuple[Level, ...]
-    masked: Ints
-    counted: Ints
-    exact: Ints
-    boxes: Boxes
-    reach: Floats
-    reasons: Ints
-    behind: Ints
-    without: frozenset[str] = field(default_factory=frozenset)
-    wide: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
-    holes: Ints = field(default_factory=lambda: np.zeros((0, 4), np.int64))
-    clusters: tuple[Ints, ...] = ()
-    held: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
-    doubtful: Floats = field(default_factory=lambda: np.zeros((0, 4)))
-    ruled: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
-    shot: Shot | None = None
-    crossing: Ints = field(default_factory=lambda: crossing.NONE)
-
-    @property
-    def ordered(self) -> int:
-        """How many objects are put in order."""
-        return sum(len(level.objects) for level in self.levels)
 
 
 def impenetrable(scene: Scene, camera: Camera, technique: DynamicTransparency) -> Bools:
@@ -322,9 +261,9 @@ def _with_levels(
     part_by_part = "parts" not in base.without
     ordered = crossing.in_order(what, pairs).ordered(size, doubt, part_by_part)
     if len(pairs) and len(ordered.doubtful):  # what lies between the two may be drawn wrongly then
-        alone = what.ordered(size, doubt, part_by_part)
-        if union(alone.doubtful) <= union(ordered.doubtful):
-            pairs, ordered = crossing.NONE, alone
+        without = what.ordered(size, doubt, part_by_part)
+        if union(without.doubtful) <= union(ordered.doubtful):
+            pairs, ordered = crossing.NONE, without
     if ordered.much:
         return _held(base, what.parts(size), triangles, size)
     of_object, of_mask, doubtful = ordered.of_object, ordered.of_mask, ordered.doubtful
@@ -336,14 +275,14 @@ def _with_levels(
     keep = np.zeros(len(masked), dtype=bool)
     keep[base.opaque] = True
     around = holes(what.reach[masked], size)
-    by_itself = what.blended & ~united.clustered
-    by_itself[pairs] = False
-    alone = np.nonzero(by_itself)[0]
+    apart = united.clustered
+    apart[pairs] = True
+    alone = np.nonzero(what.blended & ~apart)[0]
     return replace(
         base,
         opaque=np.nonzero(keep & opaque)[0],
         levels=_levels(of_object, of_mask),
-        crossing=pairs,
+        crossing=pairs[np.argsort(of_object[pairs[:, 1]], kind="stable")],
         exact=parts,
         doubtful=doubtful,
         wide=alone[:0]

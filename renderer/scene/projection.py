@@ -150,3 +150,11 @@ def _add_cuts(
     flat = to_pixels(cuts, camera, size)
     low[rows] = np.minimum(low[rows], np.where(cut[..., None], flat, np.inf).min(axis=1))
     high[rows] = np.maximum(high[rows], np.where(cut[..., None], flat, -np.inf).max(axis=1))
+
+
+def depth_values(points: Floats, camera: Camera) -> Floats:
+    """(n,) what the depth buffer holds, 0 to 1, of points (n, 3); −1 behind the eye."""
+    depth = camera.depth(points)
+    safe = np.where(depth > 0, depth, 1.0)
+    scale = camera.far / (camera.far - camera.near)
+    return np.where(depth > 0, scale * (1 - camera.near / safe), -1.0)

@@ -10,7 +10,7 @@ from sample_scenes import before_column, column, room
 
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.models.vehicles.jeep import jeep_scene
-from seethrough.renderer.plan.planner import SHORTCUTS
+from seethrough.renderer.plan.frame_plan import SHORTCUTS
 from seethrough.renderer.scene import transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Scene

@@ -18,7 +18,7 @@ from seethrough.experiment.files.outputs import check_output
 from seethrough.renderer.look.dressed import dressed
 from seethrough.renderer.meant import meant, one_of
 from seethrough.renderer.plan.explain import explain
-from seethrough.renderer.plan.planner import SHORTCUTS
+from seethrough.renderer.plan.frame_plan import SHORTCUTS
 from seethrough.renderer.scene.camera import Camera, look_at
 from seethrough.renderer.scene.look import PLAIN, Look
 from seethrough.renderer.scene.scene import Scene

@@ -14,6 +14,12 @@ Factors: TypeAlias = tuple[int, int] | tuple[int, int, int, int]
 # under what has been added up so far.
 OVER: Factors = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ZERO, moderngl.ONE)
 UNDER: Factors = (moderngl.ONE_MINUS_DST_ALPHA, moderngl.ONE)
+# A frame's own alpha says how strongly the next object will show: objects blend by it, masks are
+# multiplied into it. What is opaque takes all; depth alone takes nothing.
+OBJECT: Factors = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
+MASK: Factors = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA)
+OPAQUE: Factors = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
+NOTHING: Factors = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
 
 
 def within(target: moderngl.Framebuffer, box: tuple[int, int, int, int] | None) -> None:

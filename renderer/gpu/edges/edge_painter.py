@@ -17,7 +17,7 @@ from seethrough.renderer.look.edge_arrays import Box
 from seethrough.renderer.look.edge_lines import lines_of
 from seethrough.renderer.look.edge_set import EdgeSet, edge_set
 from seethrough.renderer.look.edge_walk import smoothed
-from seethrough.renderer.plan.planner import UNSEEN, FramePlan
+from seethrough.renderer.plan.frame_plan import UNSEEN, FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.geometry import Mesh
 

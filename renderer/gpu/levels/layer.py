@@ -13,19 +13,21 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device import pipeline, reused
 from seethrough.renderer.gpu.device.meshes import MeshStore
+from seethrough.renderer.gpu.device.pipeline import MASK, NOTHING, OBJECT, OPAQUE
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.levels.crossing_painter import MASK, CrossingPainter, Ways
+from seethrough.renderer.gpu.levels.crossing_painter import CrossingPainter, Ways
 from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
 from seethrough.renderer.gpu.levels.lens import clip_from_offset, tight
+from seethrough.renderer.gpu.levels.outside_painter import OutsidePainter, scope
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
 from seethrough.renderer.gpu.rules import painters
 from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms
 from seethrough.renderer.look.shaders import beside_floors
-from seethrough.renderer.plan.planner import FramePlan, Level
+from seethrough.renderer.plan.frame_plan import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.visibility import Drawn
 from seethrough.renderer.techniques.base import REMOVAL, Parameters, Shot
@@ -37,10 +39,6 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import (
 if TYPE_CHECKING:
     from seethrough.renderer.gpu.levels.cluster_painter import ClusterPainter
 
-OPAQUE = (moderngl.ONE, moderngl.ZERO, moderngl.ONE, moderngl.ZERO)
-NOTHING = (moderngl.ZERO, moderngl.ONE, moderngl.ZERO, moderngl.ONE)
-OBJECT = (moderngl.DST_ALPHA, moderngl.ONE_MINUS_DST_ALPHA, moderngl.ZERO, moderngl.ONE)
-Blend = tuple[int, int, int, int]
 AfterLevel = Callable[[NDArray[np.int64] | None], None]
 
 
@@ -72,7 +70,7 @@ class Layer:
         drawn_on = len(bare) < len(defines)
         self._bare = program(context, "object.vert", "object.frag", bare) if drawn_on else None
         self._depth = program(context, "object.vert", "depth.frag", bare)
-        self._flat = program(context, "flat.vert", "depth.frag", bare)
+        self._outside = OutsidePainter(context, bare)
         self._flush = pipeline.flushing(context)
         self._masks = MaskPainter(context, defines)
         self._counter: LayerCounter | None = None
@@ -117,7 +115,8 @@ class Layer:
             self._set_state()
         target.clear(table.scene.background)
         if len(frame.wide):
-            self._draw_outside(frame, runs[1], table, size)
+            lit = partial(self._draw_lit, runs[1], table, OPAQUE)
+            self._draws += self._outside.draw(frame, size, lit)
         self._draw_lit(runs[0], table, OPAQUE)
         if after_level is not None:
             after_level(None)
@@ -140,7 +139,7 @@ class Layer:
             self._draws += draws
         return FrameStats(self._passes, self._draws, len(frame.masked), frame.ordered)
 
-    def _draw_lit(self, runs: list[Run], table: SceneTable, blend: Blend) -> None:
+    def _draw_lit(self, runs: list[Run], table: SceneTable, blend: pipeline.Factors) -> None:
         """Objects with their colours; what is no floor by a program that asks nothing of it."""
         if self._bare is None:
             self._pass(self._object, runs, blend)
@@ -290,7 +289,7 @@ class Layer:
         shader["clip_from_offset"].write(self._matrix)
         shader.set(table=0, sequence=1)
 
-    def _pass(self, shader: Shader, runs: list[Run], blend: Blend) -> None:
+    def _pass(self, shader: Shader, runs: list[Run], blend: pipeline.Factors) -> None:
         if not runs:
             return
         if blend is OPAQUE:
@@ -302,34 +301,6 @@ class Layer:
             mesh.draw(self._context, shader, start, count)
         self._passes += 1
         self._draws += len(runs)
-
-    def _draw_outside(
-        self, frame: FramePlan, runs: list[Run], table: SceneTable, size: tuple[int, int]
-    ) -> None:
-        """Draw the wide objects opaque but where masks may be: the nearest depth is put there
-        first, and the farthest afterwards."""
-        corners = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
-        data = frame.holes[:, corners].astype("f4")
-        buffer = self._context.buffer(data.tobytes())
-        array = self._context.vertex_array(self._flat.program, [(buffer, "2f", "in_place")])
-        self._flat.set(size=size)
-        self._put_depth(array, -1.0)
-        self._draw_lit(runs, table, OPAQUE)
-        self._put_depth(array, 1.0)
-        array.release()
-        buffer.release()
-
-    def _put_depth(self, array: moderngl.VertexArray, depth: float) -> None:
-        context = self._context
-        context.disable(moderngl.CULL_FACE)
-        context.enable(moderngl.BLEND)
-        pipeline.blend(context, NOTHING)
-        context.depth_func = "1"
-        self._flat.set(depth=depth)
-        array.render(moderngl.TRIANGLES)
-        self._draws += 1
-        context.depth_func = "<="
-        context.enable(moderngl.CULL_FACE)
 
     def _draw_clusters(
         self, table: SceneTable, camera: Camera, frame: FramePlan, level: Level
@@ -365,7 +336,7 @@ class Layer:
         for k, level in enumerate(frame.levels):
             for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
                 if wide and part:
-                    pipeline.within(target.framebuffer, _scope(frame, target.size))
+                    pipeline.within(target.framebuffer, scope(frame, target.size))
                 solid = [run for run in part if every or not run[0].mesh.convex]
                 self._pass(self._depth, solid, NOTHING)
                 self._draw_lit(part, table, OBJECT)
@@ -414,10 +385,3 @@ def _counted(frame: FramePlan, technique: DynamicTransparency) -> NDArray[np.int
     """Targets whose layers are counted."""
     all_of_them = "counting" in frame.without and technique.min_transmittance > 0
     return frame.masked if all_of_them else frame.counted
-
-
-def _scope(frame: FramePlan, size: tuple[int, int]) -> tuple[int, int, int, int]:
-    """The rectangle about all masks as OpenGL's x, y (up), width, height."""
-    left, top = frame.holes[:, :2].min(axis=0).tolist()
-    right, bottom = frame.holes[:, 2:].max(axis=0).tolist()
-    return (left, size[1] - bottom, right - left, bottom - top)

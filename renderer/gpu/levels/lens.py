@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seethrough.renderer.arrays import Floats
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.scene.camera import Camera
 
 
@@ -26,10 +25,3 @@ def tight(camera: Camera, frame: FramePlan) -> Camera:
     if near >= far:
         return camera
     return Camera(camera.eye, camera.rotation, camera.fov_y, near, far)
-
-
-def depth_values(camera: Camera, points: Floats) -> Floats:
-    """(n,) what the depth buffer holds, 0 to 1, of points (n, 3); −1 behind the eye."""
-    depth = camera.depth(points)
-    safe = np.where(depth > 0, depth, 1.0)
-    return np.where(depth > 0, camera.far / (camera.far - camera.near) * (1 - camera.near / safe), -1.0)

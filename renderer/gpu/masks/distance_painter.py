@@ -189,9 +189,7 @@ class DistancePainter:
         self._turn = (self._turn + 1) % _TURNS
         framebuffer = self._bound("distances", self._whole, "f4")
         rows, used = self._found.shape
-        self._pictures[self._place("distances")][0].write(
-            self._found, viewport=(0, 0, used, rows)
-        )
+        self._pictures[self._place("distances")][0].write(self._found, viewport=(0, 0, used, rows))
         return framebuffer
 
     def _draw_rings(self, runs: list[list[Run]], technique: DynamicTransparency) -> int:

@@ -19,7 +19,7 @@ from seethrough.renderer.masks import masks
 from seethrough.renderer.masks.silhouettes import near_cuts, silhouette
 from seethrough.renderer.masks.skirts import hulls_with_skirts
 from seethrough.renderer.plan.blocks import BLOCK
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.scene import projection
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency

@@ -14,7 +14,7 @@ from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.masks.distance_painter import DistancePainter
 from seethrough.renderer.gpu.masks.mask_maker import ELLIPSES, MaskGeometry, mask_geometry
 from seethrough.renderer.plan import blocks
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 

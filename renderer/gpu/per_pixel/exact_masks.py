@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.scene_table import SceneTable
-from seethrough.renderer.gpu.levels.lens import depth_values
 from seethrough.renderer.gpu.masks.looked_up import LookedUp
 from seethrough.renderer.gpu.masks.mask_painter import BITS, MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_sorter import COLORS, DEPTHS, PARTS
 from seethrough.renderer.gpu.per_pixel.pixel_cells import Cells, emptied
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.projection import depth_values
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
 # Rasterisation may reach a pixel beyond the box of the exact coordinates.
@@ -109,7 +109,7 @@ class ExactMasks:
         if not 0 < len(made.targets) <= BITS:
             return None
         texture = self._painter.distances
-        depths = depth_values(job.camera, job.table.scene.centers)
+        depths = depth_values(job.table.scene.centers, job.camera)
         return LookedUp(texture, made.targets, made.shift[made.targets], depths[made.targets],
                         job.width, technique.alpha_target, technique.alpha_edge)  # fmt: skip
 
@@ -129,7 +129,10 @@ class ExactMasks:
         self.entries = emptied(self._context, self.entries, size, len(parts), kind, cells.wiped)
         self._context.enable_only(moderngl.NOTHING)
         painter = self._painter
-        depths, extents = depth_values(job.camera, job.table.scene.centers), job.frame.boxes.extents + SLACK
+        depths, extents = (
+            depth_values(job.table.scene.centers, job.camera),
+            job.frame.boxes.extents + SLACK,
+        )
         painter.begin()
         assert slices.depth is not None  # slices have one
         slices.depth.use(DEPTHS)

@@ -15,7 +15,7 @@ from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.reused import kept
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.rules.scope import looked_up
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.base import Parameters, Plain, Shot
 

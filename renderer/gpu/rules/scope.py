@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil, floor
 
 from seethrough.renderer.errors import CannotDraw
-from seethrough.renderer.plan.planner import FramePlan
+from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.techniques.maps import BLOCK
 
 Scope = tuple[int, int, int, int]  # as OpenGL has it: x, y (up), width, height

@@ -10,15 +10,8 @@ from sample_scenes import SHAPES, before_column, column, room
 
 from seethrough.renderer.plan.blending import merged_parts
 from seethrough.renderer.plan.explain import explain
-from seethrough.renderer.plan.planner import (
-    BLENDED,
-    HARD,
-    OUTSIDE,
-    _counted,
-    impenetrable,
-    order,
-    plan,
-)
+from seethrough.renderer.plan.frame_plan import BLENDED, HARD, OUTSIDE
+from seethrough.renderer.plan.planner import _counted, impenetrable, order, plan
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene

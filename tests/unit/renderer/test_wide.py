@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from seethrough.renderer.plan.frame_plan import BLENDED
 from seethrough.renderer.plan.outside import WORTH
-from seethrough.renderer.plan.planner import BLENDED, plan
+from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
