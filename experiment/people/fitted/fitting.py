@@ -51,8 +51,10 @@ class Crowd:
     def __init__(self, seed: int, count: int, pool: Pool) -> None:
         self.seed, self.slots = seed, range(1, count + 1)
         self.study, self.pool = pool.study, pool
-        even = Halton(TRAITS, seed=generator(seed, (SIMULATED,)))
-        self.traits = ndtri(even.random(count))
+        # Its first column alternates, as a Latin square does: it would be a trait of those who meet
+        # one condition first. It is drawn and left out; the other columns' bases are odd primes.
+        even = Halton(1 + TRAITS, seed=generator(seed, (SIMULATED,)))
+        self.traits = ndtri(even.random(count)[:, 1:])
 
     def play(self, profile: Profile, tasks: Collection[str]) -> list[TrialRow]:
         """Who, which task and level, how long, how far off, for every trial of `tasks`.

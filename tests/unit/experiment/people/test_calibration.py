@@ -41,7 +41,7 @@ from seethrough.experiment.people.persons.profile_file import (
 )
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design.design import generator
+from seethrough.experiment.study.design.design import generator, session_for
 from seethrough.tasks.kit.skills.profile import AVERAGE
 
 
@@ -167,6 +167,25 @@ def test_a_crowd_is_spread_evenly_over_what_people_are_like():
         assert_allclose(each.mean(axis=0), 0, atol=0.03)
         assert_allclose(each.std(axis=0), 1, atol=0.03)
         assert_allclose(np.corrcoef(each.T), np.eye(TRAITS), atol=0.06)
+
+
+def test_what_people_are_like_has_nothing_to_do_with_which_condition_they_meet_first():
+    """A column that alternates as the Latin square does puts all careful people into one order."""
+    study = load("published")
+    for seed in (1, 11):
+        traits = Crowd(seed, 96, Pool(study, 1)).traits
+        first: dict[str, list[bool]] = {}
+        for slot in range(1, 97):
+            levels: dict[str, str] = {}
+            for task_set in session_for(slot, study.plan):
+                trial = task_set.trials[0]
+                levels.setdefault(trial.task, trial.levels["transparency"])
+            for task, level in levels.items():
+                first.setdefault(task, []).append(level == "dynamic")
+        for task, dynamic in first.items():
+            assert sum(dynamic) == 48, task
+            apart = traits[dynamic].mean(axis=0) - traits[np.invert(dynamic)].mean(axis=0)
+            assert np.abs(apart).max() < 0.3, (seed, task)  # care was .9 apart
 
 
 def test_given_traits_make_the_person_and_leave_the_trials_luck_alone():
