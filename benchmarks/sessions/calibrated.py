@@ -37,6 +37,11 @@ contradict are findings, not tuned away:
 - Where s.d. of errors are too small (T1, T4 without transparency), the published ones exceed their
   means: single people who were far off, of whom the model has too few where it meets the rest.
 """
+DIFFERENCES = """
+What dynamic transparency changes was fitted beside these rows: dynamic less standard, in standard
+errors of a paired difference, which F tells (difference / √F). Each follows from two of the rows,
+and is not counted among them.
+"""
 PARTS = {
     "search": """
 ## Which rows can be reached at all
@@ -65,9 +70,12 @@ def page(name: str) -> Iterator[str]:
     yield INTRODUCTION
     yield f"Profile `{name}`, by `{fit}`:\n"
     yield from _printed(table)
-    met = sum(line.endswith("fitted: met") for line in table)
-    fitted = sum("fitted: " in line for line in table)
-    yield f"\n{met} of {fitted} fitted rows are met."
+    yield f"\n{_met(table)} fitted rows are met."
+    table = made_by(name, "differences")[1]
+    if table:
+        yield DIFFERENCES
+        yield from _printed(table)
+        yield f"\n{_met(table)} fitted differences are met."
     yield FINDINGS.rstrip()
     for part, said in PARTS.items():
         command, table = made_by(name, part)
@@ -76,6 +84,12 @@ def page(name: str) -> Iterator[str]:
             yield from _printed(table)
     yield "\nThis page is printed by\n"
     yield "    python -m seethrough.benchmarks.sessions.calibrated --out docs/calibration.md"
+
+
+def _met(table: Sequence[str]) -> str:
+    """How many fitted rows of a table are met, of how many."""
+    met = sum(line.endswith("fitted: met") for line in table)
+    return f"{met} of {sum('fitted: ' in line for line in table)}"
 
 
 def _printed(table: Sequence[str]) -> Iterator[str]:

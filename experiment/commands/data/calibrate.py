@@ -103,18 +103,21 @@ def _fit(a: argparse.Namespace, start: Profile, own: Crowd, last: Crowd, others:
             start,
             lambda p: own.play(p, calibration.FITTED),
             a.evaluations,
-            lambda value: progress.step(f"misfit {value:.2f}"),
+            lambda squares: progress.step(f"squares {squares:.1f}"),
             lambda p: last.play(p, calibration.FITTED),
         )
     best = replace(best, name=a.out.stem)
     write(a.out, best, _provenance(a, start.name, misfit, []))  # before a check of minutes
     every = calibration.FITTED + calibration.SEEN
     before, after = (calibration.measured(others.play(p, every)) for p in (start, best))
-    table = calibration.table(after, before)
+    table, gained = calibration.table(after, before), calibration.gained(after, before)
     print(f"{a.check} other participants, seed {a.check_seed}:")
-    for line in table:
+    for line in (*table, "differences, fitted beside these rows and not counted among them:"):
         print(line)
-    write(a.out, best, _provenance(a, start.name, misfit, table))
+    for line in gained[1:]:
+        print(line)
+    said = _provenance(a, start.name, misfit, table)
+    write(a.out, best, {**said, "differences": {"command": _command(a), "table": gained}})
     print(f"profile: {a.out}, {time.process_time() - began:.0f} s of processor time")
 
 

@@ -3,7 +3,8 @@
 Rows of the counting tasks (T1, T4) are fitted. Those of T2 and T3 are never fitted, but earlier
 versions of the model looked at them: they are called *seen*. Sixteen people leave a printed mean a
 standard error of s.d. / √16, an s.d. one of s.d. / √30 (normal values), a correlation 1 / √13 in
-Fisher's z.
+Fisher's z. What one condition gains over the other is the difference of their means: it is fitted
+as well, but it follows from two rows, and is not counted among them.
 """
 
 from __future__ import annotations
@@ -71,6 +72,13 @@ class Moments:
             f"s.d., {lv}": s / sqrt(2 * (n - 1)) for lv, s in zip(LEVELS, self.sds, strict=True)
         }
         return named if self.r is None else named | {"r": 1 / sqrt(n - 3)}
+
+    def difference(self) -> tuple[float, float]:
+        """Dynamic less standard, and its standard error: each person was in both, so that it falls
+        with the correlation. Published, it is the difference / √F, as r is what F implies."""
+        (a, b), r = self.sds, self.r or 0.0
+        variance = max(a * a + b * b - 2 * r * a * b, 0.0)
+        return self.means[1] - self.means[0], sqrt(variance / self.people)
 
 
 @cache
@@ -157,15 +165,36 @@ def lines(simulated: Mapping[Key, Moments]) -> list[Line]:
     return found
 
 
+def differences(simulated: Mapping[Key, Moments]) -> list[Line]:
+    """What dynamic transparency changes, of every published measure whose s.e. F tells, the fitted
+    ones first."""
+    found: list[Line] = []
+    for task in (*FITTED, *SEEN):
+        for (own, what), theirs in published().items():
+            if own == task and (task, what) in simulated and theirs.r is not None:
+                (value, error), (here, mine) = (
+                    m.difference() for m in (theirs, simulated[task, what])
+                )
+                off = (here - value) / error
+                verdict = _counted(task, off) or _verdict(here - value, error, mine)
+                name = f"{TASKS[task]} {what}, dynamic − standard"
+                found.append(Line(task, name, value, here, off, verdict))
+    return found
+
+
 def _lines(task: str, what: str, theirs: Moments, ours: Moments) -> Iterable[Line]:
     values, errors, mine = theirs.values(), theirs.errors(), ours.errors()
     for name, value in values.items():
         here = ours.values()[name]
         apart = here - value if name != "r" else atanh(_inside(here)) - atanh(_inside(value))
         off = apart / errors[name]
-        verdict = ("met" if abs(off) <= ENOUGH else "not met") if task in FITTED else ""
-        verdict = verdict or _verdict(apart, errors[name], mine[name])
+        verdict = _counted(task, off) or _verdict(apart, errors[name], mine[name])
         yield Line(task, f"{TASKS[task]} {what}, {name}", value, here, off, verdict)
+
+
+def _counted(task: str, off: float) -> str:
+    """Whether a fitted row is met; nothing of others."""
+    return ("met" if abs(off) <= ENOUGH else "not met") if task in FITTED else ""
 
 
 def _inside(r: float) -> float:
@@ -187,18 +216,32 @@ def residuals(simulated: Mapping[Key, Moments]) -> NDArray[np.float64]:
     return np.array([line.off for line in lines(simulated) if line.fitted])
 
 
+def gains(simulated: Mapping[Key, Moments]) -> NDArray[np.float64]:
+    """The same of the fitted differences."""
+    return np.array([line.off for line in differences(simulated) if line.fitted])
+
+
 def misfit(simulated: Mapping[Key, Moments]) -> float:
-    """Mean square of that."""
+    """Mean square of how far the fitted rows are off."""
     return float(np.mean(np.square(residuals(simulated))))
 
 
 def table(simulated: Mapping[Key, Moments], prior: Mapping[Key, Moments]) -> list[str]:
     """Published beside simulated, beside what the profile gives that the fit began with."""
-    before = {line.name: line for line in lines(prior)}
+    return _table(lines(simulated), lines(prior))
+
+
+def gained(simulated: Mapping[Key, Moments], prior: Mapping[Key, Moments]) -> list[str]:
+    """The same of the differences."""
+    return _table(differences(simulated), differences(prior))
+
+
+def _table(after: Sequence[Line], prior: Sequence[Line]) -> list[str]:
+    before = {line.name: line for line in prior}
     found = [
         f"{'measure':32s}{'published':>10s}{'simulated':>10s}{'s.e. off':>9s}{'before':>10s}  "
     ]
-    for line in lines(simulated):
+    for line in after:
         digits = 3 if abs(line.published) < 2 else 2
         found.append(
             f"{line.name:32s}{line.published:10.{digits}f}{line.simulated:10.{digits}f}"

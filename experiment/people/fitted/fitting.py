@@ -19,6 +19,7 @@ from seethrough.experiment.people.fitted.calibration import (
     Key,
     Moments,
     TrialRow,
+    gains,
     measured,
     misfit,
     published,
@@ -36,6 +37,7 @@ Play = Callable[[Profile], Iterable[TrialRow]]
 
 STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chance does to paths
 PACES = 1  # evaluations that correct the pace alone
+STEPS = 6  # evaluations that go by the same derivatives, before these are taken again
 LAST = 5  # evaluations of the larger crowd, which goes by the first one's derivatives
 LOOSE = 1.0  # logarithm of the factor by which a constant may move for one standard error
 
@@ -51,8 +53,10 @@ class Crowd:
     def __init__(self, seed: int, count: int, pool: Pool) -> None:
         self.seed, self.slots = seed, range(1, count + 1)
         self.study, self.pool = pool.study, pool
-        even = Halton(TRAITS, seed=generator(seed, (SIMULATED,)))
-        self.traits = ndtri(even.random(count))
+        # Its first column alternates, as a Latin square does: it would be a trait of those who meet
+        # one condition first. It is drawn and left out; the other columns' bases are odd primes.
+        even = Halton(1 + TRAITS, seed=generator(seed, (SIMULATED,)))
+        self.traits = ndtri(even.random(count)[:, 1:])
 
     def play(self, profile: Profile, tasks: Collection[str]) -> list[TrialRow]:
         """Who, which task and level, how long, how far off, for every trial of `tasks`.
@@ -84,27 +88,37 @@ class Crowd:
 
 
 class Evaluations:
-    """Evaluations of one crowd: the best so far, and all of them told to `say`."""
+    """Evaluations of one crowd: the best so far with its residuals `here` and its misfit; the sum
+    of these squares is told to `say` after each evaluation."""
 
     def __init__(self, start: Profile, play: Play, say: Callable[[float], None]) -> None:
         self.start, self.play, self.say = start, play, say
-        self.value, self.best, self.x = np.inf, start, np.zeros(len(FREE))
+        self.squares, self.misfit, self.best = np.inf, np.inf, start
+        self.x, self.here = np.zeros(len(FREE)), np.empty(0)
         self.count = 0
 
     def found(self, x: NDArray[np.float64]) -> dict[Key, Moments]:
         """What the crowd does with the constants at `x`."""
-        profile = with_free(self.start, x)
-        simulated = measured(self.play(profile))
-        value = misfit(simulated)
-        self.count += 1
-        if value < self.value:
-            self.value, self.best, self.x = value, profile, np.array(x)
-        self.say(self.value)
-        return simulated
+        return self._played(x)[0]
 
     def residuals(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Standard errors off; and how far constants have moved, so that none moves for nothing."""
-        return np.concatenate([residuals(self.found(x)), x / LOOSE])
+        """Standard errors off, of rows and of differences; and how far constants have moved, so
+        that none moves for nothing."""
+        if len(self.here) and np.array_equal(x, self.x):
+            return self.here  # played before
+        return self._played(x)[1]
+
+    def _played(self, x: NDArray[np.float64]) -> tuple[dict[Key, Moments], NDArray[np.float64]]:
+        profile = with_free(self.start, x)
+        simulated = measured(self.play(profile))
+        here = np.concatenate([residuals(simulated), gains(simulated), x / LOOSE])
+        squares = float(here @ here)
+        self.count += 1
+        if squares < self.squares:
+            self.squares, self.misfit, self.best = squares, misfit(simulated), profile
+            self.x, self.here = np.array(x), here
+        self.say(self.squares)
+        return simulated, here
 
 
 def calibrate(
@@ -118,24 +132,28 @@ def calibrate(
 
     First the pace is corrected by how far the fitted means are off; where there are evaluations
     for derivatives, scipy's least squares (trust region reflective) moves all of `FREE`, with
-    derivatives over `STEP` that are taken once: they change little. Then a larger crowd (`last`)
-    corrects what was peculiar to the first one, with the same derivatives.
+    derivatives over `STEP` that are taken again after `STEPS`, as long as there are evaluations.
+    Then a larger crowd (`last`) corrects what was peculiar to the first one, with the last ones.
     """
     search = Evaluations(start, play, say)
     x = np.zeros(len(FREE))
     if evaluations - PACES <= len(FREE):  # too few for derivatives: the pace alone
         for _ in range(evaluations):
             x[0] -= _too_slow(search.found(x))
-        return search.best, float(search.value)
+        return search.best, float(search.misfit)
     for _ in range(PACES):
         x[0] -= _too_slow(search.found(x))
     here = search.residuals(x)
-    slopes = slopes_of(search.residuals, x, here)
-    _least_squares(search.residuals, x, evaluations - search.count, slopes)
+    while True:
+        slopes = slopes_of(search.residuals, x, here)
+        _least_squares(search.residuals, x, min(STEPS, evaluations - search.count), slopes)
+        x, here = search.x, search.here
+        if evaluations - search.count <= len(FREE):
+            break
     if last is not None:
-        x, search = search.x, Evaluations(start, last, say)
+        search = Evaluations(start, last, say)
         _least_squares(search.residuals, x, LAST, slopes)
-    return search.best, float(search.value)
+    return search.best, float(search.misfit)
 
 
 def _too_slow(simulated: Mapping[Key, Moments]) -> float:

@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from published_trials import published_rows
 
+from seethrough.analysis.published.numbers import load_published
 from seethrough.experiment import cli
 from seethrough.experiment.commands.data import calibrate as command
 from seethrough.experiment.errors import InputError
@@ -16,7 +17,10 @@ from seethrough.experiment.people.code_hash import code_sha256
 from seethrough.experiment.people.fitted.calibration import (
     LEVELS,
     SEEN,
+    TASKS,
     Moments,
+    differences,
+    gained,
     lines,
     measured,
     misfit,
@@ -25,6 +29,7 @@ from seethrough.experiment.people.fitted.calibration import (
 )
 from seethrough.experiment.people.fitted.fitting import (
     LAST,
+    STEP,
     Crowd,
     calibrate,
     slopes_of,
@@ -41,7 +46,7 @@ from seethrough.experiment.people.persons.profile_file import (
 )
 from seethrough.experiment.people.runs.pool import Pool
 from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design.design import generator
+from seethrough.experiment.study.design.design import generator, session_for
 from seethrough.tasks.kit.skills.profile import AVERAGE
 
 
@@ -90,6 +95,35 @@ def test_rows_are_off_by_standard_errors_of_sixteen_people():
     found = [line.off for line in lines({("count", "time"): off})]
     assert_allclose(found, [1, 0, 0, 1, 1], atol=1e-9)
     assert_allclose(misfit({("count", "time"): off}), 3 / 5, rtol=1e-9)
+
+
+def test_a_published_difference_has_the_standard_error_that_its_f_implies():
+    """F(1, n − 1) = (difference / s.e.)²: for T1's times 15.82 / √7.54 = 5.76 s."""
+    printed = {m.name: m for m in load_published().measures}
+    for (task, what), m in published().items():
+        if m.r is not None:
+            value, error = m.difference()
+            f = printed[f"{what}_{TASKS[task]}"].f.value
+            assert_allclose(error, abs(value) / f**0.5, rtol=1e-9)
+    assert_allclose(published()["count", "time"].difference(), (-15.82, 5.7613), atol=1e-4)
+
+
+def test_differences_are_off_by_that_and_told_apart_from_rows():
+    """By hand: standard a half of a difference's s.e. longer, dynamic one and a half shorter."""
+    theirs = published()["count", "time"]
+    error = theirs.difference()[1]
+    means = (theirs.means[0] + error / 2, theirs.means[1] - 1.75 * error)
+    found = {**published(), ("count", "time"): Moments(means, theirs.sds, theirs.r)}
+    told = {line.name: line for line in differences(found)}
+    assert len(told) == sum(m.r is not None for m in published().values()) == 7
+    off = told.pop("T1 time, dynamic − standard")
+    assert_allclose(off.off, -2.25, rtol=1e-9)
+    assert off.verdict == "not met" and off.fitted
+    assert all(abs(line.off) < 1e-9 for line in told.values())
+    assert {line.verdict for line in told.values()} == {"met", "agrees"}
+    assert not set(told) & {line.name for line in lines(found)}
+    text = gained(found, published())
+    assert len(text) == 1 + 7 and sum("fitted: met" in line for line in text) == 3
 
 
 @pytest.mark.parametrize(
@@ -151,6 +185,28 @@ def test_a_larger_crowd_corrects_what_was_peculiar_to_the_first():
     assert value == misfit(measured(crowd(1.5)(best))) and 1 < len(played) <= LAST
 
 
+def test_derivatives_are_taken_again_as_long_as_there_are_evaluations():
+    """Each time every constant alone is moved by a step from the best place so far."""
+    played = []
+
+    def play(profile):
+        played.append(np.log([getattr(profile, name) for name in FREE]))
+        return [
+            {**row, "time": row["time"] * profile.pace**2 / 1.7}
+            for row in published_rows(errors=False)
+        ]
+
+    calibrate(AVERAGE, play, 60)
+    stepped = {name: 0 for name in FREE}
+    for one in played:
+        for place in played:
+            way = one - place
+            moved = np.abs(way) > 1e-12
+            if moved.sum() == 1 and np.isclose(way.max(), STEP):
+                stepped[list(FREE)[int(way.argmax())]] += 1
+    assert min(stepped.values()) >= 2 and len(played) <= 61
+
+
 def test_slopes_of_what_is_linear_are_its_matrix():
     matrix = np.random.default_rng(1).integers(-9, 9, (5, 3))
     assert_allclose(slopes_of(lambda x: matrix @ x + 2, np.array([0.1, 0.0, -0.3])), matrix)
@@ -167,6 +223,25 @@ def test_a_crowd_is_spread_evenly_over_what_people_are_like():
         assert_allclose(each.mean(axis=0), 0, atol=0.03)
         assert_allclose(each.std(axis=0), 1, atol=0.03)
         assert_allclose(np.corrcoef(each.T), np.eye(TRAITS), atol=0.06)
+
+
+def test_what_people_are_like_has_nothing_to_do_with_which_condition_they_meet_first():
+    """A column that alternates as the Latin square does puts all careful people into one order."""
+    study = load("published")
+    for seed in (1, 11):
+        traits = Crowd(seed, 96, Pool(study, 1)).traits
+        first: dict[str, list[bool]] = {}
+        for slot in range(1, 97):
+            levels: dict[str, str] = {}
+            for task_set in session_for(slot, study.plan):
+                trial = task_set.trials[0]
+                levels.setdefault(trial.task, trial.levels["transparency"])
+            for task, level in levels.items():
+                first.setdefault(task, []).append(level == "dynamic")
+        for task, dynamic in first.items():
+            assert sum(dynamic) == 48, task
+            apart = traits[dynamic].mean(axis=0) - traits[np.invert(dynamic)].mean(axis=0)
+            assert np.abs(apart).max() < 0.3, (seed, task)  # care was .9 apart
 
 
 def test_given_traits_make_the_person_and_leave_the_trials_luck_alone():
