@@ -140,9 +140,11 @@ def _opened(path: Path | None, content: bytes) -> sqlite3.Connection:
     file = sqlite3.connect(path or ":memory:", PATIENCE, isolation_level="IMMEDIATE")
     if content:
         file.deserialize(content)
-    (whose,) = file.execute("PRAGMA application_id").fetchone()
+    file.execute("BEGIN")  # all as it is at one moment: another process may just begin the file
     (tables,) = file.execute("SELECT count(*) FROM sqlite_master").fetchone()
+    (whose,) = file.execute("PRAGMA application_id").fetchone()
     (version,) = file.execute("PRAGMA user_version").fetchone()
+    file.execute("COMMIT")
     if whose == OURS and version != CONTENT:
         raise _OtherVersion(f"{_OLD}; remove it, or name another file with --tables")
     if whose == OURS:  # it may be read-only, and nobody waits for its lock

@@ -3,6 +3,7 @@
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing, suppress
 
 import pytest
 from made_looks import random_look, same_look
@@ -13,6 +14,7 @@ from seethrough.experiment.people.runs.looks import KeptLooks
 
 ADDS = """
 import sys
+from contextlib import closing, suppress
 from pathlib import Path
 from made_looks import random_look
 from seethrough.experiment.people.runs.looks import KeptLooks
@@ -105,6 +107,36 @@ def test_processes_share_a_file_and_one_that_is_killed_loses_only_what_it_had_no
     assert 11 <= counts[0] <= 40 and counts[1:] == [40, 40]
     for table, key in found.keys():
         assert same_look(found.get(table, 12, key), random_look(key[0]))
+
+
+def test_a_file_that_another_process_begins_meanwhile_is_ours(tmp_path, monkeypatch):
+    """It begins it between what is read of it: an empty file's mark, another one's tables."""
+    path, begun = tmp_path / "t.db", []
+
+    class Interrupted(sqlite3.Connection):
+        def execute(self, command, *values):
+            found = super().execute(command, *values).fetchall()
+            if command.startswith(("PRAGMA", "SELECT count")) and "=" not in command and not begun:
+                begun.append(command)
+                with closing(plain(path, timeout=0)) as other, suppress(sqlite3.OperationalError):
+                    for step in module._BEGIN:
+                        other.execute(step)
+            return Found(found)
+
+    class Found(list):
+        def fetchone(self):
+            return self[0]
+
+        def fetchall(self):
+            return self
+
+    plain = sqlite3.connect
+    monkeypatch.setattr(sqlite3, "connect", lambda *a, **k: plain(*a, **k, factory=Interrupted))
+    looks = KeptLooks(path)
+    assert begun
+    looks.put("a", (1,), random_look(1))
+    looks.flush()
+    assert looks.keys() == [("a", (1,))]
 
 
 def test_what_was_filled_is_remembered_with_the_most_walkers(tmp_path):
