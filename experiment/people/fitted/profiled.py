@@ -3,10 +3,10 @@
 The objective is the fit's own: squares of the standard errors that fitted rows and differences are
 off, and of how far constants have moved from where the fit began. A constant's interval ends where
 the least that all others can make of it has risen by what a 95 % interval allows, χ²₁ = 3.84 times
-the spread that the fit leaves (squares over rows less constants): rows are not met to their standard
-errors. The least is found with the slopes at the fit, and then played; where more happens than
-slopes say, the end is moved nearer, and played again. What really happens at each end stands beside
-it. An end may also be where the constant's own limits are.
+the spread that the fit leaves (squares over rows less constants): rows are not met to their
+standard errors. The least is found with the slopes at the fit, and then played; where more happens
+than slopes say, the end is moved nearer, and played again. What really happens at each end stands
+beside it. An end may also be where the constant's own limits are.
 """
 
 from __future__ import annotations

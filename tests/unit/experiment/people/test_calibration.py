@@ -197,7 +197,7 @@ def test_derivatives_are_taken_again_as_long_as_there_are_evaluations():
         ]
 
     calibrate(AVERAGE, play, 60)
-    stepped = {name: 0 for name in FREE}
+    stepped = dict.fromkeys(FREE, 0)
     for one in played:
         for place in played:
             way = one - place
