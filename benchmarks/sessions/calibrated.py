@@ -28,14 +28,13 @@ Each fitted row alone is met by some constants within their intervals (below): n
 reach. What was not found is one set of constants that meets all of them. Rows that are not met or
 contradict are findings, not tuned away:
 
-- T4 with dynamic transparency takes simulated people longer than the published ones, and they miss
-  more. The paper prints no α; what a lower one or larger things would give was not run.
-- T1 gains less than published. With radii of 2.5 to 5 a view shows nearly every red thing either
-  way; what denser worlds or other radii would give was not run.
+- The s.d. of T1's errors without transparency is too small: the published one exceeds its mean.
+  With radii of 2.5 to 5 a view shows nearly every red thing either way, so that nobody is far off;
+  what denser worlds or other radii would give was not run.
 - T3's marks are nearer than people's and spread less, at both levels alike: what errs there is the
   reading of a plan and finding one's way, of which the model has one constant each.
-- Where s.d. of errors are too small (T1, T4 without transparency), the published ones exceed their
-  means: single people who were far off, of whom the model has too few where it meets the rest.
+- T2's times spread less than people's, and simulated people gain little there; nearly nobody is
+  wrong. T3's times without transparency spread more than people's.
 """
 DIFFERENCES = """
 What dynamic transparency changes was fitted beside these rows: dynamic less standard, in standard

@@ -21,16 +21,20 @@ def test_the_page_is_made_from_the_profile(tmp_path):
 
 
 def test_rows_count_as_met_by_their_own_numbers():
-    """A row off by 2.0 as printed may be either; of all others the verdict follows."""
-    rows = [line for line in made_by("calibrated")[1] if "fitted: " in line]
-    assert len(rows) == sum(len(m.values()) for (t, _), m in published().items()
-                            if t in ("count", "count_in_building"))  # fmt: skip
-    for line in rows:
-        off = abs(float(re.findall(NUMBER, line)[2]))
-        if off != 2.0:
-            assert line.endswith("fitted: met") == (off < 2), line
-    met = sum(line.endswith("fitted: met") for line in rows)
-    assert f"{met} of {len(rows)} fitted rows are met." in "\n".join(calibrated.page("calibrated"))
+    """A row off by 2.0 as printed may be either; of all others the verdict follows. Differences are
+    counted by themselves."""
+    fitted = [m for (t, _), m in published().items() if t in ("count", "count_in_building")]
+    text = "\n".join(calibrated.page("calibrated"))
+    for part, of, count in (("", "rows", sum(len(m.values()) for m in fitted)),
+                            ("differences", "differences", len(fitted))):  # fmt: skip
+        rows = [line for line in made_by("calibrated", part)[1] if "fitted: " in line]
+        assert len(rows) == count
+        for line in rows:
+            off = abs(float(re.findall(NUMBER, line)[2]))
+            if off != 2.0:
+                assert line.endswith("fitted: met") == (off < 2), line
+        met = sum(line.endswith("fitted: met") for line in rows)
+        assert f"\n{met} of {count} fitted {of} are met.\n" in text
 
 
 def test_what_the_page_says_of_reach_is_what_was_searched():
