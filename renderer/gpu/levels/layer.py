@@ -121,7 +121,8 @@ class Layer:
         if after_level is not None:
             after_level(None)
         if frame.levels:
-            self._flush()
+            if not self._masks.pending:  # else they and the rasteriser would share the cores
+                self._flush()
             if exact is None:
                 counts = self._looked_up(table, frame, camera, technique, rest, size)
                 target.framebuffer.use()

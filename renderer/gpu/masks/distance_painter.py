@@ -28,6 +28,7 @@ from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicT
 _STRIP = 4  # vertices of a rectangle as a triangle strip
 _LOOKED_UP = 3  # texture unit
 # Of distances: the driver would have to wait for what is drawn from one before it is written again.
+# Not where outlines are still being found: there drawing waits for them anyway.
 _TURNS = 3
 
 
@@ -49,6 +50,11 @@ class DistancePainter:
         """The picture "distances" or "rings" of the last frame, if there is one."""
         place = self._place(name)
         return self._pictures[place][0] if place in self._pictures else None
+
+    @property
+    def pending(self) -> bool:
+        """Whether outlines are found beside the drawing; those of little things are there."""
+        return bool(self._jobs)
 
     def _place(self, name: str) -> str:
         """Where the picture of that name is, in this frame."""
@@ -186,7 +192,8 @@ class DistancePainter:
         """Upload the distances from the outlines of closed meshes."""
         for job in self._jobs:
             job.result()
-        self._turn = (self._turn + 1) % _TURNS
+        if not self.pending:
+            self._turn = (self._turn + 1) % _TURNS
         framebuffer = self._bound("distances", self._whole, "f4")
         rows, used = self._found.shape
         self._pictures[self._place("distances")][0].write(self._found, viewport=(0, 0, used, rows))

@@ -95,6 +95,11 @@ class MaskPainter:
         self._distances.begin(*args)
 
     @property
+    def pending(self) -> bool:
+        """Whether outlines are being found beside the drawing."""
+        return self._distances.pending
+
+    @property
     def distances(self) -> moderngl.Texture | None:
         """The picture that masks without a hull look up."""
         return self._distances.texture("distances")
