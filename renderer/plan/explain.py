@@ -53,6 +53,10 @@ def _whole(frame: FramePlan) -> list[str]:
     if frame.levels:
         levels = sum(1 for level in frame.levels if len(level.objects))
         lines.append(f"{frame.ordered} objects put in order, drawn in {levels} levels")
+    if len(frame.crossing):
+        lines.append(
+            f"{len(frame.crossing)} pairs of targets that cross, one drawn within the other"
+        )
     if len(frame.wide):
         lines.append(f"{len(frame.wide)} large objects blended only where masks are")
     if len(frame.exact):
@@ -88,6 +92,8 @@ def _of_object(scene: Scene, frame: FramePlan, i: int) -> str:
     level = next((k for k, level in enumerate(frame.levels) if i in level.objects), None)
     if level is not None:
         text += f", level {level}"
+    for pair in frame.crossing[(frame.crossing == i).any(axis=1)].tolist():
+        text += f", crosses {name(scene, pair[pair[0] == i])}"
     if not scene.objects[i].mesh.convex:
         text += ", depth first (not convex)"
     return text
