@@ -16,6 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Bools, Floats, Floats32, Ints, Ints32
+from seethrough.renderer.masks.rims import surround
 from seethrough.renderer.masks.silhouettes import Topology
 
 # Pixels by which an outline may be moved where short edges are joined to one: a mask of 10 pixels
@@ -102,11 +103,11 @@ def outline_distances(
     out = np.full((tile[3], tile[2]), FAR * FAR, np.float32)
     _cover(pixels, edges, out)
     way, starts, meets = _walks(edges, len(pixels))
-    _skirt(pixels, way, starts, meets, reach, straight, out)
-    for row in range(tile[3]):  # what the skirt put in are squares
-        for column in range(tile[2]):
-            if out[row, column] > 0:
-                out[row, column] = np.sqrt(out[row, column])
+    surround(pixels, way, starts, meets, reach, straight, out)
+    flat = out.ravel()
+    for k in range(len(flat)):  # what the skirt put in are squares; −1 stays
+        root = np.sqrt(abs(flat[k]))
+        flat[k] = root if flat[k] > 0 else flat[k]
     return out
 
 
@@ -208,161 +209,3 @@ def _walks(edges: Ints, count: int) -> tuple[Ints, Ints, Bools]:
             w += 1
             starts[w] = k
     return points, starts[: w + 1], leaves > 1
-
-
-@njit(cache=True, nogil=True)
-def _straight(
-    pixels: Floats, points: Ints, base: int, size: int, i: int, j: int, slack: float
-) -> bool:
-    """Whether the points between i and j of a walk lie along the way, and hardly beside it."""
-    ax, ay = pixels[points[base + i], 0], pixels[points[base + i], 1]
-    b = points[base + j % size]
-    dx, dy = pixels[b, 0] - ax, pixels[b, 1] - ay
-    length = np.sqrt(dx * dx + dy * dy)
-    if length == 0:
-        return False
-    dx, dy = dx / length, dy / length
-    last = 0.0
-    for v in range(i + 1, j):
-        x, y = pixels[points[base + v], 0] - ax, pixels[points[base + v], 1] - ay
-        along = x * dx + y * dy
-        if along < last - slack or along > length + slack or abs(x * dy - y * dx) > slack:
-            return False
-        last = max(last, along)
-    return True
-
-
-@njit(cache=True, nogil=True)
-def _stretches(
-    pixels: Floats, points: Ints, base: int, size: int, meets: Bools, slack: float, ends: Ints
-) -> int:
-    """Where the nearly straight stretches of a walk end, into `ends`; returns how many."""
-    n = i = 0
-    while i < size:
-        j = i + 1
-        while j < size and j - i < 48 and not meets[points[base + j]]:
-            if not _straight(pixels, points, base, size, i, j + 1, slack):
-                break
-            j += 1
-        ends[n] = j
-        n += 1
-        i = j
-    return n
-
-
-@njit(cache=True, nogil=True)
-def _hidden(px: float, py: float, qx: float, qy: float, out: Floats32) -> bool:
-    """Whether the target covers every pixel about a stretch: then a pixel beside the target has
-    a nearer piece of the outline."""
-    height, width = out.shape
-    steps = 1 + int(min(np.sqrt((qx - px) ** 2 + (qy - py) ** 2), 1e6))
-    for t in range(steps + 1):
-        x, y = px + (qx - px) * t / steps, py + (qy - py) * t / steps
-        if not (1 <= x < width - 1 and 1 <= y < height - 1):
-            return False
-        column, row = int(x), int(y)
-        for r in range(row - 1, row + 2):
-            for c in range(column - 1, column + 2):
-                if out[r, c] >= 0:
-                    return False
-    return True
-
-
-@njit(cache=True, nogil=True)
-def _window(low: float, high: float, size: int) -> tuple[int, int]:
-    """The pixels, of `size`, whose centres lie between two coordinates."""
-    first = int(min(max(np.ceil(low - 0.5), 0.0), float(size)))
-    return first, int(max(min(np.floor(high - 0.5) + 1.0, float(size)), 0.0))
-
-
-@njit(cache=True, nogil=True)
-def _beside(
-    px: float, py: float, qx: float, qy: float, nx: float, ny: float, reach: float, out: Floats32
-) -> None:
-    """Squared distances of the pixels on the outer side (nx, ny) of a stretch from p to q."""
-    height, width = out.shape
-    ox, oy, length = nx * reach, ny * reach, np.sqrt((qx - px) ** 2 + (qy - py) ** 2)
-    first, last = _window(min(px, qx, px + ox, qx + ox), max(px, qx, px + ox, qx + ox), width)
-    top, bottom = _window(min(py, qy, py + oy, qy + oy), max(py, qy, py + oy, qy + oy), height)
-    for row in range(top, bottom):
-        for column in range(first, last):
-            x, y = column + 0.5 - px, row + 0.5 - py
-            d = x * nx + y * ny
-            along = x * ny - y * nx  # the stretch runs along (ny, −nx)
-            if 0 <= d <= reach and -1e-9 <= along <= length + 1e-9 and d * d < out[row, column]:
-                out[row, column] = d * d
-
-
-@njit(cache=True, nogil=True)
-def _about(
-    px: float, py: float, ax: float, ay: float, bx: float, by: float, reach: float, out: Floats32
-) -> None:
-    """Squared distances of the pixels round a corner p from normal a to b, if it turns outwards;
-    of all pixels round it where both are 0."""
-    height, width = out.shape
-    whole = ax == 0 and ay == 0
-    if not whole and ax * by - ay * bx >= 0 and ax * bx + ay * by > -0.999999:
-        return
-    low_x, high_x, low_y, high_y = px - reach, px + reach, py - reach, py + reach
-    cosine = ax * bx + ay * by
-    if not whole and cosine > 0:  # a turn of less than a right angle lies in the tangents' hull
-        mx, my = reach * (ax + bx) / (1 + cosine), reach * (ay + by) / (1 + cosine)
-        low_x = px + min(0.0, ax * reach, bx * reach, mx)
-        high_x = px + max(0.0, ax * reach, bx * reach, mx)
-        low_y = py + min(0.0, ay * reach, by * reach, my)
-        high_y = py + max(0.0, ay * reach, by * reach, my)
-    first, last = _window(low_x, high_x, width)
-    top, bottom = _window(low_y, high_y, height)
-    for row in range(top, bottom):
-        for column in range(first, last):
-            x, y = column + 0.5 - px, row + 0.5 - py
-            square = x * x + y * y
-            # Beyond the stretch before, which runs along (ay, −ax), and before the one after.
-            if square < out[row, column] and square <= reach * reach:
-                if whole or (x * ay - y * ax >= -1e-9 and x * by - y * bx <= 1e-9):
-                    out[row, column] = square
-
-
-@njit(cache=True, nogil=True)
-def _skirt(
-    pixels: Floats,
-    points: Ints,
-    starts: Ints,
-    meets: Bools,
-    reach: float,
-    slack: float,
-    out: Floats32,
-) -> None:
-    """Put the square of the least distance into `out` for the pixels outside the walks.
-
-    Beside each stretch and round each corner that turns outwards; all round where walks meet;
-    nothing where the target covers both sides.
-    """
-    ends = np.empty(len(points) + 1, np.int64)
-    normals = np.zeros((len(points) + 1, 2))
-    shown = np.empty(len(points) + 1, np.bool_)
-    for w in range(len(starts) - 1):
-        base, size = starts[w], starts[w + 1] - starts[w]
-        n = _stretches(pixels, points, base, size, meets, slack, ends)
-        begin = 0
-        for e in range(n):
-            p, q = points[base + begin], points[base + ends[e] % size]
-            begin = ends[e]
-            px, py, qx, qy = pixels[p, 0], pixels[p, 1], pixels[q, 0], pixels[q, 1]
-            length = np.sqrt((qx - px) ** 2 + (qy - py) ** 2)
-            nx = ny = 0.0
-            if length > 0:
-                nx, ny = -(qy - py) / length, (qx - px) / length
-            normals[e, 0], normals[e, 1] = nx, ny
-            shown[e] = not _hidden(px, py, qx, qy, out)
-            if shown[e] and length > 0:
-                _beside(px, py, qx, qy, nx, ny, reach, out)
-        for e in range(n):
-            after = (e + 1) % n
-            if not (shown[e] or shown[after]):
-                continue
-            q = points[base + ends[e] % size]
-            ax, ay, bx, by = normals[e, 0], normals[e, 1], normals[after, 0], normals[after, 1]
-            if meets[q] or (ax == 0 and ay == 0) or (bx == 0 and by == 0):
-                ax = ay = bx = by = 0.0
-            _about(pixels[q, 0], pixels[q, 1], ax, ay, bx, by, reach, out)

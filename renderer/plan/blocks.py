@@ -26,11 +26,18 @@ def shape(size: tuple[int, int]) -> tuple[int, int]:
 def mark(distance: Real, left: int, top: int, width: float, number: int, bits: Bits) -> None:
     """Set bit `number` of the blocks in which any of the (h, w) distances is within a mask's
     `width`; `left` and `top` are where they lie in the window."""
-    bit = np.uint64(1) << np.uint64(number)
-    for row in range(distance.shape[0]):
-        for column in range(distance.shape[1]):
-            if distance[row, column] <= width:
-                bits[(top + row) // BLOCK, (left + column) // BLOCK] |= bit
+    bit, (rows, columns) = np.uint64(1) << np.uint64(number), distance.shape
+    for row in range(rows):
+        line, begin = (top + row) // BLOCK, 0
+        while begin < columns:  # block by block: most are known by their first rows
+            block = (left + begin) // BLOCK
+            end = min(columns, (block + 1) * BLOCK - left)
+            if bits[line, block] & bit == 0:
+                for column in range(begin, end):
+                    if distance[row, column] <= width:
+                        bits[line, block] |= bit
+                        break
+            begin = end
 
 
 @njit(cache=True)

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from seethrough.renderer.gpu.device.meshes import GpuMesh
 
 
-# Compiled code is kept on disk until this file changes: change it with the kernels of contours.py.
+# Compiled code is kept on disk until this file changes: change it with the kernels of
+# contours.py and rims.py.
 _CORES = os.cpu_count() or 1
 _WORTH = 30_000  # edges to look at for which a second thread is worth waking
 _LITTLE = 60_000  # edges and pixels that are looked at before another thread would have begun
@@ -130,9 +131,7 @@ def _fill(
         pose = contours.Pose(wanted.eyes[t], wanted.turns[t], wanted.moves[t])
         window = wanted.windows[t]
         found = contours.outline_distances(solid, pose, wanted.lens, window, width, wanted.straight)
-        height = len(found)
-        for row in range(height):
-            for column in range(found.shape[1]):
-                line = corners[t, 1] + height - 1 - row
-                out[line, corners[t, 0] + column] = found[row, column]
+        left, top = corners[t, 0], corners[t, 1] + len(found) - 1
+        for row in range(len(found)):
+            out[top - row, left : left + found.shape[1]] = found[row]
         blocks.mark(found, window[0], window[1], width, wanted.numbers[t], bits)
