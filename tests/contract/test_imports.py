@@ -213,6 +213,7 @@ def test_what_is_compared_with_older_commits_is_where_the_benchmark_looks() -> N
         (against.ABSTRACT, "abstract_scene"),
         (against.CONTROLS, "orbit"),
         (against.VIEWED, "SCENES"),
+        (against.CONTEXT, "standalone"),
     )
     for modules, name in wanted:
         assert hasattr(import_module(f"seethrough.{modules[0]}"), name)
