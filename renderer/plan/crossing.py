@@ -77,6 +77,8 @@ def in_order(what: Blending, found: Ints) -> Blending:
 
 def _before(boxes: Boxes, hard: Bools, i: int, j: int) -> bool:
     """Whether any of what is `hard` may stand before both."""
+    if not hard.any():
+        return False
     k = np.nonzero(hard & (boxes.near < max(boxes.far[i], boxes.far[j])))[0]
     both, extents = boxes.extents[[i, j]], boxes.extents[k]
     meets = (extents[:, :2] <= both[:, 2:].max(axis=0)) & (

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from seethrough.renderer.arrays import Floats, Ints
+from seethrough.renderer.arrays import Floats, Ints, Signs
 from seethrough.renderer.plan import crossing
 from seethrough.renderer.scene.projection import Boxes
 from seethrough.renderer.techniques.base import Shot
@@ -54,8 +55,8 @@ class FramePlan:
     else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
     are in levels. `ruled` are drawn last, each surface as the technique's rule has it, which was
     asked about `shot` (None: there are none). `boxes` are the extents of all objects. `reasons`
-    (n,) say why each object is drawn as it is, `behind` (n,) which target it is that makes it
-    blend (−1: none).
+    (n,) say why each object is drawn as it is; `relation` (n, n) is who is drawn before whom
+    (order.decide), empty where nothing is put in order.
     """
 
     opaque: Ints
@@ -66,7 +67,7 @@ class FramePlan:
     boxes: Boxes
     reach: Floats
     reasons: Ints
-    behind: Ints
+    relation: Signs = field(default_factory=lambda: np.zeros((0, 0), np.int8))
     without: frozenset[str] = field(default_factory=frozenset)
     wide: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
     holes: Ints = field(default_factory=lambda: np.zeros((0, 4), np.int64))
@@ -76,6 +77,17 @@ class FramePlan:
     ruled: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
     shot: Shot | None = None
     crossing: Ints = field(default_factory=lambda: crossing.NONE)
+
+    @cached_property
+    def behind(self) -> Ints:
+        """(n,) a masked target behind each blended object, −1 where there is none."""
+        found = np.full(len(self.reasons), -1)
+        if self.relation.any():
+            over = np.zeros(self.relation.shape, dtype=bool)
+            over[:, self.masked] = self.relation[:, self.masked] > 0
+            over[self.reasons != BLENDED] = False
+            found[over.any(axis=1)] = over.argmax(axis=1)[over.any(axis=1)]
+        return found
 
     @property
     def ordered(self) -> int:

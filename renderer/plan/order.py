@@ -243,25 +243,31 @@ def doubtful(
 
     Only where a mask reaches does the order show at all: elsewhere the depth buffer is exact.
     """
-    n = len(uncertain)
-    rows, columns = np.divmod(np.flatnonzero(uncertain | broken | lost), n)  # 2-D is slower
-    found = np.unique(np.maximum(rows, columns) * n + np.minimum(rows, columns))
-    return _doubtful(related, np.stack(np.divmod(found, n), axis=1), broken, lost, size)
+    found = np.flatnonzero(uncertain | broken | lost)  # in two dimensions it is slower
+    return _doubtful(related, found, broken, lost, size)
 
 
 @njit(cache=True)
 def _doubtful(
-    related: Related, pairs: Ints, broken: Bools, lost: Bools, size: Floats
+    related: Related, places: Ints, broken: Bools, lost: Bools, size: Floats
 ) -> tuple[Floats, Bools]:
-    """The same of these pairs (p, 2)."""
+    """The same of the pairs at these places of a table (n, n), each counted once."""
     order, extents, reach = related.seen, related.extents, related.reach
     relation, blended, masked = related.relation, related.blended, related.masked
     m, n = len(order), len(extents)
     there = np.zeros(n, np.bool_)
     there[order] = True
+    pairs = np.empty(len(places), np.int64)
+    for p in range(len(places)):
+        a, b = places[p] // n, places[p] % n
+        pairs[p] = max(a, b) * n + min(a, b)
+    pairs.sort()
     found, must = np.empty((len(pairs), 4)), np.zeros(len(pairs), np.bool_)
     count = 0
-    for i, j in pairs:
+    for p in range(len(pairs)):
+        i, j = pairs[p] // n, pairs[p] % n
+        if p > 0 and pairs[p] == pairs[p - 1]:
+            continue
         if not (there[i] and there[j]) or not (blended[i] or blended[j]):
             continue
         low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf

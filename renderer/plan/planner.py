@@ -67,7 +67,7 @@ def plan(
     `without` names SHORTCUTS not to take; `scale` shrinks the width of masks with the picture;
     `state` is what events have made of the technique's.
     """
-    boxes = screen_boxes(scene.corners, camera, size)
+    boxes = screen_boxes(scene.corners, camera, size, scene.around)
     drawn = np.nonzero(boxes.inside | ("cull" in without))[0]
     if technique.technique.painter != MASKS:
         rules, shot = technique.technique, Shot(scene, camera, size, scale, covered=boxes)
@@ -108,7 +108,7 @@ def plan(
         boxes=boxes,
         reach=reach,
         reasons=_reasons(boxes, hard, blended),
-        behind=_behind(relation, blended, masked),
+        relation=relation,
         without=frozenset(without),
     )
     if not masked.any() and not blended.any():
@@ -161,8 +161,7 @@ def _opaque(boxes: Boxes, drawn: Ints, without: Set[str]) -> FramePlan:
     reasons = np.where(boxes.inside, OPAQUE, OUTSIDE)
     return FramePlan(
         *(drawn, (), none, none, np.zeros((0, 4), np.int64), boxes, boxes.extents, reasons),
-        np.full(len(reasons), -1),
-        frozenset(without),
+        without=frozenset(without),
     )
 
 
@@ -229,12 +228,6 @@ def _reasons(boxes: Boxes, hard: Bools, blended: Bools) -> Ints:
     return np.where(boxes.inside, reasons, OUTSIDE)
 
 
-def _behind(relation: Signs, blended: Bools, masked: Bools) -> Ints:
-    """(n,) a masked target behind each blended object, −1 where there is none."""
-    over = (relation == order.IN_FRONT) & masked[None] & blended[:, None]
-    return np.where(over.any(axis=1), over.argmax(axis=1), -1) if len(over) else over.sum(axis=1)
-
-
 def _with_levels(
     base: FramePlan,
     what: Blending,
@@ -274,7 +267,7 @@ def _with_levels(
         parts, doubtful = np.array([[0, 0, *size]]), doubtful[:0]
     keep = np.zeros(len(masked), dtype=bool)
     keep[base.opaque] = True
-    around = holes(what.reach[masked], size)
+    around = holes(what.reach, base.masked, size)
     apart = united.clustered
     apart[pairs] = True
     alone = np.nonzero(what.blended & ~apart)[0]
@@ -287,7 +280,7 @@ def _with_levels(
         doubtful=doubtful,
         wide=alone[:0]
         if "outside" in base.without
-        else wide(base.boxes, alone, around, triangles, size),
+        else wide(base.boxes.extents, alone, around, triangles, size),
         holes=around,
         clusters=united.members,
     )

@@ -25,7 +25,7 @@ class Boxes:
     """What objects cover on the screen, at most.
 
     extents (n, 4): left, top, right, bottom in pixels; near, far (n,): view depths of the nearest
-    and farthest corner; crosses (n,): whether the near plane cuts the box; within (n,): whether
+    and farthest corner; crosses (n,): whether the near plane cuts it; within (n,): whether
     any of it lies between the near and far planes; inside (n,): whether it can be in the picture.
     """
 
@@ -82,53 +82,74 @@ def clouds(
     return pixels, starts
 
 
-def screen_boxes(corners: NDArray[np.float64], camera: Camera, size: tuple[int, int]) -> Boxes:
+def screen_boxes(
+    corners: NDArray[np.float64],
+    camera: Camera,
+    size: tuple[int, int],
+    around: tuple[Floats, Ints] | None = None,
+) -> Boxes:
     """Extents on the screen of (n, 8, 3) world boxes, cut at the near plane.
 
-    The corners of a box come in the order of their bits: corner k is high in x if k & 4.
+    The corners of a box come in the order of their bits: corner k is high in x if k & 4. `around`
+    are points (p, 3) that hold closer what lies in each box, and where each one's begin (n + 1,).
     """
     scale = camera.lens(size[1])
     lens = np.array([scale, size[0] / 2, size[1] / 2, camera.near])
-    extents, depths, crosses = _boxes(corners, camera.eye, camera.rotation, lens)
-    near, far = depths[:, 0], depths[:, 1]
-    low, high = extents[:, :2], extents[:, 2:]
+    held, starts = around or (corners.reshape(-1, 3), 8 * np.arange(len(corners) + 1))
+    extents, near, far, crosses = _boxes(held, starts, camera.eye, camera.rotation, lens)
     if crosses.any():
         points = to_camera(corners, camera)
         rows = np.nonzero(crosses)[0]
+        low, high = extents[:, :2], extents[:, 2:]
         _add_cuts(low, high, rows, points, -points[..., 2], camera, size)
-    within = (far > camera.near) & (near < camera.far)
-    inside = within & (high > 0).all(axis=1) & (low < np.array(size)).all(axis=1)
-    return Boxes(extents, near, far, crosses, within, inside)
+    return Boxes(
+        extents, near, far, crosses, *_seen(extents, near, far, camera.near, camera.far, size)
+    )
 
 
 @njit(cache=True)
 def _boxes(
-    corners: Floats, eye: Floats, rotation: Floats, lens: Floats
-) -> tuple[Floats, Floats, Bools]:
-    """(n, 4) extents of what lies beyond the near plane, (n, 2) depths, and whether it cuts."""
-    n = len(corners)
-    extents, depths = np.empty((n, 4)), np.empty((n, 2))
+    points: Floats, starts: Ints, eye: Floats, rotation: Floats, lens: Floats
+) -> tuple[Floats, Floats, Floats, Bools]:
+    """(n, 4) extents of what lies beyond the near plane, nearest and farthest depth (n,), and
+    whether it cuts; of object i by rows starts[i] to starts[i + 1] of the points (p, 3)."""
+    n = len(starts) - 1
+    extents, near, far = np.empty((n, 4)), np.full(n, np.inf), np.full(n, -np.inf)
     crosses = np.zeros(n, np.bool_)
     for i in range(n):
-        extents[i, 0] = extents[i, 1] = depths[i, 0] = np.inf
-        extents[i, 2] = extents[i, 3] = depths[i, 1] = -np.inf
+        extents[i, 0] = extents[i, 1] = np.inf
+        extents[i, 2] = extents[i, 3] = -np.inf
         ahead = 0
-        for k in range(8):
+        for k in range(starts[i], starts[i + 1]):
             x, y, z = 0.0, 0.0, 0.0
             for c in range(3):
-                d = corners[i, k, c] - eye[c]
+                d = points[k, c] - eye[c]
                 x += d * rotation[c, 0]
                 y += d * rotation[c, 1]
                 z -= d * rotation[c, 2]
-            depths[i, 0], depths[i, 1] = min(depths[i, 0], z), max(depths[i, 1], z)
+            near[i], far[i] = min(near[i], z), max(far[i], z)
             if z < lens[3]:
                 continue
             ahead += 1
             x, y = lens[1] + lens[0] * x / z, lens[2] - lens[0] * y / z
             extents[i, 0], extents[i, 1] = min(extents[i, 0], x), min(extents[i, 1], y)
             extents[i, 2], extents[i, 3] = max(extents[i, 2], x), max(extents[i, 3], y)
-        crosses[i] = 0 < ahead < 8
-    return extents, depths, crosses
+        crosses[i] = 0 < ahead < starts[i + 1] - starts[i]
+    return extents, near, far, crosses
+
+
+@njit(cache=True)
+def _seen(
+    extents: Floats, near: Floats, far: Floats, first: float, last: float, size: tuple[int, int]
+) -> tuple[Bools, Bools]:
+    """(n,) what lies between the depths `first` and `last`, and which of that in the picture."""
+    n = len(extents)
+    within, inside = np.empty(n, np.bool_), np.empty(n, np.bool_)
+    for i in range(n):
+        within[i] = far[i] > first and near[i] < last
+        inside[i] = within[i] and extents[i, 2] > 0 and extents[i, 3] > 0
+        inside[i] = inside[i] and extents[i, 0] < size[0] and extents[i, 1] < size[1]
+    return within, inside
 
 
 def _add_cuts(

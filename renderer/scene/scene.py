@@ -104,6 +104,15 @@ class Scene:
         return moved + self.transforms[:, None, :3, 3]
 
     @cached_property
+    def around(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """(p, 3) world points that hold each object between them (Mesh.around), and where each
+        object's begin (n + 1,)."""
+        local = [o.mesh.around for o in self.objects]
+        starts = np.cumsum([0, *(len(points) for points in local)])
+        moved = [p @ t[:3, :3].T + t[:3, 3] for p, t in zip(local, self.transforms, strict=True)]
+        return np.concatenate([np.zeros((0, 3)), *moved]), starts
+
+    @cached_property
     def group_of(self) -> NDArray[np.int64]:
         """(n,) number of each object's group, counted from 0 in the order of first appearance."""
         keys = [

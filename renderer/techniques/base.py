@@ -76,7 +76,10 @@ class Shot:
         """What objects cover on the screen."""
         from seethrough.renderer.scene.projection import screen_boxes
 
-        return self.covered or screen_boxes(self.scene.corners, self.camera, self.size)
+        if self.covered is not None:
+            return self.covered
+        scene = self.scene
+        return screen_boxes(scene.corners, self.camera, self.size, scene.around)
 
     @property
     def looked_up(self) -> tuple[int, int, int, int]:

@@ -140,6 +140,7 @@ class MaskPainter:
             "searchlight": searchlight(technique, height),
             **_UNITS,
         }
+        self._told: set[tuple[str, ...]] = set()
         self.set(**self._values)
 
     def set(self, **values: object) -> None:
@@ -172,7 +173,11 @@ class MaskPainter:
         count = int(self._count[target])
         if count:
             key = (*self._keys[bool(self._pictured[target])], "AT_DEPTH")
-            self._shader(key).set(**self._values, own=own, beside=beside, divided=divided)
+            shader = self._shader(key)
+            if key not in self._told:  # once a frame: to compare them all takes as long as to draw
+                shader.set(**self._values)
+                self._told.add(key)
+            shader.set(own=own, beside=beside, divided=divided)
             self._array(key).render(moderngl.TRIANGLES, count, int(self._first[target]))
 
     def draw(self, targets: NDArray[np.int64]) -> int:
