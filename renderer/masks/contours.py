@@ -19,6 +19,7 @@ from seethrough.renderer.arrays import Bools, Floats, Floats32, Ints, Ints32
 from seethrough.renderer.masks.rims import surround
 from seethrough.renderer.masks.silhouettes import Topology
 
+# Compiled code is kept on disk until this file changes: change it with the kernels of rims.py.
 # Pixels by which an outline may be moved where short edges are joined to one: a mask of 10 pixels
 # is off by at most 0.4 % there, and a colour by a step of 1/255.
 STRAIGHT = 0.04
