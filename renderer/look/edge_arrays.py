@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Bools, Floats, Floats32, Ints
 
+TOGETHER = 512  # pixels of lines, after which those found are looked at before they are forgotten
 STEPS = 4096  # of a colour between 0 and 1, when it becomes a 16-bit float again
 
 
@@ -28,14 +29,17 @@ class Edges(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """Of each object drawn (k): its mesh, the eye in mesh space (k, 3), turn (k, 3, 3) and move
-    (k, 3): camera ← mesh; and whether it may show through others."""
+    """Which objects (k,) are drawn, and of all that there are (n): mesh (n,), matrix (n, 4, 4):
+    world ← mesh, the inverse (n, 3, 3) of its turn, and whether it may show through others (n,);
+    the camera's eye (3,) and rotation (3, 3): world ← camera."""
 
+    objects: Ints
     mesh: Ints
-    eye: Floats
-    turn: Floats
-    move: Floats
+    matrix: Floats
+    inverse: Floats
     through: Bools
+    eye: Floats
+    rotation: Floats
 
 
 class View(NamedTuple):
@@ -109,11 +113,11 @@ def tables() -> tuple[Floats32, NDArray[np.uint16]]:
 class Room(NamedTuple):
     """What smoothing needs besides, kept from frame to frame.
 
-    Where lines are seen, in the order in which they are walked (s,): which line, in which pixel,
-    how far off the neighbour is that it runs nearer to, how far across, and how much of the line is
-    seen if it is of what may show through others. Of pixels that take a part of a neighbour, in the
-    order in which they were found (p,): where, how far off the neighbour is, the part, and the new
-    colour (p, 3). slot (p,): 1 + where each pixel of the part stands in that order, all 0 between
+    Where lines are seen, of those that are walked together, in that order (s,): which line, in
+    which pixel, how far off the neighbour is that it runs nearer to, how far across, and how much
+    of the line is seen if it is of what may show through others. Of pixels that take a part of a
+    neighbour, in the order in which they were found (p,): where, how far off the neighbour is, the
+    part, and the new colour (p, 3). slot (p,): 1 + where each pixel of the part stands in that order, all 0 between
     frames. How much of a pixel has ink (p,), all 0 between frames, and the pixels that have any
     (p,).
     """

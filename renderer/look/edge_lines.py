@@ -13,26 +13,33 @@ Codes = NDArray[np.uint8]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def lines_of(edges: Edges, poses: Poses, view: View, out: Lines) -> tuple[int, int, Box]:
+def lines_of(edges: Edges, poses: Poses, view: View, out: Lines) -> tuple[int, Box]:
     """Put the lines of all objects into `out`, which has room for all edges. Returns how many there
-    are, through how many pixels they run together, and the part of the picture that those are in:
-    its left, lower, right and upper border."""
+    are, and the part of the picture that their pixels are in: its left, lower, right and upper
+    border."""
     longest = np.zeros(2, np.int64)
     for m in range(len(edges.starts) - 1):
         for n in range(2):
             longest[n] = max(longest[n], edges.starts[m + 1, n] - edges.starts[m, n])
     found, front = np.empty(longest[0], np.int32), np.zeros(longest[1] + 1, np.uint8)
-    ends, numbers, span, inked = edges.ends, out.numbers, out.span, out.inked
-    columns, through = out.flat, out.through
+    starts, ends, sides, crease = edges.starts, edges.ends, edges.sides, edges.crease
+    planes, mesh, objects, see_through = edges.planes, poses.mesh, poses.objects, poses.through
+    numbers, span, inked, columns, through = out.numbers, out.span, out.inked, out.flat, out.through
+    turn, eye = np.empty((3, 4)), np.empty(3)
     left, below, right, above = view.width, view.height, 0, 0
-    count, pixels = 0, 0
-    for o in range(len(poses.mesh)):
-        turn, move, shines = poses.turn[o], poses.move[o], poses.through[o]
-        xx, xy, xz, xw = turn[0, 0], turn[0, 1], turn[0, 2], move[0]
-        yx, yy, yz, yw = turn[1, 0], turn[1, 1], turn[1, 2], move[1]
-        zx, zy, zz, zw = -turn[2, 0], -turn[2, 1], -turn[2, 2], -move[2]
-        start = edges.starts[poses.mesh[o], 0]
-        for k in range(_showing(edges, poses, o, front, found)):
+    count = 0
+    for o in objects:
+        m, shines = mesh[o], see_through[o]
+        _place(poses, o, turn, eye)
+        xx, xy, xz, xw = turn[0, 0], turn[0, 1], turn[0, 2], turn[0, 3]
+        yx, yy, yz, yw = turn[1, 0], turn[1, 1], turn[1, 2], turn[1, 3]
+        zx, zy, zz, zw = -turn[2, 0], -turn[2, 1], -turn[2, 2], -turn[2, 3]
+        start, end = starts[m, 0], starts[m + 1, 0]
+        own = planes[starts[m, 1] : starts[m + 1, 1]]
+        showing = _showing(
+            own, sides[start:end], crease[start:end], eye, view.smooth, front, found
+        )  # fmt: skip
+        for k in range(showing):
             e, turns = start + found[k] // 2, found[k] % 2 > 0
             px, py, pz = ends[e, 0, 0], ends[e, 0, 1], ends[e, 0, 2]
             qx, qy, qz = ends[e, 1, 0], ends[e, 1, 1], ends[e, 1, 2]
@@ -59,32 +66,47 @@ def lines_of(edges: Edges, poses: Poses, view: View, out: Lines) -> tuple[int, i
             steep = np.sqrt(1.0 + ((v1 - v0) * slope) ** 2)
             inked[count] = view.half * steep if turns else 0.0
             count += 1
-            pixels += last - first
             x0, y0, x1, y1 = (first, low, last, high) if flat else (low, first, high, last)
             left, below = min(left, x0), min(below, y0)
             right, above = max(right, x1), max(above, y1)
-    return count, pixels, (left, below, right, above)
+    return count, (left, below, right, above)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _showing(edges: Edges, poses: Poses, o: int, front: Codes, found: NDArray[np.int32]) -> int:
-    """Which edges of an object may show, counted from its mesh's first: twice that, and 1 more
+def _place(poses: Poses, o: int, turn: Floats, eye: Floats) -> None:
+    """Fill in an object's turn and move (3, 4), camera ← mesh, and where the eye is in its mesh's
+    space (3,)."""
+    matrix, inverse, seen, rotation = poses.matrix, poses.inverse, poses.eye, poses.rotation
+    for i in range(3):
+        for j in range(3):
+            turn[i, j] = 0.0
+            for k in range(3):
+                turn[i, j] += rotation[k, i] * matrix[o, k, j]
+        turn[i, 3] = eye[i] = 0.0
+        for k in range(3):
+            turn[i, 3] += rotation[k, i] * (matrix[o, k, 3] - seen[k])
+            eye[i] += inverse[o, i, k] * (seen[k] - matrix[o, k, 3])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _showing(
+    planes: Floats, sides: NDArray[np.uint32], crease: Codes, eye: Floats, creased: bool,
+    front: Codes, found: NDArray[np.int32],
+) -> int:  # fmt: skip
+    """Which of an object's edges may show, creases too if asked for: twice their number, and 1 more
     where its surface turns away. Returns how many. Nothing branches: which edges do is what a
     processor cannot guess."""
-    m = poses.mesh[o]
-    (e0, f0), (e1, f1) = edges.starts[m], edges.starts[m + 1]
-    x, y, z = poses.eye[o, 0], poses.eye[o, 1], poses.eye[o, 2]
-    planes, sides, crease = edges.planes[f0:f1], edges.sides[e0:e1], edges.crease[e0:e1]
+    x, y, z = eye[0], eye[1], eye[2]
     for f in range(len(planes)):
         d = planes[f, 0] * x + planes[f, 1] * y + planes[f, 2] * z
         front[f] = d > planes[f, 3]
     front[len(planes)] = 0
-    count = 0
+    wanted, count = np.uint8(creased), 0
     for e in range(len(sides)):
         a, b = front[sides[e, 0]], front[sides[e, 1]]
         turns = a ^ b
         found[count] = 2 * e + turns
-        count += turns | (a & crease[e])
+        count += turns | (a & crease[e] & wanted)
     return count
 
 

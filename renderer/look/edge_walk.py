@@ -18,7 +18,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Floats32
-from seethrough.renderer.look.edge_arrays import STEPS, Lines, Picture, Room, View
+from seethrough.renderer.look.edge_arrays import STEPS, TOGETHER, Lines, Picture, Room, View
 
 Halves = NDArray[np.uint16]
 Whole = NDArray[np.uint32]
@@ -35,9 +35,13 @@ FIRM = 0.1  # the same, from which on an outline through something has all of it
 def smoothed(lines: Lines, count: int, view: View, picture: Picture, room: Room) -> tuple[int, int]:
     """Smooth the picture's colours by the first `count` lines, as `view` says, and draw outlines.
     Returns the first and the last + 1 of the rows that were changed."""
-    steps = _walk(lines, count, view, picture, room)
-    taking = _take(steps, picture, room) if view.smooth else 0
-    inked = _ink(steps, lines, view, picture, room) if view.half > 0.0 else 0
+    taking, inked, k = 0, 0, 0
+    while k < count:
+        k, steps = _walk(lines, k, count, view, picture, room)
+        if view.smooth:
+            taking = _take(steps, taking, room)
+        if view.half > 0.0:
+            inked = _ink(steps, inked, lines, view, picture, room)
     first, last = len(picture.depth), -1
     for pixels, there in ((room.pixels, taking), (room.inked, inked)):
         for i in range(there):
@@ -48,14 +52,17 @@ def smoothed(lines: Lines, count: int, view: View, picture: Picture, room: Room)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _walk(lines: Lines, count: int, view: View, picture: Picture, room: Room) -> int:
-    """Find the pixels that lines run through where they can be seen. Returns how many there are.
-    Nothing branches there that a processor cannot guess."""
+def _walk(
+    lines: Lines, first: int, count: int, view: View, picture: Picture, room: Room
+) -> tuple[int, int]:
+    """Find the pixels that lines run through where they can be seen, from the `first` of `count`
+    lines on, until there are TOGETHER. Returns the line to go on with, and how many there
+    are. Nothing branches there that a processor cannot guess."""
     span, numbers, columns, see_through = lines.span, lines.numbers, lines.flat, lines.through
     depth, color, decoded = picture.depth, picture.color, picture.decoded
     line, at, beside, place, seen = room.line, room.at, room.beside, room.place, room.seen
-    steps = 0
-    for k in range(count):
+    steps, k = 0, first
+    while k < count and steps < TOGETHER:
         flat, through = columns[k], see_through[k]
         u0, v0, w0 = numbers[k, 0], numbers[k, 1], numbers[k, 2]
         dv, dw, slope = numbers[k, 3], numbers[k, 4], numbers[k, 5]
@@ -82,15 +89,16 @@ def _walk(lines: Lines, count: int, view: View, picture: Picture, room: Room) ->
                 z = UNIT * max(depth[p], depth[p + aside])
                 hidden = view.a * (w0 + t * dw) < (1.0 - NEARER) * (view.b - z)
                 steps += not hidden
-    return steps
+        k += 1
+    return k, steps
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _take(steps: int, picture: Picture, room: Room) -> int:
-    """Find what each pixel takes of a neighbour: the largest part of all. Returns of how many."""
+def _take(steps: int, count: int, room: Room) -> int:
+    """Find what each pixel takes of a neighbour: the largest part of all. Returns of how many, with
+    the `count` that there were."""
     at, beside, place, slot = room.at, room.beside, room.place, room.slot
     pixels, parts, takes = room.pixels, room.part, room.takes
-    count = 0
     for s in range(steps):
         part = place[s] - np.floor(place[s])
         part, p = min(part, 1.0 - part), at[s]
@@ -105,13 +113,15 @@ def _take(steps: int, picture: Picture, room: Room) -> int:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _ink(steps: int, lines: Lines, view: View, picture: Picture, room: Room) -> int:
-    """Find how much of each pixel has ink. Returns of how many any has."""
+def _ink(
+    steps: int, count: int, lines: Lines, view: View, picture: Picture, room: Room
+) -> int:
+    """Find how much of each pixel has ink. Returns of how many any has, with the `count` that there
+    were."""
     columns, through, width = lines.flat, lines.through, lines.inked
     depth, color, decoded = picture.depth, picture.color, picture.decoded
     line, at, beside, place, seen = room.line, room.at, room.beside, room.place, room.seen
     ink, inked = room.ink, room.inked
-    count = 0
     for s in range(steps):
         k, p, v = line[s], at[s], place[s]
         half, aside, j = width[k], beside[s], int(np.floor(v))

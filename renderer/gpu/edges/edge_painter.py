@@ -13,7 +13,7 @@ from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.lens import tight
 from seethrough.renderer.look import edge_arrays
-from seethrough.renderer.look.edge_arrays import Box
+from seethrough.renderer.look.edge_arrays import TOGETHER, Box
 from seethrough.renderer.look.edge_lines import lines_of
 from seethrough.renderer.look.edge_set import EdgeSet, edge_set
 from seethrough.renderer.look.edge_walk import smoothed
@@ -55,16 +55,17 @@ class EdgePainter:
             lens.far / deep, smooth, width / 2,
         )  # fmt: skip
         poses = edge_arrays.Poses(
-            table.slot[objects], *self._poses(table, objects, camera), _through(frame)[objects]
+            *(objects, table.slot, table.scene.transforms, table.inverse, _through(frame)),
+            *(camera.eye, camera.rotation),
         )
         edges = self._joined(table)
-        most = int(np.diff(edges.starts[:, 0])[poses.mesh].sum())
+        most = int(np.diff(edges.starts[:, 0])[table.slot[objects]].sum())
         if most > len(self._lines.flat):
             self._lines = edge_arrays.lines(most)
-        count, pixels, around = lines_of(edges, poses, view, self._lines)
+        count, around = lines_of(edges, poses, view, self._lines)
         if count:
             box = about(around, view)
-            self._make_room(pixels, box[2] * box[3])
+            self._make_room(TOGETHER + max(box[2:]), box[2] * box[3])
             self._draw(count, view, target, box)
 
     def _draw(self, count: int, view: edge_arrays.View, target: FrameTarget, box: Box) -> None:
@@ -85,22 +86,13 @@ class EdgePainter:
             target.color.write(rows, viewport=(left, below + first, wide, last - first))
 
     def _make_room(self, steps: int, pixels: int) -> None:
-        """For lines of so many pixels together, and a part of the picture of so many."""
-        had = len(self._room.line), len(self._room.slot)
+        """For so many pixels of lines at once, and a part of the picture of so many."""
+        had = len(self._room.line) - 1, len(self._room.slot)
         if steps > had[0] or pixels > had[1]:
-            steps, pixels = max(2 * steps, had[0]), max(pixels, had[1])
+            steps, pixels = max(steps, had[0]), max(pixels, had[1])
             self._room = edge_arrays.room(steps, pixels)
             self._color = memoryview(bytearray(8 * pixels))
             self._depth = memoryview(bytearray(4 * pixels))
-
-    def _poses(
-        self, table: SceneTable, objects: NDArray[np.int64], camera: Camera
-    ) -> tuple[Floats, Floats, Floats]:
-        """Where the eye is in mesh space, and turns and moves: camera ← mesh."""
-        turns, moves = table.turned(objects, camera)
-        matrix = table.scene.transforms[objects]
-        eyes = np.einsum("kij,kj->ki", table.inverse[objects], camera.eye - matrix[:, :3, 3])
-        return eyes, turns, moves
 
     def _joined(self, table: SceneTable) -> edge_arrays.Edges:
         """The edges of a scene's meshes."""
