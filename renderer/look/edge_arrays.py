@@ -117,9 +117,9 @@ class Room(NamedTuple):
     which pixel, how far off the neighbour is that it runs nearer to, how far across, and how much
     of the line is seen if it is of what may show through others. Of pixels that take a part of a
     neighbour, in the order in which they were found (p,): where, how far off the neighbour is, the
-    part, and the new colour (p, 3). slot (p,): 1 + where each pixel of the part stands in that order, all 0 between
-    frames. How much of a pixel has ink (p,), all 0 between frames, and the pixels that have any
-    (p,).
+    part, and the new colour (p, 3). slot (p,): 1 + where each pixel of the part stands in that
+    order, all 0 between frames. How much of a pixel has ink (p,), all 0 between frames, and the
+    pixels that have any (p,).
     """
 
     line: NDArray[np.int32]

@@ -7,6 +7,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.look.edge_arrays import Box, Edges, Lines, Point, Poses, View
 
 Codes = NDArray[np.uint8]

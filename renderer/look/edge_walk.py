@@ -113,9 +113,7 @@ def _take(steps: int, count: int, room: Room) -> int:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _ink(
-    steps: int, count: int, lines: Lines, view: View, picture: Picture, room: Room
-) -> int:
+def _ink(steps: int, count: int, lines: Lines, view: View, picture: Picture, room: Room) -> int:
     """Find how much of each pixel has ink. Returns of how many any has, with the `count` that there
     were."""
     columns, through, width = lines.flat, lines.through, lines.inked

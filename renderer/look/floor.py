@@ -15,6 +15,9 @@ from seethrough.renderer.scene.look import Look
 KIND = "floor"
 STEEP = 0.5  # the least cosine between a floor's surface and the vertical
 WIDTH = 0.03  # of a line, as a part of the distance between lines
+# Texels of the map of shadows that lie side by side, the last as the first of the next strip: what
+# is near on the floor is near in memory, where a software rasteriser otherwise waits for each row.
+STRIP = 32
 DARK = 0.35  # how much of the floor's colour a line takes
 
 
@@ -67,17 +70,33 @@ def floors(kinds: tuple[str, ...]) -> Bools:
     return np.array([kind == KIND for kind in kinds], dtype=bool)
 
 
+# Where each triangle of a floor has one normal and one colour (`flat`), a vertex knows what its
+# pixels would all work out, and whether they are drawn on: from this cosine on.
+FLAT = f"FLOOR_FLAT {STEEP}"
+
 GLSL = f"""
 #ifdef FLOOR
 uniform vec3 eye;
 uniform float pixel;  // the slope that a pixel spans
 flat in float on_floor;
-uniform sampler2D shadows;   // what is left of the floor's colour, over the floor
-uniform vec4 shadows_place;  // its corner (x, z), and 1 / its sides
+uniform sampler2DArray shadows;  // what is left of the floor's colour, over the floor, in strips
+uniform vec4 shadows_place;  // the middle of its first texel along x, its lowest z; texels for a
+                             // unit along x, 1 / its side along z
+#ifdef FLOOR_FLAT
+flat in vec3 floor_color;
+flat in vec4 floor_light;    // unit normal, light from wherever it is seen
+in vec2 shadows_at;          // where on the map
+#endif
 
 float within(float x, float period, float width) {{
     float turns = floor(x / period);
     return turns * width + min(x - turns * period, width);
+}}
+
+float shadow(vec2 at) {{
+    float strip = floor(at.x * {1 / (STRIP - 1):.9e});
+    float along = at.x * {1 / STRIP:.9e} - ({1 - 1 / STRIP:.9e} * strip - {0.5 / STRIP:.9e});
+    return texture(shadows, vec3(along, at.y, strip)).r;
 }}
 
 float line(float place, float wide, float period) {{
@@ -86,7 +105,12 @@ float line(float place, float wide, float period) {{
 }}
 
 vec3 painted(vec3 color, vec3 normal, vec3 offset) {{
+#ifdef FLOOR_FLAT
+    float shown = on_floor;
+#else
     float shown = on_floor > 0.0 && normal.y > {STEEP} * length(normal) ? 1.0 : 0.0;
+    vec2 shadows_at = (offset.xz + eye.xz - shadows_place.xy) * shadows_place.zw;
+#endif
     float left = 1.0;
 #ifdef FLOOR_GRID
     float far = length(offset), across = 0.5 * pixel * far;
@@ -99,9 +123,9 @@ vec3 painted(vec3 color, vec3 normal, vec3 offset) {{
     left = 1.0 - {DARK} * (1.0 - left);
 #endif
 #ifdef FLOOR_SHADOWS
-    left *= texture(shadows, (offset.xz + eye.xz - shadows_place.xy) * shadows_place.zw).r;
+    left *= shadow(shadows_at);
 #endif
-    return color * mix(1.0, left, shown);
+    return color * max(left, 1.0 - shown);
 }}
 #else
 vec3 painted(vec3 color, vec3 normal, vec3 offset) {{ return color; }}

@@ -30,14 +30,21 @@ def shade(normals: NDArray[np.float64], to_eye: NDArray[np.float64]) -> NDArray[
 
 
 def glsl() -> str:
-    """The same as a GLSL function `float shade(vec3 normal, vec3 to_eye)`."""
+    """The same as a GLSL function `float shade(vec3 normal, vec3 to_eye)`, and its parts."""
     x, y, z = KEY_DIRECTION
     return f"""
-float shade(vec3 normal, vec3 to_eye) {{
-    vec3 n = normalize(normal);
+float steady(vec3 n) {{  // light that falls on a surface of unit normal from wherever it is seen
     float sky = 0.5 + 0.5 * n.y;
     float key = max(dot(n, vec3({x:.9f}, {y:.9f}, {z:.9f})), 0.0);
-    float head = max(dot(n, normalize(to_eye)), 0.0);
-    return sqrt({GROUND} + {SKY - GROUND:.9f} * sky + {KEY} * key + {HEAD} * head);
+    return {GROUND} + {SKY - GROUND:.9f} * sky + {KEY} * key;
+}}
+
+float bright(float steady_light, float head) {{
+    return sqrt(steady_light + {HEAD} * max(head, 0.0));
+}}
+
+float shade(vec3 normal, vec3 to_eye) {{
+    vec3 n = normalize(normal);
+    return bright(steady(n), dot(n, normalize(to_eye)));
 }}
 """

@@ -21,6 +21,13 @@ flat out int channel;
 #ifdef FLOOR
 flat out float on_floor;
 #endif
+#ifdef FLOOR_FLAT
+uniform vec3 eye;
+uniform vec4 shadows_place;
+flat out vec3 floor_color;
+flat out vec4 floor_light;
+centroid out vec2 shadows_at;
+#endif
 
 void main() {
     int row = first + gl_InstanceID;
@@ -37,6 +44,13 @@ void main() {
     color = in_color * texelFetch(table, ivec2(3, object), 0).rgb;
 #ifdef FLOOR
     on_floor = texelFetch(table, ivec2(3, object), 0).a;
+#endif
+#ifdef FLOOR_FLAT
+    vec3 unit = normalize(normal);
+    floor_color = color;
+    floor_light = vec4(unit, steady(unit));
+    on_floor = on_floor > 0.0 && unit.y > FLOOR_FLAT ? 1.0 : 0.0;
+    shadows_at = (offset.xz + eye.xz - shadows_place.xy) * shadows_place.zw;
 #endif
     gl_Position = clip_from_offset * vec4(offset, 1.0);
 }

@@ -164,6 +164,30 @@ def test_a_floor_has_lines_on_top_alone():
         assert np.array_equal(*pictures)
 
 
+@pytest.mark.parametrize("kind", ["flat", "smooth", "tinted"])
+def test_every_kind_of_floor_looks_as_the_reference_says(renderer, kind):
+    """Flat ones are lit by a program of their own; one that is not has all drawn by the other."""
+    quad, ball = geometry.quad(14, 9), geometry.sphere(2.5, 3)
+    shades = np.linspace(0.3, 1.0, len(quad.vertices))[:, None]
+    mesh = replace(quad, colors=quad.colors * shades) if kind == "tinted" else quad
+    hill = ball if kind == "smooth" else geometry.box(4, 1, 3)
+    tilt = transforms.placed((2.0, -0.4, 0.5), transforms.rotation_x(0.2), (1.0, -1.0, 1.3))
+    things = (
+        Object(mesh, color=(0.8, 0.7, 0.9), kind="floor", impenetrable=True),
+        Object(hill, tilt, (0.6, 0.9, 0.7), kind="floor", impenetrable=True),
+        Object(geometry.sphere(1.0, 2), transforms.translation(-2, 1.2, 1), (0.2, 0.4, 0.9)),
+    )
+    scene = dressed(
+        Scene(things), Look(ground_shadows=1.0, shadow_reach=4.0, floor_grid=1.1)
+    )  # fmt: skip
+    camera = look_at(np.array([3.0, 5.0, 9.0]), np.zeros(3), fov_y=0.8, near=1, far=50)
+    want = exact(scene, camera, named("standard"), SIZE)
+    found = drawn(renderer, scene, camera, named("standard"))
+    off = np.abs(found - want.picture).max(axis=2)[~want.near_edge]
+    assert off.max() < 1 / 255
+    assert renderer._table(scene).flat_floors == (kind == "flat")
+
+
 def floating(height, plate=2.0, reach=8.0, strength=1.0):
     """The shadow map of a thin square plate above a floor of 20 × 20."""
     ground = Object(geometry.quad(20, 20), kind="floor", impenetrable=True)

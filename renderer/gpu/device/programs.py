@@ -16,9 +16,16 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 LIT = """
+#ifdef FLOOR_FLAT
+vec3 lit(vec3 color, vec3 normal, vec3 offset) {
+    float head = -dot(floor_light.xyz, offset) * inversesqrt(dot(offset, offset));
+    return painted(min(floor_color * bright(floor_light.w, head), 1.0), normal, offset);
+}
+#else
 vec3 lit(vec3 color, vec3 normal, vec3 offset) {
     return painted(min(color * shade(normal, -offset), 1.0), normal, offset);
 }
+#endif
 """
 
 
@@ -63,7 +70,7 @@ def program(
     sources = [_source(n) if values is None else _filled_in(n, values) for n in (vertex, fragment)]
     return Shader(
         context.program(
-            vertex_shader=head + sources[0],
+            vertex_shader=head + lighting.glsl() + sources[0],
             fragment_shader=head + lighting.glsl() + GLSL + LIT + sources[1],
         )
     )

@@ -68,20 +68,35 @@ class SceneTable:
             shader.set(shadows=SHADOWS, shadows_place=place)
 
     @cached_property
-    def _shadows(self) -> tuple[moderngl.Texture, tuple[float, ...]]:
-        """The map of the floor's shadows, and where it lies."""
+    def _shadows(self) -> tuple[moderngl.TextureArray, tuple[float, ...]]:
+        """The map of the floor's shadows in strips, and where it lies (renderer/look/floor.py)."""
         found = floor_map(self.scene)
         high, wide = found.light.shape
-        light = found.light.astype("f2").tobytes()
-        picture = self._context.texture((wide, high), 1, light, alignment=1, dtype="f2")
+        count, step = -(-wide // (floor.STRIP - 1)) + 1, floor.STRIP - 1
+        light = np.pad(found.light, ((0, 0), (1, step * count + 1 - wide)), mode="edge")
+        strips = np.stack([light[:, k * step : (k + 1) * step + 1] for k in range(count)])
+        picture = self._context.texture_array(
+            (floor.STRIP, high, count), 1, strips.astype("f2").tobytes(), alignment=1, dtype="f2"
+        )
         picture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         picture.repeat_x = picture.repeat_y = False
-        return picture, (*found.corner, 1 / found.size[0], 1 / found.size[1])
+        (x, z), (width, depth) = found.corner, found.size
+        return picture, (x - width / wide / 2, z, wide / width, 1 / depth)
 
     @cached_property
     def floor_meshes(self) -> frozenset[int]:
         """The ids of the meshes that floors have."""
         return frozenset(id(self.meshes[slot]) for slot in self.slot[self.floors].tolist())
+
+    @cached_property
+    def flat_floors(self) -> bool:
+        """Whether each triangle of the meshes that floors have has one normal and one colour."""
+        for slot in set(self.slot[self.floors].tolist()):
+            mesh = self.meshes[slot].mesh
+            for values in (mesh.normals[mesh.triangles], mesh.colors[mesh.triangles]):
+                if (values != values[:, :1]).any():
+                    return False
+        return True
 
     @cached_property
     def triangles(self) -> Triangles:

@@ -6,9 +6,8 @@ import math
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Bools, Floats
+from seethrough.renderer.arrays import Bools
 from seethrough.renderer.gpu.device.scene_table import SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
 from seethrough.renderer.gpu.levels.lens import tight

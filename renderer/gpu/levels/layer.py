@@ -26,6 +26,7 @@ from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
 from seethrough.renderer.gpu.rules import painters
 from seethrough.renderer.gpu.rules.rule_program import Ruled, RulePrograms
+from seethrough.renderer.look import floor
 from seethrough.renderer.look.shaders import beside_floors
 from seethrough.renderer.plan.frame_plan import FramePlan, Level
 from seethrough.renderer.scene.camera import Camera
@@ -65,10 +66,11 @@ class Layer:
         defines = [*(["WITH_IDS"] if ids else []), *look]
         self._defines, self._ruled = defines, dict[str, painters.Painter]()
         self.peeled: list[Drawn] = []  # layers of the last frame with ids, from the back
-        self._object = program(context, "object.vert", "object.frag", defines)
         bare = beside_floors(defines)
-        drawn_on = len(bare) < len(defines)
-        self._bare = program(context, "object.vert", "object.frag", bare) if drawn_on else None
+        self._object = program(context, "object.vert", "object.frag", bare)
+        self._floors = dict[bool, Shader]()  # where floors are drawn on: flat ones, and others
+        self._floor = self._object
+        self._drawn_on = len(bare) < len(defines)
         self._depth = program(context, "object.vert", "depth.frag", bare)
         self._outside = OutsidePainter(context, bare)
         self._flush = pipeline.flushing(context)
@@ -99,10 +101,10 @@ class Layer:
         self._matrix = clip_from_offset(camera, size)
         runs, rest = self._before(table, frame, camera, technique, scale, size)
         self._set_state()
-        for shader in (self._object, self._depth, self._bare):
-            if shader is not None:
-                self._use(shader)
-                table.set_look(shader, camera, size[1])
+        self._floor = self._for_floors(table)
+        for shader in {self._object, self._depth, self._floor}:
+            self._use(shader)
+            table.set_look(shader, camera, size[1])
         counts, exact = None, None
         if len(frame.exact) and after_level is None:
             # Before the frame's own picture: on a software rasteriser to leave that half done and
@@ -142,12 +144,22 @@ class Layer:
 
     def _draw_lit(self, runs: list[Run], table: SceneTable, blend: pipeline.Factors) -> None:
         """Objects with their colours; what is no floor by a program that asks nothing of it."""
-        if self._bare is None:
+        if not self._drawn_on:
             self._pass(self._object, runs, blend)
             return
-        for shader, on_floor in ((self._bare, False), (self._object, True)):
+        for shader, on_floor in ((self._object, False), (self._floor, True)):
             mine = [run for run in runs if (id(run[0]) in table.floor_meshes) == on_floor]
             self._pass(shader, mine, blend)
+
+    def _for_floors(self, table: SceneTable) -> Shader:
+        """What draws the floors of a scene."""
+        if not self._drawn_on:
+            return self._object
+        flat = table.flat_floors
+        if flat not in self._floors:
+            defines = [*self._defines, *([floor.FLAT] if flat else [])]
+            self._floors[flat] = program(self._context, "object.vert", "object.frag", defines)
+        return self._floors[flat]
 
     def _draw_ruled(
         self,
