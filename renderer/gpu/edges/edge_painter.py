@@ -54,9 +54,9 @@ class EdgePainter:
             lens.far / deep, smooth, width / 2,
         )  # fmt: skip
         poses = edge_arrays.Poses(
-            *(objects, table.slot, table.scene.transforms, table.inverse, _through(frame)),
-            *(camera.eye, camera.rotation),
-        )
+            objects, table.slot, table.scene.transforms, table.inverse, _through(frame),
+            camera.eye, camera.rotation,
+        )  # fmt: skip
         edges = self._joined(table)
         most = int(np.diff(edges.starts[:, 0])[table.slot[objects]].sum())
         if most > len(self._lines.flat):
