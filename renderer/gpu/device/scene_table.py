@@ -43,7 +43,7 @@ class SceneTable:
                 slots[id(mesh)] = len(self.meshes)
                 self.meshes.append(mesh)
             self.slot[i] = slots[id(mesh)]
-        self.inverse = np.linalg.inv(linear)
+        self.inverse = np.asarray(np.linalg.inv(linear), np.float64)
         sizes = [len(o.mesh.triangles) for o in scene.objects]
         self.first_triangle = np.cumsum([0, *sizes])
         rows = np.zeros((max(n, 1), 4, 4), dtype="f4")
