@@ -1,10 +1,13 @@
 """Data mode against visual mode: the same session, played with the eyes open and from tables."""
 
+import time
+
 import pytest
 
 from seethrough.experiment import cli
 from seethrough.experiment.display.clock import SimulatedClock
 from seethrough.experiment.display.offscreen import OffscreenDisplay
+from seethrough.experiment.people.fitted.crowds import Crowds
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.runs import batch
 from seethrough.experiment.people.runs.data_mode import Played, play_session
@@ -15,6 +18,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.study.config import load
 from seethrough.experiment.study.design.design import SIMULATED, generator
 from seethrough.tasks.catalog import TASKS
+from seethrough.tasks.kit.skills.profile import AVERAGE
 
 LATTICE = frozenset({"motor_noise"})  # without it a participant stands on the lattice: exact tables
 
@@ -60,6 +64,18 @@ def test_a_study_of_sixteen_in_data_mode_is_the_same_on_two_workers(tmp_path, mo
         folder = out / "data" / "simulated"
         folders.append({p.relative_to(folder): p.read_bytes() for p in folder.glob("*/*")})
     assert folders[0] == folders[1] and len(folders[0]) == 4 * 4
+
+
+def test_a_crowd_is_the_same_on_two_workers(tmp_path, monkeypatch):
+    """Row by row, whoever played whom; that workers played takes time of theirs."""
+    monkeypatch.setattr("seethrough.experiment.people.fitted.crowds.CHUNK", 2)
+    study, played = load("demo"), []
+    for workers in (1, 2):
+        with Crowds(study, 1, tmp_path / "tables.db", workers) as crowds:
+            before = crowds.seconds() - time.process_time()
+            played.append(crowds.crowd(3, 5).play(AVERAGE, ("count", "pattern")))
+            assert (crowds.seconds() - time.process_time() - before > 0.05) == (workers == 2)
+    assert played[0] == played[1] and {r["participant"] for r in played[0]} == {1, 2, 3, 4, 5}
 
 
 @pytest.mark.parametrize(

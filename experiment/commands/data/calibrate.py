@@ -4,7 +4,6 @@ can be reached at all; how far each constant may move."""
 from __future__ import annotations
 
 import argparse
-import time
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib import metadata
@@ -19,12 +18,13 @@ from seethrough.experiment.session.progress import Progress
 from seethrough.experiment.study.config import load
 
 if TYPE_CHECKING:
+    from seethrough.experiment.people.fitted.crowds import Crowds
     from seethrough.experiment.people.fitted.fitting import Crowd
     from seethrough.tasks.kit.skills.profile import Profile
 
 FIT, SEARCH, INTERVALS = "fit", "search", "intervals"
 LEAST = {"participants": 3, "evaluations": 1, "last": 3, "seed": 0, "pool": 1, "check": 3,
-         "check_seed": 0, "tries": 3}  # fmt: skip
+         "check_seed": 0, "tries": 3, "workers": 1}  # fmt: skip
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,6 +43,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "processor time a person, and more while tables are being drawn",
     )
     parser.add_argument("--profile", default="average", help="where to start; default: average")
+    parser.add_argument(
+        "--at", metavar="NAME=VALUE,…",
+        help="fitted constants with which the fit begins, in place of the profile's; where each "
+        "may lie follows from the profile",
+    )  # fmt: skip
     parser.add_argument("--participants", type=int, default=48, metavar="N", help="each evaluation")
     parser.add_argument("--evaluations", type=int, default=40, metavar="E", help="of the fit")
     parser.add_argument("--tries", type=int, default=64, metavar="T", help="spread by the search")
@@ -56,6 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--check-seed", type=int, default=1, metavar="S", help="theirs; default: 1")
     parser.add_argument("--tables", type=Path, required=True, metavar="FILE")
     parser.add_argument("--pool", type=int, default=200, metavar="K", help="scenes a task")
+    parser.add_argument("--workers", type=int, default=1, metavar="W", help="processes; default: 1")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -65,25 +71,24 @@ def run(arguments: argparse.Namespace) -> int:
     for name, low in LEAST.items():
         if (value := getattr(arguments, name)) < low:
             raise InputError(f"--{name.replace('_', '-')} = {value}: expected at least {low}")
+    from seethrough.experiment.people.fitted.priors import begun
+
+    begin = begun(start, arguments.at or "")
     fitted = None if arguments.part == FIT else _fitted(arguments.out)
     _check_out(arguments.out)
     code_sha256()  # of the files as they are now: it is kept, and work of minutes follows
-    from seethrough.experiment.people.fitted import fitting
-    from seethrough.experiment.people.runs.looks import KeptLooks
-    from seethrough.experiment.people.runs.pool import drawing
+    from seethrough.experiment.people.fitted.crowds import Crowds
 
-    pool = drawing(study, arguments.pool, KeptLooks(arguments.tables))
-
-    def crowd(seed: int, people: int) -> Crowd:
-        return fitting.Crowd(seed, people, pool)
-
-    own = crowd(arguments.seed, arguments.participants)
-    others = crowd(arguments.check_seed, arguments.check)
-    if fitted is None:
-        _fit(arguments, start, own, crowd(arguments.seed, arguments.last), others)
-        return 0
-    made = _search if arguments.part == SEARCH else _intervals
-    table = made(arguments, start, fitted, own, others)
+    with Crowds(study, arguments.pool, arguments.tables, arguments.workers) as crowds:
+        if fitted is None:
+            _fit(arguments, start, begin, crowds)
+            return 0
+        own = crowds.crowd(arguments.seed, arguments.participants)
+        if arguments.part == SEARCH:
+            others = crowds.crowd(arguments.check_seed, arguments.check)
+            table = _search(arguments, start, own, others, crowds)
+        else:
+            table = _intervals(start, fitted, own, crowds)
     for line in table:
         print(line)
     add(arguments.out, arguments.part, {"command": _command(arguments), "code": _code(),
@@ -92,12 +97,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _fit(a: argparse.Namespace, start: Profile, own: Crowd, last: Crowd, others: Crowd) -> None:
+def _fit(a: argparse.Namespace, start: Profile, begin: Profile, crowds: Crowds) -> None:
     from dataclasses import replace
 
     from seethrough.experiment.people.fitted import calibration, fitting
 
-    began = time.process_time()
+    own, last = crowds.crowd(a.seed, a.participants), crowds.crowd(a.seed, a.last)
     with Progress("calibrating", a.evaluations + fitting.LAST) as progress:
         best, misfit = fitting.calibrate(
             start,
@@ -105,9 +110,11 @@ def _fit(a: argparse.Namespace, start: Profile, own: Crowd, last: Crowd, others:
             a.evaluations,
             lambda squares: progress.step(f"squares {squares:.1f}"),
             lambda p: last.play(p, calibration.FITTED),
+            begin,
         )
     best = replace(best, name=a.out.stem)
     write(a.out, best, _provenance(a, start.name, misfit, []))  # before a check of minutes
+    others = crowds.crowd(a.check_seed, a.check)
     every = calibration.FITTED + calibration.SEEN
     before, after = (calibration.measured(others.play(p, every)) for p in (start, best))
     table, gained = calibration.table(after, before), calibration.gained(after, before)
@@ -118,17 +125,16 @@ def _fit(a: argparse.Namespace, start: Profile, own: Crowd, last: Crowd, others:
         print(line)
     said = _provenance(a, start.name, misfit, table)
     write(a.out, best, {**said, "differences": {"command": _command(a), "table": gained}})
-    print(f"profile: {a.out}, {time.process_time() - began:.0f} s of processor time")
+    print(f"profile: {a.out}, {crowds.seconds():.0f} s of processor time")
 
 
 def _search(
-    a: argparse.Namespace, start: Profile, fitted: Profile, own: Crowd, others: Crowd
+    a: argparse.Namespace, start: Profile, own: Crowd, others: Crowd, crowds: Crowds
 ) -> list[str]:
     from seethrough.experiment.people.fitted import search
     from seethrough.experiment.people.fitted.calibration import FITTED, PEOPLE
     from seethrough.experiment.study.design.design import SIMULATED, generator
 
-    began = time.process_time()
     with Progress("searching", a.tries + PEOPLE) as progress:
         found = search.search(
             start,
@@ -138,17 +144,14 @@ def _search(
             generator(a.seed, (SIMULATED, 0)),  # no person has that number
             progress.step,
         )
-    return search.report(found, time.process_time() - began)
+    return search.report(found, crowds.seconds())
 
 
-def _intervals(
-    a: argparse.Namespace, start: Profile, fitted: Profile, own: Crowd, others: Crowd
-) -> list[str]:
+def _intervals(start: Profile, fitted: Profile, own: Crowd, crowds: Crowds) -> list[str]:
     from seethrough.experiment.people.fitted import fitting, profiled
     from seethrough.experiment.people.fitted.calibration import FITTED
     from seethrough.experiment.people.fitted.priors import FREE, moved
 
-    began = time.process_time()
     most = 1 + len(FREE) * (1 + 2 * profiled.PLAYS)
     with Progress("profiling", most) as progress:
         evaluations = fitting.Evaluations(
@@ -158,9 +161,13 @@ def _intervals(
         here = evaluations.residuals(x)
         slopes = fitting.slopes_of(evaluations.residuals, x, here)
         found = profiled.profile_intervals(
-            evaluations.residuals, slopes, here, x, len(here) - len(x)
+            lambda z: fitting.steep(evaluations.residuals(z)),
+            fitting.steep_slopes(here, slopes),
+            fitting.steep(here),
+            x,
+            len(here) - len(x),
         )
-    return profiled.report(start, fitted, found, time.process_time() - began)
+    return profiled.report(start, fitted, found, crowds.seconds())
 
 
 def _fitted(out: Path) -> Profile:
@@ -185,7 +192,7 @@ def _check_out(out: Path) -> None:
 def _command(a: argparse.Namespace) -> str:
     """What was typed, but for where files lie on this machine."""
     own = {
-        FIT: f"--evaluations {a.evaluations} --last {a.last} ",
+        FIT: f"{f'--at {a.at} ' if a.at else ''}--evaluations {a.evaluations} --last {a.last} ",
         SEARCH: f"--part {SEARCH} --tries {a.tries} ",
         INTERVALS: f"--part {INTERVALS} ",
     }

@@ -71,7 +71,9 @@ class Moments:
         named |= {
             f"s.d., {lv}": s / sqrt(2 * (n - 1)) for lv, s in zip(LEVELS, self.sds, strict=True)
         }
-        return named if self.r is None else named | {"r": 1 / sqrt(n - 3)}
+        if self.r is None:
+            return named
+        return named | {"r": 1 / sqrt(n - 3) if n > 3 else np.inf}  # three say nothing of it
 
     def difference(self) -> tuple[float, float]:
         """Dynamic less standard, and its standard error: each person was in both, so that it falls

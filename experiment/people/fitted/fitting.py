@@ -2,6 +2,9 @@
 
 Every evaluation uses the same random streams, trial by trial, so that profiles differ and luck
 does not. Means come first: times are nearly proportional to the pace.
+
+A row is met or not (`calibration.ENOUGH`), and all of them are to be met: what is least are squares
+of standard errors, which are steeper where a row comes near the end of what is met (`steep`).
 """
 
 from __future__ import annotations
@@ -25,7 +28,7 @@ from seethrough.experiment.people.fitted.calibration import (
     published,
     residuals,
 )
-from seethrough.experiment.people.fitted.priors import FREE, with_free
+from seethrough.experiment.people.fitted.priors import FREE, moved, with_free
 from seethrough.experiment.people.participant import SimulatedParticipant
 from seethrough.experiment.people.persons.person import TRAITS
 from seethrough.experiment.people.runs.data_mode import play_trial
@@ -39,6 +42,7 @@ STEP = 0.2  # of the logarithm, for derivatives: smaller ones drown in what chan
 PACES = 1  # evaluations that correct the pace alone
 STEPS = 6  # evaluations that go by the same derivatives, before these are taken again
 LAST = 5  # evaluations of the larger crowd, which goes by the first one's derivatives
+STEEP = 1.5  # standard errors off at which a row's square counts twice
 LOOSE = 1.0  # logarithm of the factor by which a constant may move for one standard error
 
 
@@ -88,14 +92,15 @@ class Crowd:
 
 
 class Evaluations:
-    """Evaluations of one crowd: the best so far with its residuals `here` and its misfit; the sum
-    of these squares is told to `say` after each evaluation."""
+    """Evaluations of one crowd: the best so far with its residuals `here` and its misfit; its
+    squares, as `steep` as they are, are told to `say` after each evaluation."""
 
     def __init__(self, start: Profile, play: Play, say: Callable[[float], None]) -> None:
         self.start, self.play, self.say = start, play, say
         self.squares, self.misfit, self.best = np.inf, np.inf, start
         self.x, self.here = np.zeros(len(FREE)), np.empty(0)
         self.count = 0
+        self._known: dict[bytes, NDArray[np.float64]] = {}  # x → its residuals
 
     def found(self, x: NDArray[np.float64]) -> dict[Key, Moments]:
         """What the crowd does with the constants at `x`."""
@@ -104,16 +109,16 @@ class Evaluations:
     def residuals(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Standard errors off, of rows and of differences; and how far constants have moved, so
         that none moves for nothing."""
-        if len(self.here) and np.array_equal(x, self.x):
-            return self.here  # played before
-        return self._played(x)[1]
+        known = self._known.get(x.tobytes())
+        return self._played(x)[1] if known is None else known
 
     def _played(self, x: NDArray[np.float64]) -> tuple[dict[Key, Moments], NDArray[np.float64]]:
         profile = with_free(self.start, x)
         simulated = measured(self.play(profile))
         here = np.concatenate([residuals(simulated), gains(simulated), x / LOOSE])
-        squares = float(here @ here)
+        squares = float(np.sum(steep(here) ** 2))
         self.count += 1
+        self._known[x.tobytes()] = here
         if squares < self.squares:
             self.squares, self.misfit, self.best = squares, misfit(simulated), profile
             self.x, self.here = np.array(x), here
@@ -127,8 +132,12 @@ def calibrate(
     evaluations: int,
     say: Callable[[float], None] = lambda value: None,
     last: Play | None = None,
+    at: Profile | None = None,
 ) -> tuple[Profile, float]:
     """The best profile found in about so many evaluations of `play`, and its misfit.
+
+    The way begins at `start`, or at the free constants of `at`, which lie about `start` all the
+    same: from one place only the nearest of several minima is found.
 
     First the pace is corrected by how far the fitted means are off; where there are evaluations
     for derivatives, scipy's least squares (trust region reflective) moves all of `FREE`, with
@@ -136,7 +145,7 @@ def calibrate(
     Then a larger crowd (`last`) corrects what was peculiar to the first one, with the last ones.
     """
     search = Evaluations(start, play, say)
-    x = np.zeros(len(FREE))
+    x = moved(start, at or start)
     if evaluations - PACES <= len(FREE):  # too few for derivatives: the pace alone
         for _ in range(evaluations):
             x[0] -= _too_slow(search.found(x))
@@ -184,14 +193,29 @@ def _least_squares(
     steps: int,
     slopes: NDArray[np.float64],
 ) -> None:
-    """Go down from `x` in so many evaluations, with these derivatives."""
+    """Go down from `x` in so many evaluations, with these derivatives of residuals."""
     bounds = np.log(list(FREE.values()))
     least_squares(
-        found,
+        lambda z: steep(found(z)),
         np.clip(x, -0.99 * bounds, 0.99 * bounds),
-        jac=lambda z: slopes,
+        jac=lambda z: steep_slopes(found(z), slopes),
         bounds=(-bounds, bounds),
         max_nfev=max(1, steps),
         xtol=0.01,
         ftol=0.01,
     )
+
+
+def steep(here: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(residuals,) of rows and differences, then of constants, as their squares are to count: those
+    of rows as they are while they are small, twice at `STEEP`, four times at `ENOUGH`."""
+    rows, constants = here[: -len(FREE)], here[-len(FREE) :]
+    return np.concatenate([rows * np.sqrt(1 + (rows / STEEP) ** 4), constants])
+
+
+def steep_slopes(here: NDArray[np.float64], slopes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(residuals, constants) derivatives of `steep` where residuals are `here`, with `slopes`."""
+    power = (here[: -len(FREE)] / STEEP) ** 4
+    steeper = np.concatenate([(1 + 3 * power) / np.sqrt(1 + power), np.ones(len(FREE))])
+    found: NDArray[np.float64] = steeper[:, None] * slopes
+    return found

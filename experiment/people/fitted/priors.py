@@ -13,6 +13,7 @@ from math import exp, log
 import numpy as np
 from numpy.typing import NDArray
 
+from seethrough.experiment.errors import InputError
 from seethrough.tasks.kit.skills.profile import Profile
 
 # What may be fitted, each within a factor of the starting profile's value.
@@ -93,3 +94,27 @@ def with_free(profile: Profile, x: NDArray[np.float64]) -> Profile:
 def moved(start: Profile, profile: Profile) -> NDArray[np.float64]:
     """(free constants,) by which logarithm each differs from where the fit began."""
     return np.log([getattr(profile, n) / getattr(start, n) for n in FREE])
+
+
+def begun(start: Profile, at: str) -> Profile:
+    """The profile with the free constants that `at` says: "worth=30,pace=0.9". Raises InputError
+    for what is not free or lies outside its interval."""
+    own = intervals(start)
+    changes: dict[str, float] = {}
+    for part in filter(None, at.split(",")):
+        name, _, said = part.partition("=")
+        value = _number(said)
+        within = own[name] if name in FREE and name in own else None
+        if within is None or value is None or not within.low <= value <= within.high:
+            known = ", ".join(f"{n} {own[n].low:g} to {own[n].high:g}" for n in FREE if n in own)
+            raise InputError(f"--at {part}: expected NAME=VALUE with one of {known}")
+        changes[name] = value
+    return replace(start, **changes)
+
+
+def _number(text: str) -> float | None:
+    """The number that a text says, or None."""
+    try:
+        return float(text)
+    except ValueError:
+        return None

@@ -29,12 +29,15 @@ from seethrough.experiment.people.fitted.calibration import (
 )
 from seethrough.experiment.people.fitted.fitting import (
     LAST,
+    STEEP,
     STEP,
     Crowd,
     calibrate,
     slopes_of,
+    steep,
+    steep_slopes,
 )
-from seethrough.experiment.people.fitted.priors import FREE, with_free
+from seethrough.experiment.people.fitted.priors import FREE, begun, moved, with_free
 from seethrough.experiment.people.persons.person import TRAITS, Person, mood_for
 from seethrough.experiment.people.persons.profile_file import (
     SHIPPED,
@@ -207,6 +210,48 @@ def test_derivatives_are_taken_again_as_long_as_there_are_evaluations():
     assert min(stepped.values()) >= 2 and len(played) <= 61
 
 
+def test_a_fit_begins_where_it_is_told_and_finds_the_minimum_there():
+    """Times are right at half of the pace and at twice of it: a fit goes to the nearer of the two.
+    How far constants may lie still counts from the profile."""
+
+    def play(profile):
+        off = abs(np.log(profile.pace / AVERAGE.pace)) - np.log(2)
+        return [{**row, "time": row["time"] * np.exp(off)} for row in published_rows(errors=False)]
+
+    for pace in (0.6, 1.7):
+        begin, played = begun(AVERAGE, f"pace={pace},worth=30"), []
+        best, _ = calibrate(AVERAGE, lambda p: played.append(p) or play(p), 20, at=begin)  # noqa: B023
+        assert played[0] == begin and played[0].worth == 30
+        assert_allclose(best.pace, 0.5 if pace < 1 else 2.0, rtol=0.06)
+        assert 30 < best.worth  # nothing that was played depends on it: it goes back
+
+
+@pytest.mark.parametrize("at", ["worth=14", "worth", "pace=fast", "subitise=0.05", "pace=nan"])
+def test_a_fit_begins_with_free_constants_within_their_intervals(at):
+    assert begun(AVERAGE, "") == AVERAGE
+    assert_allclose(moved(AVERAGE, begun(AVERAGE, "worth=15,slip=0.04")).max(), np.log(4))
+    with pytest.raises(InputError, match=rf"--at {at}: expected NAME=VALUE with one of pace 0.33"):
+        begun(AVERAGE, f"recheck=0.5,{at}")
+
+
+def test_a_row_counts_the_more_the_nearer_it_comes_to_the_end_of_what_is_met():
+    """By hand: nearly its square at a half, twice at 1.5, (1 + 256 / 81) times at 2; constants as
+    they are."""
+    off = np.array([0.5, STEEP, -2.0, *[1.25] * len(FREE)])
+    found = steep(off) ** 2 / off**2
+    assert_allclose(found, [1 + 1 / 81, 2, 1 + 256 / 81, *[1] * len(FREE)], rtol=1e-12)
+    assert np.array_equal(np.sign(steep(off)), np.sign(off))
+    slopes = np.random.default_rng(2).normal(size=(len(off), 2))
+    way = 1e-6 * np.array([1.0, -0.5])
+    apart = (steep(off + slopes @ way) - steep(off - slopes @ way)) / 2
+    assert_allclose(steep_slopes(off, slopes) @ way, apart, rtol=1e-6)
+
+
+def test_three_people_say_nothing_of_a_correlation():
+    few = Moments((1.0, 1.0), (1.0, 1.0), 0.5, 3)
+    assert few.errors()["r"] == np.inf and np.isfinite(few.errors()["mean, standard"])
+
+
 def test_slopes_of_what_is_linear_are_its_matrix():
     matrix = np.random.default_rng(1).integers(-9, 9, (5, 3))
     assert_allclose(slopes_of(lambda x: matrix @ x + 2, np.array([0.1, 0.0, -0.3])), matrix)
@@ -331,7 +376,8 @@ def test_the_command_that_made_a_profile_can_be_given_again():
     parser = argparse.ArgumentParser()
     command.add_arguments(parser)
     words = (
-        "demo --profile hasty --participants 5 --evaluations 7 --last 6 --seed 3 --pool 2 --check 4"
+        "demo --profile hasty --at pace=0.8,worth=70 --participants 5 --evaluations 7 --last 6 "
+        "--seed 3 --pool 2 --check 4"
     )
     files = ["--tables", "t.db", "--out", "p.toml"]
     arguments = parser.parse_args([*words.split(), "--check-seed", "9", *files])
