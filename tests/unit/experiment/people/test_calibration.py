@@ -14,6 +14,7 @@ from seethrough.experiment import cli
 from seethrough.experiment.commands.data import calibrate as command
 from seethrough.experiment.errors import InputError
 from seethrough.experiment.people.code_hash import code_sha256
+from seethrough.experiment.people.fitted import fitting
 from seethrough.experiment.people.fitted.calibration import (
     LEVELS,
     SEEN,
@@ -224,6 +225,27 @@ def test_a_fit_begins_where_it_is_told_and_finds_the_minimum_there():
         assert played[0] == begin and played[0].worth == 30
         assert_allclose(best.pace, 0.5 if pace < 1 else 2.0, rtol=0.06)
         assert 30 < best.worth  # nothing that was played depends on it: it goes back
+
+
+def test_a_fit_does_not_leave_one_row_far_off_for_many_near_ones(monkeypatch):
+    """T1 takes half as long again as it should beside T4, whatever the pace: with squares alone a
+    row stays farther off than it has to."""
+
+    def play(profile):
+        tempo = profile.pace / AVERAGE.pace
+        return [
+            {**row, "time": row["time"] * tempo * (1.5 if row["task"] == "count" else 1.0)}
+            for row in published_rows(errors=False)
+        ]
+
+    def worst():
+        best, _ = calibrate(AVERAGE, play, 34)
+        return max(abs(line.off) for line in lines(measured(play(best))) if line.fitted)
+
+    steeply = worst()
+    monkeypatch.setattr(fitting, "steep", lambda here: here)
+    monkeypatch.setattr(fitting, "steep_slopes", lambda here, slopes: slopes)
+    assert steeply < worst() - 0.1
 
 
 @pytest.mark.parametrize("at", ["worth=14", "worth", "pace=fast", "subitise=0.05", "pace=nan"])
