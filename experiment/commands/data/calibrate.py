@@ -161,11 +161,7 @@ def _intervals(start: Profile, fitted: Profile, own: Crowd, crowds: Crowds) -> l
         here = evaluations.residuals(x)
         slopes = fitting.slopes_of(evaluations.residuals, x, here)
         found = profiled.profile_intervals(
-            lambda z: fitting.steep(evaluations.residuals(z)),
-            fitting.steep_slopes(here, slopes),
-            fitting.steep(here),
-            x,
-            len(here) - len(x),
+            evaluations.residuals, slopes, here, x, len(here) - len(x)
         )
     return profiled.report(start, fitted, found, crowds.seconds())
 

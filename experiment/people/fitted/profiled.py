@@ -1,12 +1,12 @@
 """Profile intervals: how far each fitted constant may move while the others make up for it.
 
-The objective is the fit's own: squares of the standard errors that fitted rows and differences are
-off, steeper as they grow (`fitting.steep`), and of how far constants have moved from where they lie
-before a fit. A constant's interval ends where
-the least that all others can make of it has risen by what a 95 % interval allows, χ²₁ = 3.84 times
-the spread that the fit leaves (squares over rows less constants): rows are not met to their
-standard errors. The least is found with the slopes at the fit, and then played; where more happens
-than slopes say, the end is moved nearer, and played again. What really happens at each end stands
+The objective is squares of the standard errors that fitted rows and differences are off, and of how
+far constants have moved from where they lie before a fit; that a fit counts rows more as they grow
+(`fitting.steep`) says nothing of chance, and is left out. A constant's interval ends where the
+least that all others can make of it has risen by what a 95 % interval allows, χ²₁ = 3.84 times the
+spread that the fit leaves (squares over rows less constants): rows are not met to their standard
+errors. The least is found with the slopes at the fit, and then played; where more happens than
+slopes say, the end is moved nearer, and played again. What really happens at each end stands
 beside it. An end may also be where the constant's own limits are.
 """
 
