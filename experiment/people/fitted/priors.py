@@ -109,7 +109,7 @@ def begun(start: Profile, at: str) -> Profile:
             known = ", ".join(f"{n} {own[n].low:g} to {own[n].high:g}" for n in FREE if n in own)
             raise InputError(f"--at {part}: expected NAME=VALUE with one of {known}")
         changes[name] = value
-    return replace(start, **changes)
+    return Profile(**{**asdict(start), **changes})
 
 
 def _number(text: str) -> float | None:
