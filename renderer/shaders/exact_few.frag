@@ -30,7 +30,7 @@ layout(location = 0) out vec4 picture;
 const uint NONE = 0xffffffffu;
 // One surface has not quite the same depth in two cells, for they lie in different places of one
 // picture: what is nearer to another than this is where it is.
-const float SAME = 16.0 / 16777216.0;
+const float SAME = 2.0 / 16777216.0;
 
 ivec2 place_of(uint corner, ivec2 pixel) {
     return ivec2(corner & 0xffffu, corner >> 16) + pixel;
