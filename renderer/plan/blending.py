@@ -11,6 +11,9 @@ from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.plan import doubt as doubts
 from seethrough.renderer.plan import levels, order
 
+# Where masks cover the picture so many times over, borders lie on whatever is beside their targets,
+# and no order of whole objects is near what they show.
+CROWDED = 4
 MOSTLY = 0.4  # where this share of all masks is to be sorted by pixel, all of it may as well be
 
 
@@ -62,9 +65,13 @@ class Blending:
     def doubtful(self, broken: Bools, size: tuple[int, int], doubt: float) -> tuple[Floats, bool]:
         """The parts to sort by pixel, and whether they are so much that all masks may be.
 
-        Where a target may be lost no doubt is allowed, for the rest see doubt.chosen.
+        Where a target may be lost no doubt is allowed, for the rest see doubt.chosen. If masks are
+        CROWDED, all of them are.
         """
         whole = np.array(size, float)
+        reach = np.clip(self.reach[self.masked], 0, [*size, *size])
+        if (reach[:, 2:] - reach[:, :2]).prod(axis=1).sum() > CROWDED * whole.prod():
+            return reach, True
         found, lost = order.doubtful(self._related, self.uncertain, broken, self.lost, whole)
         chosen = np.concatenate([found[lost], doubts.chosen(found[~lost], size, doubt)])
         if not len(chosen):

@@ -14,7 +14,7 @@ import numpy as np
 
 from seethrough.renderer.arrays import Bools, Ints
 from seethrough.renderer.plan.blending import Blending
-from seethrough.renderer.plan.order import IN_FRONT
+from seethrough.renderer.plan.comparing import IN_FRONT
 from seethrough.renderer.scene.projection import Boxes
 from seethrough.renderer.scene.scene import Scene
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency

@@ -57,6 +57,15 @@ def _whole(frame: FramePlan) -> list[str]:
         lines.append(
             f"{len(frame.crossing)} pairs of targets that cross, one drawn within the other"
         )
+    if len(frame.straddling):
+        lines.append(
+            f"{len(frame.straddling)} borders of masks told by depth from what straddles them"
+        )
+    if len(frame.swapping):
+        lines.append(
+            f"{len(frame.swapping)} pairs whose order is about to turn round, one drawn behind the "
+            "other as well"
+        )
     if len(frame.wide):
         lines.append(f"{len(frame.wide)} large objects blended only where masks are")
     if len(frame.exact):
@@ -94,6 +103,8 @@ def _of_object(scene: Scene, frame: FramePlan, i: int) -> str:
         text += f", level {level}"
     for pair in frame.crossing[(frame.crossing == i).any(axis=1)].tolist():
         text += f", crosses {name(scene, pair[pair[0] == i])}"
+    for _, target, _ in frame.straddling[frame.straddling[:, 0] == i].tolist():
+        text += f", told by depth from the border of {name(scene, target)}"
     if not scene.objects[i].mesh.convex:
         text += ", depth first (not convex)"
     return text

@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from seethrough.renderer.arrays import Floats, Ints, Signs
-from seethrough.renderer.plan import crossing
+from seethrough.renderer.plan import crossing, straddling
+from seethrough.renderer.plan import swapping as swaps
 from seethrough.renderer.scene.projection import Boxes
 from seethrough.renderer.techniques.base import Shot
 
@@ -50,13 +51,17 @@ class FramePlan:
     parts of the picture (left, top, right, bottom) to sort by pixel, of each only the blocks that
     `doubtful` (k, 4) touch if there are any; objects that are `held` show nowhere else and are
     drawn by that alone. `crossing` (k, 2) are targets that cross: the second one is drawn behind
-    the first as well, where it lies there (plan/crossing.py). `wide` are blended objects
-    to be drawn opaque outside `holes` (k, 4), the rectangles that hold all masks, before anything
-    else. `clusters` are drawn polygon by polygon, in the place of their first members, which alone
-    are in levels. `ruled` are drawn last, each surface as the technique's rule has it, which was
-    asked about `shot` (None: there are none). `boxes` are the extents of all objects. `reasons`
-    (n,) say why each object is drawn as it is; `relation` (n, n) is who is drawn before whom
-    (order.decide), empty where nothing is put in order.
+    the first as well, where it lies there (plan/crossing.py). `straddling` (k, 3) are objects that
+    reach to both sides of the border of a target's mask, the target, and whether the mask is drawn
+    before the object: the border is told from them by depth, with a `strength` (k,) up to 1
+    (plan/straddling.py). `swapping` (k, 2) are pairs whose order is about to turn round: the second
+    one is drawn behind the first as well, as strongly as `beyond` (k,) says (plan/swapping.py).
+    `wide` are blended objects to be drawn opaque outside `holes` (k, 4), the rectangles that hold
+    all masks, before anything else. `clusters` are drawn polygon by polygon, in the place of their
+    first members, which alone are in levels. `ruled` are drawn last, each surface as the
+    technique's rule has it, which was asked about `shot` (None: there are none). `boxes` are the
+    extents of all objects. `reasons` (n,) say why each object is drawn as it is; `relation` (n, n)
+    is who is drawn before whom (order.decide), empty where nothing is put in order.
     """
 
     opaque: Ints
@@ -77,6 +82,17 @@ class FramePlan:
     ruled: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
     shot: Shot | None = None
     crossing: Ints = field(default_factory=lambda: crossing.NONE)
+    straddling: Ints = field(default_factory=lambda: straddling.NONE)
+    strength: Floats = field(default_factory=lambda: np.zeros(0))
+    swapping: Ints = field(default_factory=lambda: swaps.NONE)
+    beyond: Floats = field(default_factory=lambda: np.zeros(0))
+
+    @property
+    def single(self) -> Ints:
+        """What is drawn by itself: targets that cross, what straddles the border of a mask, and
+        what another is drawn behind."""
+        alone = np.union1d(self.straddling[:, 0], self.swapping[:, 0])
+        return np.concatenate([self.crossing.ravel(), alone])
 
     @cached_property
     def behind(self) -> Ints:

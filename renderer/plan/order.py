@@ -11,21 +11,15 @@ a group its order.
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
-
-# A box that only touches another, to the accuracy of its coordinates, is separated from it.
-TOUCH = 1e-9
-
-Way: TypeAlias = tuple[float, float, float]
+from seethrough.renderer.plan.comparing import BEHIND, IN_FRONT, UNCERTAIN, compare
 
 LITTLE = 0.1  # of a target: what may be lost without sorting pixels
-
-BEHIND, NEITHER, IN_FRONT, UNCERTAIN = -1, 0, 1, 2
 
 
 class Placed(NamedTuple):
@@ -67,80 +61,6 @@ def meet(a: Floats, i: int, b: Floats, j: int) -> bool:
 
 
 @njit(cache=True)
-def _along(x: float, y: float, z: float, sides: Floats, radius: Floats, i: int) -> float:
-    """How far object i reaches from its centre along the unit direction (x, y, z)."""
-    total = 0.0
-    for k in range(3):
-        total += abs(x * sides[i, k, 0] + y * sides[i, k, 1] + z * sides[i, k, 2])
-    return min(total, radius[i])
-
-
-@njit(cache=True)
-def _try(way: Way, centers: Floats, sides: Floats, radius: Floats, i: int, j: int) -> int:
-    """IN_FRONT, BEHIND or NEITHER if a plane across `way` separates i from j, else UNCERTAIN.
-
-    Centres are relative to the eye.
-    """
-    x, y, z = way
-    length = np.sqrt(x * x + y * y + z * z)
-    if length < 1e-12:
-        return UNCERTAIN
-    x, y, z = x / length, y / length, z / length
-    ci = x * centers[i, 0] + y * centers[i, 1] + z * centers[i, 2]
-    cj = x * centers[j, 0] + y * centers[j, 1] + z * centers[j, 2]
-    if ci < cj:
-        ci, cj = -ci, -cj
-    # Now i lies on the positive side; the eye is at 0.
-    low = ci - _along(x, y, z, sides, radius, i)
-    high = cj + _along(x, y, z, sides, radius, j)
-    slack = TOUCH * (abs(ci) + abs(cj))
-    if low < high - slack:
-        return UNCERTAIN
-    if low <= slack:
-        return IN_FRONT
-    if high >= -slack:
-        return BEHIND
-    return NEITHER
-
-
-@njit(cache=True)
-def compare(
-    centers: Floats, sides: Floats, radius: Floats, near: Floats, far: Floats, i: int, j: int
-) -> int:
-    """Whether object i lies in front of object j wherever both show, as seen from the origin.
-
-    Fields of a Placed one by one: as a record they would make `decide` a quarter slower.
-    """
-    if far[i] <= near[j]:
-        return IN_FRONT
-    if near[i] >= far[j]:
-        return BEHIND
-    x, y, z = (
-        centers[i, 0] - centers[j, 0], centers[i, 1] - centers[j, 1], centers[i, 2] - centers[j, 2]
-    )  # fmt: skip
-    found = _try((x, y, z), centers, sides, radius, i, j)
-    for k in range(6):
-        if found != UNCERTAIN:
-            return found
-        o = i if k < 3 else j
-        x, y, z = sides[o, k % 3, 0], sides[o, k % 3, 1], sides[o, k % 3, 2]
-        found = _try((x, y, z), centers, sides, radius, i, j)
-    # Sides are not at right angles under a shear: the faces' normals are the cross products.
-    for k in range(15):
-        if found != UNCERTAIN:
-            return found
-        o, p, u, v = i, j, k // 3, k % 3
-        if k >= 9:
-            o = p = i if k < 12 else j
-            u, v = k % 3, (k + 1) % 3
-        ax, ay, az = sides[o, u, 0], sides[o, u, 1], sides[o, u, 2]
-        bx, by, bz = sides[p, v, 0], sides[p, v, 1], sides[p, v, 2]
-        x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-        found = _try((x, y, z), centers, sides, radius, i, j)
-    return found
-
-
-@njit(cache=True)
 def near_each_other(placed: Placed) -> Ints:
     """(k, 2) places in the order, the nearer one first, of all whose boxes overlap on the screen:
     of targets what their masks can reach. Swept from left to right."""
@@ -167,15 +87,15 @@ def near_each_other(placed: Placed) -> Ints:
 
 @njit(cache=True)
 def decide(
-    placed: Placed, blend: Bools, known: Signs, by_center: bool
+    placed: Placed, blend: Bools, mask: Bools, known: Signs, by_center: bool
 ) -> tuple[Signs, Bools, Bools, Bools]:
     """relation (n, n) of each pair that matters, which of them are uncertain (n, n), and which
     objects blend and are masked (n,).
 
     Of those `seen` the order of groups' centres decides alone if `by_center`; those in `blend` (n,)
-    blend in any case. relation[i, j] is 1 where i is drawn after j, −1 where before, 0 where it
-    makes no difference; `known` (n, n) says so of pairs whose boxes no plane separates, and what it
-    leaves UNCERTAIN is uncertain.
+    blend in any case, those in `mask` (n,) are masked. relation[i, j] is 1 where i is drawn after
+    j, −1 where before, 0 where it makes no difference; `known` (n, n) says so of pairs whose boxes
+    no plane separates, and what it leaves UNCERTAIN is uncertain.
     """
     order, extents, reach = placed.seen, placed.extents, placed.reach
     targets, hard = placed.targets, placed.hard
@@ -184,7 +104,7 @@ def decide(
     n = len(extents)
     relation = np.zeros((n, n), np.int8)
     uncertain = np.zeros((n, n), np.bool_)
-    blended, masked = blend.copy(), np.zeros(n, np.bool_)
+    blended, masked = blend.copy(), mask.copy()
     pairs = near_each_other(placed)
     for both in range(2):  # first every object against the targets, then all that blend
         for a, b in pairs:

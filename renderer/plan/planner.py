@@ -17,8 +17,10 @@ import numpy as np
 
 from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.masks import masks
-from seethrough.renderer.plan import clusters, crossing, levels, order
+from seethrough.renderer.plan import clusters, crossing, levels, order, straddling
+from seethrough.renderer.plan import swapping as swaps
 from seethrough.renderer.plan.blending import Blending, merged_parts
+from seethrough.renderer.plan.comparing import IN_FRONT
 from seethrough.renderer.plan.doubt import union
 from seethrough.renderer.plan.frame_plan import (
     BLENDED,
@@ -95,7 +97,14 @@ def plan(
         hard=hard,
     )
     blend = there & ~hard & ("opaque" in without)
-    relation, uncertain, blended, masked = _decided(scene, camera, technique, placed, blend)
+    mask = np.zeros_like(blend)
+    across = straddling.NO_ONE
+    if crossing.fits(technique) and not technique.per_pixel_only:
+        across = straddling.found(
+            *(scene, camera, placed, boxes, technique, technique.width * scale, size)
+        )
+        blend, mask = straddling.shown(across, blend, mask)
+    relation, uncertain, blended, masked = _decided(scene, camera, technique, placed, blend, mask)
     masked |= there & scene.targets & ("masks" in without)
     if technique.per_pixel_only:
         masked |= order.overlapped(placed)
@@ -123,19 +132,19 @@ def plan(
     pairs = crossing.NONE
     if "crossing" not in without and crossing.fits(technique):
         pairs = crossing.pairs(what, scene, boxes, hard)
-    return _with_levels(base, what, scene, technique, size, pairs)
+    return _with_levels(base, what, scene, camera, technique, size, pairs, across)
 
 
 def _decided(
     scene: Scene, camera: Camera, technique: DynamicTransparency, placed: order.Placed,
-    blend: Bools,
+    blend: Bools, mask: Bools,
 ) -> tuple[Signs, Bools, Bools, Bools]:  # fmt: skip
     """order.decide, again if planes were found between pairs that it is uncertain of."""
     by_center = technique.order == "centers"
     planes = scene.separations
     while True:
         relation, uncertain, blended, masked = order.decide(
-            placed, blend, planes.relation(camera.eye), by_center
+            placed, blend, mask, planes.relation(camera.eye), by_center
         )
         new = uncertain & ~planes.tried
         if not new.any() or not planes.learn(np.argwhere(np.triu(new)), scene):
@@ -152,7 +161,7 @@ def _beside(
         return np.zeros_like(relation, dtype=bool)
     depth = camera.depth(scene.centers)
     across = (boxes.near[:, None] < depth) & (boxes.far[:, None] > depth)
-    return across & scene.targets[:, None] & masked & (relation == order.IN_FRONT)
+    return across & scene.targets[:, None] & masked & (relation == IN_FRONT)
 
 
 def _opaque(boxes: Boxes, drawn: Ints, without: Set[str]) -> FramePlan:
@@ -219,7 +228,7 @@ def _counted(relation: Signs, masked: Bools, technique: DynamicTransparency) -> 
     if tau == 0:
         return np.zeros(0, np.int64)
     allowed = np.inf if alpha == 0 else (0 if alpha == 1 else np.log(tau) / np.log(1 - alpha))
-    in_front = (relation == order.IN_FRONT).sum(axis=0)
+    in_front = (relation == IN_FRONT).sum(axis=0)
     return np.nonzero(masked & (in_front > np.floor(allowed + 1e-12)))[0]
 
 
@@ -232,12 +241,15 @@ def _with_levels(
     base: FramePlan,
     what: Blending,
     scene: Scene,
+    camera: Camera,
     technique: DynamicTransparency,
     size: tuple[int, int],
     pairs: Ints,
+    across: straddling.Straddling,
 ) -> FramePlan:
     """The plan with blended objects and masks in levels, and the parts that no order gets right.
-    `pairs` are the targets that could be drawn one within the other."""
+    `pairs` are the targets that could be drawn one within the other; `across` is what straddles the
+    border of a mask."""
     opaque, masked = ~what.blended, what.masked
     triangles, doubt = scene.triangle_counts, technique.doubt
     fit = _fit(scene, technique) & ~masked
@@ -270,12 +282,19 @@ def _with_levels(
     around = holes(what.reach, base.masked, size)
     apart = united.clustered
     apart[pairs] = True
+    told, strength = straddling.kept(across, of_object, of_mask, apart)
+    swapping, beyond = swaps.swapping(what, scene, camera, of_object, apart)
+    apart[told[:, 0]] = apart[swapping[:, 0]] = True
     alone = np.nonzero(what.blended & ~apart)[0]
     return replace(
         base,
         opaque=np.nonzero(keep & opaque)[0],
         levels=_levels(of_object, of_mask),
         crossing=pairs[np.argsort(of_object[pairs[:, 1]], kind="stable")],
+        straddling=told,
+        strength=strength,
+        swapping=swapping,
+        beyond=beyond,
         exact=parts,
         doubtful=doubtful,
         wide=alone[:0]

@@ -12,8 +12,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Floats
-from seethrough.renderer.plan.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN
+from seethrough.renderer.arrays import Floats, Ints
+from seethrough.renderer.plan.comparing import BEHIND, IN_FRONT, NEITHER, UNCERTAIN
 from seethrough.renderer.scene.scene import Scene
 
 STEPS = 100  # a gap of a hundredth of the objects' size is found in far fewer
@@ -62,29 +62,30 @@ def separate(a: Floats, b: Floats, slack: float) -> Floats:
 
 @dataclass(eq=False)
 class Separations:
-    """What is known of a scene of n objects: `tried` (n, n), and a row for each plane found."""
+    """What is known of a scene of n objects: `tried` (n, n), the `pairs` (k, 2) between which a
+    plane was found, and the `planes` (k, 5) as `separate` gives them."""
 
     tried: NDArray[np.bool_]
-    first: list[int] = field(default_factory=list)
-    second: list[int] = field(default_factory=list)
-    planes: list[NDArray[np.float64]] = field(default_factory=list)
+    pairs: NDArray[np.int64] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    planes: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 5)))
 
     def relation(self, eye: NDArray[np.float64]) -> NDArray[np.int8]:
         """(n, n) who is in front of whom as seen from `eye`, UNCERTAIN where no plane is known."""
         known = np.full(self.tried.shape, UNCERTAIN, np.int8)
-        if self.planes:
-            planes = np.array(self.planes)
-            at = planes[:, :3] @ eye
-            found = np.where(at >= planes[:, 3], IN_FRONT, NEITHER)
-            found[at <= planes[:, 4]] = BEHIND
-            known[self.first, self.second] = found
-            known[self.second, self.first] = -found
+        first, second = self.pairs.T
+        at = self.planes[:, :3] @ eye
+        found = np.where(at >= self.planes[:, 3], IN_FRONT, NEITHER)
+        found[at <= self.planes[:, 4]] = BEHIND
+        known[first, second] = found
+        known[second, first] = -found
         return known
 
     def learn(self, pairs: NDArray[np.int64], scene: Scene) -> bool:
         """Look for planes between (k, 2) objects not tried yet; whether any was found."""
-        found = False
+        found, planes = [], []
         for i, j in pairs.tolist():
+            if self.tried[i, j]:
+                continue
             self.tried[i, j] = self.tried[j, i] = True
             middle = (scene.centers[i] + scene.centers[j]) / 2
             a, b = (_points(scene, k) - middle for k in (i, j))
@@ -92,11 +93,24 @@ class Separations:
             plane = separate(np.ascontiguousarray(a), np.ascontiguousarray(b), slack)
             if plane[:3].any():
                 plane[3:] += plane[:3] @ middle
-                self.first.append(i)
-                self.second.append(j)
-                self.planes.append(plane)
-                found = True
-        return found
+                found.append((i, j))
+                planes.append(plane)
+        if found:
+            self.pairs = np.concatenate([self.pairs, found])
+            self.planes = np.concatenate([self.planes, planes])
+        return bool(found)
+
+
+@njit(cache=True)
+def away(pairs: Ints, planes: Floats, eye: Floats, i: int, j: int) -> float:
+    """How far an eye is from where i begins, or ceases, to be in front of j by a plane between them
+    (Separations); infinite where none is known."""
+    for k in range(len(pairs)):
+        a, b = pairs[k]
+        if (a == i and b == j) or (a == j and b == i):
+            at = planes[k, 0] * eye[0] + planes[k, 1] * eye[1] + planes[k, 2] * eye[2]
+            return abs(at - planes[k, 3 if a == i else 4])
+    return np.inf
 
 
 def _points(scene: Scene, i: int) -> NDArray[np.float64]:

@@ -41,12 +41,17 @@ class Mesh:
     @cached_property
     def hull(self) -> NDArray[np.float64]:
         """(k, 3) the vertices of the convex hull, all vertices where they lie in a plane."""
-        from scipy.spatial import ConvexHull, QhullError
+        return self.vertices[_hull(self.vertices, self.triangles)[0]]
 
-        try:
-            return self.vertices[np.unique(ConvexHull(self.vertices).vertices)]
-        except QhullError:
-            return self.vertices
+    @cached_property
+    def thin_hull(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """(k, 3) corners of the hull, of many only those that reach farthest some way, and (e, 2)
+        the rows of them between which edges run."""
+        points = self.hull
+        if len(points) > len(_WAYS):
+            points = points[np.unique((points @ _WAYS.T).argmax(axis=0))]
+        used, edges = _hull(points, np.zeros((0, 3), np.int64))
+        return points[used], edges
 
     @cached_property
     def around(self) -> NDArray[np.float64]:
@@ -79,6 +84,36 @@ class Mesh:
     def radius(self) -> float:
         """Radius of the sphere about `center` that holds every vertex."""
         return float(np.linalg.norm(self.vertices - self.center, axis=1).max())
+
+
+def _ways(count: int) -> NDArray[np.float64]:
+    """(count, 3) unit vectors spread over the sphere (a Fibonacci lattice)."""
+    k = np.arange(count)
+    z, turn = 1 - (2 * k + 1) / count, np.pi * (3 - 5**0.5) * k
+    r = np.sqrt(1 - z * z)
+    return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
+
+
+_WAYS = _ways(32)
+
+
+def _hull(
+    points: NDArray[np.float64], faces: NDArray[np.integer]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Rows of points (p, 3) that are corners of their hull, and (e, 2) between which of these its
+    edges run, its faces cut into triangles. In a plane all are, with the edges of `faces` (m, 3).
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    used = np.arange(len(points))
+    try:
+        found = ConvexHull(points)
+    except (QhullError, ValueError):
+        pass
+    else:
+        used, faces = np.unique(found.vertices).astype(np.int64), found.simplices
+    ends = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return used, np.searchsorted(used, np.unique(ends, axis=0)).astype(np.int64)
 
 
 def _mesh(

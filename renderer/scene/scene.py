@@ -162,6 +162,20 @@ class Scene:
         return np.concatenate([np.zeros((0, 3)), *points]), starts
 
     @cached_property
+    def hulls(self) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+        """(m, 3) world corners of the hulls of all objects' meshes, thinned out, (e, 2) their edges
+        as rows of the object's own, and where each object's begin in both (n + 1, 2)."""
+        points = [o.mesh.thin_hull[0] @ o.transform[:3, :3].T + o.transform[:3, 3]
+                  for o in self.objects]  # fmt: skip
+        edges = [o.mesh.thin_hull[1] for o in self.objects]
+        sizes = [(len(p), len(e)) for p, e in zip(points, edges, strict=True)]
+        return (
+            np.concatenate([np.zeros((0, 3)), *points]),
+            np.concatenate([np.zeros((0, 2), np.int64), *edges]),
+            np.cumsum([(0, 0), *sizes], axis=0),
+        )
+
+    @cached_property
     def triangle_counts(self) -> NDArray[np.int64]:
         """(n,) triangles of each object."""
         return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)

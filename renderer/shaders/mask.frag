@@ -17,6 +17,7 @@ uniform vec4 searchlight;  // x, y in pixels (y up), radius, softness; radius < 
 uniform ivec2 shift;     // from this picture's pixels to the frame's
 #ifdef AT_DEPTH
 uniform float own, beside;  // as the depth buffer has it, 0 nearest
+uniform float strength;      // 1: all of it
 uniform bool divided;
 #endif
 #ifdef CELLS
@@ -128,6 +129,7 @@ void main() {
 #endif
 #ifdef AT_DEPTH
     gl_FragDepth = d > 0.0 ? beside : own;
+    alpha = 1.0 - strength * (1.0 - alpha);
     if (divided) alpha = 1.0 / alpha;
 #endif
     picture = vec4(0.0, 0.0, 0.0, alpha);

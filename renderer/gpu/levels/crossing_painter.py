@@ -9,7 +9,7 @@ one of the two is divided out again after it, so that nothing else is the wiser.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device import pipeline
-from seethrough.renderer.gpu.device.programs import Shader, program
+from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.scene_table import Run
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.plan.frame_plan import FramePlan
@@ -40,11 +40,10 @@ class Ways(NamedTuple):
 
 
 class CrossingPainter:
-    """The pairs of one frame at a time; `defines` as for what draws objects."""
+    """The pairs of one frame at a time; `opacity` is a program that gives that alone."""
 
-    def __init__(self, context: moderngl.Context, defines: Sequence[str]) -> None:
-        self._context = context
-        self.shader = program(context, "object.vert", "opacity.frag", defines)
+    def __init__(self, context: moderngl.Context, opacity: Shader) -> None:
+        self._context, self._opacity = context, opacity
 
     def begin(
         self, frame: FramePlan, scene: Scene, camera: Camera, alpha: float,
@@ -87,8 +86,8 @@ class CrossingPainter:
 
     def _multiply(self, target: int, opacity: float, ways: Ways) -> None:
         """What a mask does on its target itself, done by drawing that."""
-        self.shader.set(opacity=opacity)
-        ways.multiplied(self.shader, self._runs[target])
+        self._opacity.set(opacity=opacity)
+        ways.multiplied(self._opacity, self._runs[target])
 
     @contextmanager
     def _beyond(self) -> Iterator[None]:
@@ -101,11 +100,19 @@ class CrossingPainter:
 
     def _mask(self, target: int, own: float, divided: bool) -> None:
         """A target's mask, with its border at the depth of its centre."""
-        context, written = self._context, self._into.depth_mask
-        context.disable(moderngl.CULL_FACE)
-        context.enable(moderngl.BLEND)
-        pipeline.blend(context, pipeline.MASK)
-        self._into.depth_mask = False
-        self._masks.draw_at_depth(target, own, float(self._depths[target]), divided)
-        self._into.depth_mask = written
-        context.enable(moderngl.CULL_FACE)
+        beside = float(self._depths[target])
+        with drawing_masks(self._context, self._into):
+            self._masks.draw_at_depth(target, own, beside, divided)
+
+
+@contextmanager
+def drawing_masks(context: moderngl.Context, into: moderngl.Framebuffer) -> Iterator[None]:
+    """What is drawn is a mask: it is multiplied into the alpha of a frame and leaves its depth."""
+    written = into.depth_mask
+    context.disable(moderngl.CULL_FACE)
+    context.enable(moderngl.BLEND)
+    pipeline.blend(context, pipeline.MASK)
+    into.depth_mask = False
+    yield
+    into.depth_mask = written
+    context.enable(moderngl.CULL_FACE)

@@ -17,10 +17,11 @@ from seethrough.renderer.gpu.device.pipeline import MASK, NOTHING, OBJECT, OPAQU
 from seethrough.renderer.gpu.device.programs import Shader, program
 from seethrough.renderer.gpu.device.scene_table import Run, SceneTable
 from seethrough.renderer.gpu.device.targets import FrameTarget
-from seethrough.renderer.gpu.levels.crossing_painter import CrossingPainter, Ways
+from seethrough.renderer.gpu.levels.crossing_painter import Ways
 from seethrough.renderer.gpu.levels.layer_counter import LayerCounter
 from seethrough.renderer.gpu.levels.lens import clip_from_offset, tight
 from seethrough.renderer.gpu.levels.outside_painter import OutsidePainter, scope
+from seethrough.renderer.gpu.levels.single_painter import Alone, SinglePainter
 from seethrough.renderer.gpu.masks.mask_painter import MaskPainter
 from seethrough.renderer.gpu.per_pixel.exact_masks import ExactJob
 from seethrough.renderer.gpu.per_pixel.exact_painter import ExactPainter
@@ -78,7 +79,7 @@ class Layer:
         self._counter: LayerCounter | None = None
         self._exact: ExactPainter | None = None
         self._clusters: ClusterPainter | None = None
-        self._crossing: CrossingPainter | None = None
+        self._single: SinglePainter | None = None
 
     def draw(
         self,
@@ -241,15 +242,15 @@ class Layer:
         wide = np.zeros(len(frame.reasons), dtype=bool)
         wide[frame.wide] = True
         apart = np.zeros(len(frame.reasons), dtype=bool)  # drawn otherwise, in their levels
-        apart[frame.crossing] = True
+        apart[frame.single] = True
         apart[[members[0] for members in frame.clusters]] = True
         parts = [frame.opaque, frame.wide]
         for level in frame.levels:
             alone = level.objects[~apart[level.objects]]
             within = wide[alone]
             parts += [alone[~within], alone[within]]
-        levels, crossing = len(parts), frame.crossing.ravel()
-        parts += list(crossing[:, None])
+        levels, single = len(parts), np.union1d(frame.single, frame.swapping)
+        parts += list(single[:, None])
         extra = []
         if frame.levels:
             own = by_masks(technique)
@@ -261,7 +262,7 @@ class Layer:
         slope = table.scene.look.detail_error * scale * camera.pixel(size[1])
         sequence, runs = table.sequence([*parts, *extra], camera, slope=slope)
         self._bind(table, sequence)
-        self._runs_of = dict(zip(crossing.tolist(), runs[levels:], strict=False))
+        self._runs_of = dict(zip(single.tolist(), runs[levels:], strict=False))
         return runs[:levels], runs[len(parts) :]
 
     def _looked_up(
@@ -344,8 +345,20 @@ class Layer:
         after_level: AfterLevel | None,
     ) -> None:
         every, least = "prepass" in frame.without, by_masks(technique).combine == "min"
-        crossing = self._cross(table, camera, frame, technique, target, after_level)
-        members = set(frame.crossing.ravel().tolist())
+        singles = set(frame.single.tolist())
+        if singles:
+            ways = Ways(
+                depth=lambda runs: self._pass(self._depth, runs, NOTHING),
+                lit=lambda runs: self._draw_lit(runs, table, OBJECT),
+                multiplied=lambda shader, runs: self._pass(shader, runs, MASK),
+                told=after_level,
+            )
+            job = Alone(frame, table.scene, camera, by_masks(technique).alpha_target, ways)
+            single = self._single = self._single or SinglePainter(
+                self._context, beside_floors(self._defines)
+            )
+            self._use(single.opacity)
+            single.begin(job, self._runs_of, self._masks, target.framebuffer)
         for k, level in enumerate(frame.levels):
             for part, wide in zip(runs[2 * k : 2 * k + 2], (False, True), strict=True):
                 if wide and part:
@@ -355,32 +368,12 @@ class Layer:
                 self._draw_lit(part, table, OBJECT)
                 pipeline.within(target.framebuffer, None)
             self._draw_clusters(table, camera, frame, level)
-            for member in members.intersection(level.objects.tolist()):
-                self._draws += crossing(member)
+            for i in singles.intersection(level.objects.tolist()):
+                self._draws += single.draw(i)
             if after_level is not None and len(level.objects):
                 after_level(level.objects)
             if len(level.masks):
                 self._draw_masks(level.masks, least)
-
-    def _cross(
-        self, table: SceneTable, camera: Camera, frame: FramePlan, technique: Parameters,
-        target: FrameTarget, after_level: AfterLevel | None,
-    ) -> Callable[[int], int]:  # fmt: skip
-        """What draws one of two targets that cross."""
-        if self._crossing is None:
-            self._crossing = CrossingPainter(self._context, beside_floors(self._defines))
-        self._use(self._crossing.shader)
-        self._crossing.begin(
-            *(frame, table.scene, camera, by_masks(technique).alpha_target),
-            *(self._runs_of, self._masks, target.framebuffer),
-        )
-        ways = Ways(
-            depth=lambda runs: self._pass(self._depth, runs, NOTHING),
-            lit=lambda runs: self._draw_lit(runs, table, OBJECT),
-            multiplied=lambda shader, runs: self._pass(shader, runs, MASK),
-            told=after_level,
-        )
-        return partial(self._crossing.draw, ways=ways)
 
     def _draw_masks(self, targets: NDArray[np.int64], least: bool) -> None:
         context = self._context

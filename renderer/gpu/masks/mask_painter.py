@@ -140,7 +140,7 @@ class MaskPainter:
             "searchlight": searchlight(technique, height),
             **_UNITS,
         }
-        self._told: set[tuple[str, ...]] = set()
+        self._told: set[tuple[str, ...]] = set()  # programs at depth that know them
         self.set(**self._values)
 
     def set(self, **values: object) -> None:
@@ -167,9 +167,12 @@ class MaskPainter:
             array = self._array(self._keys[bool(self._pictured[target])])
             array.render(moderngl.TRIANGLES, count, int(self._first[target]))
 
-    def draw_at_depth(self, target: int, own: float, beside: float, divided: bool) -> None:
+    def draw_at_depth(
+        self, target: int, own: float, beside: float, divided: bool, strength: float = 1.0
+    ) -> None:
         """Draw one target's mask as lying at two depths, on the target and beside it (0 to 1, 0
-        nearest); `divided`: take out again what it did to the frame's alpha."""
+        nearest), with a `strength` up to 1; `divided`: take out again what it did to the frame's
+        alpha."""
         count = int(self._count[target])
         if count:
             key = (*self._keys[bool(self._pictured[target])], "AT_DEPTH")
@@ -177,7 +180,7 @@ class MaskPainter:
             if key not in self._told:  # once a frame: to compare them all takes as long as to draw
                 shader.set(**self._values)
                 self._told.add(key)
-            shader.set(own=own, beside=beside, divided=divided)
+            shader.set(own=own, beside=beside, divided=divided, strength=strength)
             self._array(key).render(moderngl.TRIANGLES, count, int(self._first[target]))
 
     def draw(self, targets: NDArray[np.int64]) -> int:

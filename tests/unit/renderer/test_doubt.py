@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from seethrough.renderer.plan.comparing import BEHIND, IN_FRONT
 from seethrough.renderer.plan.doubt import RAMP, chosen, union
-from seethrough.renderer.plan.order import BEHIND, IN_FRONT, Related, doubtful
+from seethrough.renderer.plan.order import Related, doubtful
 
 SIZE, SHARE = (800, 600), 0.05
 

@@ -5,16 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from seethrough.renderer.plan.comparing import BEHIND, IN_FRONT
 from seethrough.renderer.plan.levels import levels
-from seethrough.renderer.plan.order import (
-    BEHIND,
-    IN_FRONT,
-    Placed,
-    Related,
-    decide,
-    doubtful,
-    near_each_other,
-)
+from seethrough.renderer.plan.order import Placed, Related, decide, doubtful, near_each_other
 
 WIDE = np.tile([0.0, 0, 100, 100], (6, 1))  # every box overlaps every other
 
@@ -111,7 +104,7 @@ def decided(targets, hard=(False, False), swapped=False):
         *(order, boxes, boxes, centers, sides, np.full(2, 1.8), near, far),
         *(np.array(targets), np.array(hard)),
     )
-    return decide(placed, no, known, False)
+    return decide(placed, no, no, known, False)
 
 
 @pytest.mark.parametrize("swapped", [False, True])

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from sample_scenes import SHAPES, before_column, column, room
 
+from seethrough.renderer.plan import comparing
 from seethrough.renderer.plan.blending import merged_parts
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.frame_plan import BLENDED, HARD, OUTSIDE
-from seethrough.renderer.plan.planner import _counted, impenetrable, order, plan
+from seethrough.renderer.plan.planner import _counted, impenetrable, plan
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
 from seethrough.renderer.scene.scene import Object, Scene
@@ -140,7 +141,7 @@ def test_targets_with_more_in_front_than_leave_enough_light_are_counted(tau, alp
     """0, 1 and 2 things in front of three targets, 3 in front of what is no target."""
     relation = np.zeros((4, 4), np.int8)
     for target, number in enumerate(range(4)):
-        relation[:number, target] = order.IN_FRONT
+        relation[:number, target] = comparing.IN_FRONT
     masked = np.array([True, True, True, False])
     technique = DynamicTransparency(alpha_target=alpha, min_transmittance=tau)
     assert _counted(relation, masked, technique).tolist() == counted

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from seethrough.renderer.plan.order import BEHIND, IN_FRONT, NEITHER, UNCERTAIN, compare
+from seethrough.renderer.plan.comparing import BEHIND, IN_FRONT, NEITHER, UNCERTAIN, compare
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.plan.separation import separate
 from seethrough.renderer.scene import geometry, transforms

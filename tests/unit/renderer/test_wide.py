@@ -42,7 +42,7 @@ def counted(seed):
     x, y = (np.indices((SIZE[0] * FINE, SIZE[1] * FINE)) + 0.5) / FINE
     low, high = frame.holes[:, :2].min(axis=0), frame.holes[:, 2:].max(axis=0)
     masks = (x > low[0]) & (x < high[0]) & (y > low[1]) & (y < high[1])
-    for i in np.flatnonzero(frame.reasons == BLENDED):
+    for i in np.setdiff1d(np.flatnonzero(frame.reasons == BLENDED), frame.single):
         left, top, right, bottom = frame.boxes.extents[i]
         covered = (x > left) & (x < right) & (y > top) & (y < bottom) & ~masks
         worth = WORTH * len(scene.objects[i].mesh.triangles)
