@@ -283,7 +283,7 @@ def _with_levels(
     apart = united.clustered
     apart[pairs] = True
     told, strength = straddling.kept(across, of_object, of_mask, apart)
-    swapping, beyond = swaps.swapping(what, scene, camera, of_object, apart)
+    swapping, beyond = swaps.swapping(what, scene, camera, base.boxes, of_object, apart)
     apart[told[:, 0]] = apart[swapping[:, 0]] = True
     alone = np.nonzero(what.blended & ~apart)[0]
     return replace(

@@ -163,6 +163,22 @@ def test_paths_that_jumped_do_not(context, world, frame, before):
         assert worst() == before > guarantee.JUMPING
 
 
+def test_a_target_before_two_that_swap_is_not_drawn_over(context):
+    """Its box meets both; drawn behind what is there, the last one had a third of its pixels."""
+
+    def some(seed, aspect):
+        scene, cameras = guarantee.abstract_views(seed, aspect)
+        return scene, cameras[2:3]
+
+    ways = {"default": DynamicTransparency()}
+    found = guarantee.least_kept(Renderer(context, (800, 600)), some, range(44, 45), ways)
+    assert found["default"].value > 0.99
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(swapping, "_hidden", lambda *_: False)
+        found = guarantee.least_kept(Renderer(context, (800, 600)), some, range(44, 45), ways)
+    assert found["default"].value < guarantee.KEPT
+
+
 @pytest.mark.parametrize("frame", [72, 106])
 def test_where_two_walls_meet_a_column_does_not_jump_early(context, frame):
     """One lies a hand's breadth before the other, far away: a few steps of the depth buffer. Sorted
