@@ -83,6 +83,8 @@ NO_ONE = Straddling(np.zeros((0, 2), np.int64), *np.zeros((3, 0)))
 def shown(these: Straddling, blend: Bools, mask: Bools) -> tuple[Bools, Bools]:
     """(n,) what blends and what has a mask, with what is nearer than more than a FEW pixels of a
     border, and the target: else that would not be drawn where nothing lies before the target."""
+    if not len(these.pairs):
+        return blend, mask
     much = these.nearer > FEW
     blend, mask = blend.copy(), mask.copy()
     blend[these.pairs[much, 0]] = mask[these.pairs[much, 1]] = True
@@ -94,6 +96,8 @@ def kept(these: Straddling, of_object: Ints, of_mask: Ints, apart: Bools) -> tup
     more than a FEW pixels are on the wrong side then, and how strongly (k,) they are to be told,
     up to 1; `of_object` and `of_mask` (n,) as levels.levels says. Nothing that is drawn `apart`
     (n,)."""
+    if not len(these.pairs):
+        return NONE, np.zeros(0)
     things, targets = these.pairs.T
     after = of_object[things] > of_mask[targets]
     wrong = np.where(after, these.farther, these.nearer)
@@ -126,7 +130,7 @@ def _found(
             i, s = order[close[c, side]], order[close[c, 1 - side]]
             if not placed.targets[s] or crosses[s] or crosses[i] or placed.hard[i]:
                 continue
-            if near[i] < far[s] and far[i] > near[s]:
+            if near[i] < far[s] and far[i] > near[s] and _meet(placed, i, s, lens):
                 depth = 0.0
                 for axis in range(3):
                     depth -= placed.centers[s, axis] * rotation[axis, 2]
@@ -138,13 +142,15 @@ def _found(
                     plane / (lens[6] * max(depth, 1e-9)),
                     deep / (lens[7] * (placed.radius[i] + placed.radius[s])),
                 )
-                if far_off < 1 and _may_be_wrong(placed, i, s, depth, lens):
+                if far_off < 1 and _may_be_wrong(placed, i, s, depth):
                     pairs[k, 0], pairs[k, 1] = i, s
                     depths[k, 0], depths[k, 1] = depth, far_off
                     k += 1
     if new:
         return pairs[:0], np.empty((0, 3)), untried[:new]
     counts = np.empty((k, 3))
+    if k == 0:
+        return pairs[:0], counts, untried[:0]
     seen, known = np.empty((len(near), WAYS, 2)), np.zeros(len(near), np.bool_)  # their outlines
     cloud = np.empty((starts[-1, 0], 3))
     for p in range(k):
@@ -177,8 +183,8 @@ def _found(
 
 
 @njit(cache=True)
-def _may_be_wrong(placed: Placed, i: int, s: int, depth: float, lens: Floats) -> bool:
-    """Whether i may come on the wrong side of the border of s over more than a FEW pixels."""
+def _meet(placed: Placed, i: int, s: int, lens: Floats) -> bool:
+    """Whether i and the border of s may share more than a FEW pixels: their boxes, and spheres."""
     extents, width = placed.extents, lens[3]
     x0, y0 = max(extents[i, 0], extents[s, 0] - width), max(extents[i, 1], extents[s, 1] - width)
     x1, y1 = min(extents[i, 2], extents[s, 2] + width), min(extents[i, 3], extents[s, 3] + width)
@@ -188,11 +194,14 @@ def _may_be_wrong(placed: Placed, i: int, s: int, depth: float, lens: Floats) ->
     # Their spheres, about the middles of the boxes.
     dx = extents[i, 0] + extents[i, 2] - extents[s, 0] - extents[s, 2]
     dy = extents[i, 1] + extents[i, 3] - extents[s, 1] - extents[s, 3]
-    spheres = placed.radius[i] / max(placed.near[i], 1e-9) + placed.radius[s] / max(
-        placed.near[s], 1e-9
-    )
-    if np.sqrt(dx * dx + dy * dy) / 2 > lens[0] * spheres * APART + width:
-        return False
+    near = placed.near
+    spheres = placed.radius[i] / max(near[i], 1e-9) + placed.radius[s] / max(near[s], 1e-9)
+    return np.sqrt(dx * dx + dy * dy) / 2 <= lens[0] * spheres * APART + width
+
+
+@njit(cache=True)
+def _may_be_wrong(placed: Placed, i: int, s: int, depth: float) -> bool:
+    """Whether i may come on the wrong side of the border of s, at that depth."""
     if placed.near[i] < depth and placed.far[i] > depth:
         return True
     way = compare(

@@ -29,18 +29,25 @@ def swapping(
     """(k, 2) the objects of each pair, the one drawn first and the other, and how strongly that is
     to be drawn behind it (k,), up to 1; `of_object` (n,) are their levels. Targets have other rules
     (order.decide), and what is drawn `apart` (n,) is left out."""
-    rows, columns = np.divmod(np.flatnonzero(what.uncertain), len(apart))
+    found = np.flatnonzero(what.uncertain)
+    if not len(found):
+        return NONE, np.zeros(0)
+    rows, columns = np.divmod(found, len(apart))
     free = what.blended & ~scene.targets & ~apart
     both = (rows < columns) & free[rows] & free[columns]
     both &= scene.group_of[rows] != scene.group_of[columns]
     i, j = rows[both], columns[both]
     if not len(i):
         return NONE, np.zeros(0)
+    depth = camera.depth(scene.group_centers)
+    away = np.abs(depth[i] - depth[j]) / (DEEP * (scene.radii[i] + scene.radii[j]))
+    close = away < 1 - LEAST
+    if not close.any():
+        return NONE, np.zeros(0)
+    i, j, away = i[close], j[close], away[close]
     low = np.maximum(what.extents[i, :2], what.extents[j, :2])
     high = np.minimum(what.extents[i, 2:], what.extents[j, 2:])
     shared = np.maximum(high - low, 0).prod(axis=1)
-    depth = camera.depth(scene.group_centers)
-    away = np.abs(depth[i] - depth[j]) / (DEEP * (scene.radii[i] + scene.radii[j]))
     strength = np.minimum(1 - away, shared / FEW - 1)
     turned = of_object[i] > of_object[j]
     pairs = np.where(turned[:, None], np.stack([j, i], axis=1), np.stack([i, j], axis=1))
