@@ -2,8 +2,8 @@
 
 Of two targets that no plane separates one would be lost where it lies behind, whoever goes first.
 To sort these pixels costs as much as a third of a frame of little things; a handful of draws that
-go by the depth buffer give the same picture (gpu/levels/pair_painter.py), if one is convex, so that
-it has one surface at a pixel.
+go by the depth buffer give the same picture (gpu/levels/crossing_painter.py), if one is convex, so
+that it has one surface at a pixel.
 """
 
 from __future__ import annotations

@@ -9,8 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 # Points that are looked at in every frame, some nanoseconds each: vertices for which no hull is
-# made (Qhull takes a quarter of a second to load), and the most corners of a hull.
+# made (Qhull takes a quarter of a second to load, which standard frames of little things do
+# without), and the most corners of a hull.
 FEW, AROUND = 100, 500
+# Which of its bounds a corner of a box has in x, y and z: corner k is high in x if k & 4, y 2, z 1.
+CORNERS = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,8 +65,7 @@ class Mesh:
             return places
         if len(self.hull) <= AROUND:
             return self.hull
-        bits = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)])
-        corners: NDArray[np.float64] = self.bounds[bits, np.arange(3)]
+        corners: NDArray[np.float64] = self.bounds[CORNERS, np.arange(3)]
         return corners
 
     @cached_property

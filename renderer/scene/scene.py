@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.scene.geometry import Mesh
+from seethrough.renderer.scene.geometry import CORNERS, Mesh
 from seethrough.renderer.scene.look import PLAIN, Look
 
 if TYPE_CHECKING:
@@ -97,9 +97,8 @@ class Scene:
     @cached_property
     def corners(self) -> NDArray[np.float64]:
         """(n, 8, 3) world corners of the mesh bounds; corner k is high in x if k & 4, y 2, z 1."""
-        bits = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)])
         bounds = np.array([o.mesh.bounds for o in self.objects]).reshape(-1, 2, 3)
-        local = bounds[:, bits, np.arange(3)]
+        local = bounds[:, CORNERS, np.arange(3)]
         moved = np.einsum("nij,nkj->nki", self.transforms[:, :3, :3], local)
         return moved + self.transforms[:, None, :3, 3]
 

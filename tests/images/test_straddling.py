@@ -163,6 +163,21 @@ def test_paths_that_jumped_do_not(context, world, frame, before):
         assert worst() == before > guarantee.JUMPING
 
 
+@pytest.mark.parametrize(("wrong", "close", "strength"), [
+    (100, 1.0, 1.0), (100, 0.25, 0.25), (18, 1.0, 0.5), (18, 0.5, 0.25), (12, 1.0, None),
+])  # fmt: skip
+def test_a_border_is_told_by_how_many_pixels_and_how_close(wrong, close, strength):
+    """Wholly from twice twelve pixels on, where the order turns round."""
+    these = straddling.Straddling(np.array([[0, 1]]), *np.array([[0.0], [wrong], [close]]))
+    levels = np.array([3, 2]), np.array([-2, 2])  # of the objects, and of the target's mask
+    told, found = straddling.kept(these, *levels, np.zeros(2, bool))
+    if strength is None:
+        assert not len(told)
+    else:
+        np.testing.assert_allclose(found, [strength])
+        assert told.tolist() == [[0, 1, 1]]
+
+
 def test_a_target_before_two_that_swap_is_not_drawn_over(context):
     """Its box meets both; drawn behind what is there, the last one had a third of its pixels."""
 
