@@ -19,23 +19,21 @@ _SHARP = -0.5
 
 
 def hulls_with_skirts(pixels: Floats, starts: Ints, width: float) -> tuple[Floats32, Ints]:
-    """Triangles for convex outlines: vertices (k, 6) and the first vertex of each (n + 1,).
+    """Triangles for convex outlines: vertices (k, 7) and the first vertex of each (n + 1,).
 
     `pixels` (v, 2) are the projected vertices of n targets, `starts` (n + 1,) where each begins.
-    A vertex is x, y in pixels; where it lies along an edge and off it, in pixels; −1; and how long
-    the edge is. On the hull these are 0.
+    A vertex is x, y in pixels; where it lies along an edge and off it, in pixels; −1; how long the
+    edge is; and 0. On the hull all but the −1 are 0.
     """
     if len(starts) == 1:
-        return np.zeros((0, 6), np.float32), np.zeros(1, np.int64)
+        return np.zeros((0, 7), np.float32), np.zeros(1, np.int64)
     return _hulls_with_skirts(np.ascontiguousarray(pixels), starts, float(width))
 
 
 @njit(cache=True)
 def _hulls_with_skirts(pixels: Floats, starts: Ints, width: float) -> tuple[Floats32, Ints]:
     n = len(starts) - 1
-    out = np.empty((15 * len(pixels) + 60 * n, 6), np.float32)
-    firsts = np.zeros(n + 1, np.int64)
-    k = 0
+    hulls, ends, most = np.empty((len(pixels) + 4 * n, 2)), np.zeros(n + 1, np.int64), 0
     for a in range(n):
         hull = convex_hull(pixels[starts[a] : starts[a + 1]])
         if len(hull) < 3:  # seen edge-on, or smaller than the arithmetic: give it a tiny area
@@ -45,7 +43,12 @@ def _hulls_with_skirts(pixels: Floats, starts: Ints, width: float) -> tuple[Floa
             hull = np.empty((4, 2))
             hull[0, 0], hull[0, 1], hull[1, 0], hull[1, 1] = low[0], low[1], high[0], low[1]
             hull[2, 0], hull[2, 1], hull[3, 0], hull[3, 1] = high[0], high[1], low[0], high[1]
-        k = _hull_with_skirt(hull, width, out, k)
+        ends[a + 1] = ends[a] + len(hull)
+        hulls[ends[a] : ends[a + 1]] = hull
+        most += 3 * (len(hull) - 2) + 12 * len(hull)
+    out, firsts, k = np.zeros((most, 7), np.float32), np.zeros(n + 1, np.int64), 0
+    for a in range(n):
+        k = _hull_with_skirt(hulls[ends[a] : ends[a + 1]], width, out, k)
         firsts[a + 1] = k
     return out[:k], firsts
 

@@ -54,6 +54,8 @@ class SceneTable:
         self.table = _texture(context, (4, max(n, 1)))
         self.table.write(rows.tobytes())
         self._points: dict[tuple[int, ...], tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
+        self._shapes = np.zeros((len(self.meshes), 2), np.bool_)
+        self._shaped = np.zeros(len(self.meshes), np.bool_)  # of which they have been asked for
         self._context = context
         self._sequences = [kept(_texture(context, (2, max(n, 1)))) for _ in range(_SEQUENCES)]
 
@@ -115,6 +117,16 @@ class SceneTable:
             self._points[key] = np.concatenate([*parts, np.zeros((0, 3))]), rows
         points, rows = self._points[key]
         return points, rows[slots]
+
+    def shapes(self, objects: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """(k, 2) which objects' meshes are convex, and which are closed."""
+        slots = self.slot[objects]
+        if not self._shaped[slots].all():
+            for slot in set(slots[~self._shaped[slots]].tolist()):
+                mesh = self.meshes[slot]
+                self._shapes[slot] = mesh.mesh.convex, mesh.topology.closed
+                self._shaped[slot] = True
+        return self._shapes[slots]
 
     def turned(
         self, objects: NDArray[np.int64], camera: Camera

@@ -12,22 +12,19 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Floats, Floats32, Ints
-from seethrough.renderer.gpu.device import tiles
+from seethrough.renderer.arrays import Floats32, Ints
 from seethrough.renderer.gpu.device.scene_table import SceneTable
+from seethrough.renderer.gpu.masks.rectangles import VERTEX, rectangles, tiled
 from seethrough.renderer.masks import masks
 from seethrough.renderer.masks.silhouettes import near_cuts, silhouette
 from seethrough.renderer.masks.skirts import hulls_with_skirts
-from seethrough.renderer.plan.blocks import BLOCK
 from seethrough.renderer.plan.frame_plan import FramePlan
 from seethrough.renderer.scene import projection
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.dynamic.dynamic_transparency import DynamicTransparency
 
-VERTEX = 7  # place x, y; offset x, y; kind; an edge's length, semi-axes, or the way to the tile
 ELLIPSES = ("circle", "ellipse", "oriented-ellipse")
 
-_CORNERS = np.array([[0, 1], [2, 1], [2, 3], [0, 1], [2, 3], [0, 3]])
 _SIGNS = np.array([[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]])
 
 
@@ -66,24 +63,22 @@ def mask_geometry(
     # In the order of the levels, so that the masks of a level lie side by side.
     levels = [level.masks for level in frame.levels]
     masked = np.concatenate(levels) if levels else frame.masked
-    convex, closed = _kinds(table, masked)
+    convex, closed = table.shapes(masked).T
     hulled = _hulled(frame, masked, technique, convex & closed)
     ellipses = technique.mask in ELLIPSES
     shaped = np.ones_like(hulled) if ellipses else hulled
     plain, pictured = masked[shaped], masked[~shaped]
-    vertices: NDArray[np.floating]
     if ellipses:
         vertices, firsts = _ellipses(table, plain, frame, camera, technique.mask, width, size)
     else:
         vertices, firsts = _hulls(table, plain, frame, camera, width, size)
-    tile, shift, height = _tiles(pictured, frame, size)
-    empty = (tile[pictured, 2] <= tile[pictured, 0]) | (tile[pictured, 3] <= tile[pictured, 1])
-    flat = _rectangles(pictured, np.cumsum(~empty) - 1, frame, shift, size)
+    tile, shift, height, empty = tiled(frame.reach, pictured, size)
+    flat = rectangles(frame.reach, pictured, empty, shift, size)
     base = len(vertices) + 6 * np.arange(len(pictured))
     loops = closed[~shaped] & ~frame.boxes.crosses[pictured]
     loops &= technique.mask == "outline"
     return MaskGeometry(
-        vertices=np.concatenate([vertices, flat.reshape(-1, VERTEX)]).astype(np.float32),
+        vertices=np.concatenate([vertices, flat]),
         targets=np.concatenate([plain, pictured]),
         first=np.concatenate([firsts[:-1], base]),
         count=np.concatenate([np.diff(firsts), np.where(empty, 0, 6)]),
@@ -94,48 +89,6 @@ def mask_geometry(
         shift=shift,
         height=height,
     )
-
-
-def _tiles(
-    pictured: NDArray[np.int64], frame: FramePlan, size: tuple[int, int]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], int]:
-    """Tiles, shifts and the texture's height for the blocks that the masks of targets can cover."""
-    reach = frame.reach[pictured]
-    low = np.clip(np.floor(reach[:, :2] / BLOCK) * BLOCK, 0, size).astype(np.int64)
-    # As blocks.covered has it: a reach that ends with a block touches the next one.
-    high = np.clip((np.floor(reach[:, 2:] / BLOCK) + 1) * BLOCK, 0, size).astype(np.int64)
-    extent = np.maximum(high - low, 0)
-    corners, height = tiles.shelves(extent)
-    tile = np.zeros((len(frame.reach), 4), np.int64)
-    shift = np.zeros((len(frame.reach), 2), np.int64)
-    tile[pictured] = np.concatenate([corners, corners + extent], axis=1)
-    shift[pictured] = corners - np.stack([low[:, 0], size[1] - high[:, 1]], axis=1)
-    return tile, shift, height
-
-
-def _rectangles(
-    pictured: Ints, grid: Ints, frame: FramePlan, shift: Ints, size: tuple[int, int]
-) -> Floats:
-    """(k, 6, 7) two triangles over what each mask can cover, that look up its tile and grid."""
-    extents = np.clip(frame.reach[pictured], 0, [*size, *size])
-    extents[:, :2], extents[:, 2:] = np.floor(extents[:, :2]), np.ceil(extents[:, 2:])
-    rows = np.zeros((len(pictured), 6, VERTEX))
-    rows[:, :, :2] = extents[:, _CORNERS]
-    rows[:, :, 4] = grid[:, None]
-    rows[:, :, 5:] = shift[pictured][:, None]
-    return rows
-
-
-def _kinds(
-    table: SceneTable, masked: NDArray[np.int64]
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """(m,) which targets' meshes are convex, and which are closed."""
-    slots = table.slot[masked]
-    convex, closed = np.zeros((2, len(table.meshes)), dtype=bool)
-    for slot in np.unique(slots).tolist():
-        mesh = table.meshes[slot]
-        convex[slot], closed[slot] = mesh.mesh.convex, mesh.topology.closed
-    return convex[slots], closed[slots]
 
 
 def _hulled(
@@ -185,10 +138,7 @@ def _hulls(
             clouds[k] = cloud if len(cloud) else np.full((1, 2), -1e6)
         starts = np.cumsum([0] + [len(c) for c in clouds])
         pixels = np.concatenate(clouds)
-    vertices, firsts = hulls_with_skirts(pixels, starts, width)
-    rows = np.zeros((len(vertices), VERTEX), vertices.dtype)
-    rows[:, : vertices.shape[1]] = vertices
-    return rows, firsts
+    return hulls_with_skirts(pixels, starts, width)
 
 
 def _ellipses(
@@ -199,8 +149,8 @@ def _ellipses(
     shape: str,
     width: float,
     size: tuple[int, int],
-) -> tuple[Floats, Ints]:
-    rows = np.zeros((len(targets), 6, VERTEX))
+) -> tuple[Floats32, Ints]:
+    rows = np.zeros((len(targets), 6, VERTEX), np.float32)
     for k, t in enumerate(targets.tolist()):
         points = _outline_points(table, t, frame, camera, size)
         if not len(points):

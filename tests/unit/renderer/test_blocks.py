@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from seethrough.renderer.gpu.masks.mask_maker import _tiles
+from seethrough.renderer.gpu.masks.rectangles import tiled
 from seethrough.renderer.plan.blocks import (
     BLOCK,
     NONE,
@@ -147,7 +146,7 @@ def test_every_block_that_a_mask_may_touch_lies_in_its_tile():
     low = rng.integers(-20, 80, (40, 2)) / 2
     reach = np.concatenate([low, low + rng.integers(1, 80, (40, 2)) / 2], axis=1)
     reach[:10] = np.round(reach[:10] / BLOCK) * BLOCK + [0, 0, BLOCK, BLOCK]
-    tile, shift, _ = _tiles(np.arange(40), SimpleNamespace(reach=reach), size)
+    tile, shift, _, _ = tiled(reach, np.arange(40), size)
     for k in range(40):
         bits = covered(reach[k : k + 1], np.zeros(1, np.int64), shape(size))
         rows, columns = np.nonzero(np.kron(bits != 0, np.ones((BLOCK, BLOCK), bool)))

@@ -91,7 +91,7 @@ def test_a_skirt_says_how_far_away_the_hull_is(cloud, width):
 def skirted(rows, places):
     """What the shader finds at places, and in how many triangles each lies."""
     found, times = np.full(len(places), np.nan), np.zeros(len(places), int)
-    for a, b, c in rows.reshape(-1, 3, 6):
+    for a, b, c in rows.reshape(-1, 3, 7):
         solid = np.array([b[:2] - a[:2], c[:2] - a[:2]]).T
         if abs(np.linalg.det(solid)) < 1e-9:
             continue
