@@ -87,12 +87,12 @@ class FramePlan:
     swapping: Ints = field(default_factory=lambda: swaps.NONE)
     beyond: Floats = field(default_factory=lambda: np.zeros(0))
 
-    @property
+    @cached_property
     def single(self) -> Ints:
         """What is drawn by itself: targets that cross, what straddles the border of a mask, and
         what another is drawn behind."""
-        alone = np.union1d(self.straddling[:, 0], self.swapping[:, 0])
-        return np.concatenate([self.crossing.ravel(), alone])
+        alone = {*self.straddling[:, 0].tolist(), *self.swapping[:, 0].tolist()}
+        return np.array([*self.crossing.ravel().tolist(), *sorted(alone)], np.int64)
 
     @cached_property
     def behind(self) -> Ints:

@@ -10,6 +10,7 @@ import pytest
 from sample_scenes import SHAPES
 
 from seethrough.benchmarks.drawing.guarantee import Guarantee, abstract_views
+from seethrough.renderer.gpu.levels import crossing_painter
 from seethrough.renderer.gpu.renderer import Renderer
 from seethrough.renderer.plan.explain import explain
 from seethrough.renderer.plan.planner import plan
@@ -39,8 +40,8 @@ def pane(rng):
     return Object(geometry.box(0.9, 4, 0.05), pose, (0.8, 0.8, 0.2))
 
 
-def crossed(seed, both_convex=True):
-    """Two targets that cross, at random, before a third, with a pane before a part of them."""
+def crossed(seed, both_convex=True, apart=0.7):
+    """Two targets that cross, `apart` from one another, at random, before a third, with a pane before a part of them."""
     rng = np.random.default_rng(seed)
 
     meshes = [CONVEX[k] for k in rng.integers(len(CONVEX), size=2)]
@@ -49,7 +50,7 @@ def crossed(seed, both_convex=True):
     mirror = np.array([rng.choice([-1, 1]), 1, 1])
     middle = np.array([*rng.uniform(-0.6, 0.6, 2), -8.0])
     away = rng.normal(size=3)
-    away *= 0.35 / np.linalg.norm(away)
+    away *= apart / 2 / np.linalg.norm(away)
     things = (
         turned(rng, meshes[0], middle - away, 1.1 * mirror, (0.9, 0.3, 0.1)),
         turned(rng, meshes[1], middle + away, np.full(3, 1.1), (0.2, 0.4, 0.9)),
@@ -60,9 +61,32 @@ def crossed(seed, both_convex=True):
     return Scene(tuple(things[k] for k in order), (0.1, 0.1, 0.15))
 
 
+def of_both(frame, scene, camera):
+    """Every border of every pair."""
+    return {(a, b) for pair in frame.crossing.tolist() for a, b in (pair, pair[::-1])}
+
+
 @pytest.fixture(scope="module")
 def renderer(context):
     return Renderer(context, SIZE, without=frozenset({"still"}))
+
+
+def test_borders_that_change_nothing_are_not_drawn(renderer):
+    """Of pairs that hardly cross a sixth of the draws of borders at least, each of which takes four:
+    with them all the pictures are the same, but for what dividing out leaves of 16 bits."""
+    counts, pairs = {True: 0, False: 0}, 0
+    for seed in range(60):
+        scene = crossed(seed, seed % 2 == 0, apart=1.6)
+        pictures = []
+        for all_of_them in (True, False):
+            with pytest.MonkeyPatch.context() as patch:
+                if all_of_them:
+                    patch.setattr(crossing_painter, "_telling", of_both)
+                counts[all_of_them] += renderer.draw(scene, EYE, TECHNIQUE).draws
+                pictures.append(renderer.read().astype(int))
+        assert np.abs(pictures[0] - pictures[1]).max() <= 1, seed
+        pairs += len(renderer.plan.crossing)
+    assert pairs > 30 and counts[False] < counts[True] - 4 * pairs / 6
 
 
 @pytest.mark.parametrize("both_convex", [True, False])

@@ -52,11 +52,15 @@ class CrossingPainter:
         """Take on a frame: masks leave `alpha` on their targets, `runs` draw each of these, and
         `into` is what is drawn into."""
         self._runs, self._masks, self._into, self._alpha = runs, masks, into, alpha
-        self._first = {int(last): int(first) for first, last in frame.crossing}
+        self._first: dict[int, int] = {}
         self._lasts: dict[int, list[int]] = {}
         for first, last in frame.crossing.tolist():
+            self._first[last] = first
             self._lasts.setdefault(first, []).append(last)
-        self._depths = depth_values(scene.centers, camera)
+        targets = frame.crossing.ravel()
+        depths = depth_values(scene.centers[targets], camera)
+        self._depths = dict(zip(targets.tolist(), depths.tolist(), strict=True))
+        self._telling = _telling(frame, scene, camera)
 
     def draw(self, target: int, ways: Ways) -> int:
         """Draw one of a pair in its place. Returns how many masks that took."""
@@ -66,18 +70,21 @@ class CrossingPainter:
             for last in lasts:
                 self._colors(last, ways)
                 self._multiply(last, self._alpha, ways)
-            for last in lasts:
+            bordering = [last for last in lasts if (last, target) in self._telling]
+            for last in bordering:
                 self._mask(last, _NEVER_BEYOND, divided=False)
-        if first is not None:
+        told = first is not None and (first, target) in self._telling
+        if first is not None and told:
             self._mask(first, _ALWAYS_BEYOND, divided=True)
         self._colors(target, ways)
-        if first is not None:
+        if first is not None and told:
             self._mask(first, _ALWAYS_BEYOND, divided=False)
         with self._beyond():
-            for last in lasts:
+            for last in bordering:
                 self._mask(last, _NEVER_BEYOND, divided=True)
+            for last in lasts:
                 self._multiply(last, 1 / self._alpha, ways)
-        return 2 * (len(lasts) + (first is not None))
+        return 2 * (len(bordering) + told)
 
     def _colors(self, target: int, ways: Ways) -> None:
         ways.lit(self._runs[target])
@@ -100,9 +107,18 @@ class CrossingPainter:
 
     def _mask(self, target: int, own: float, divided: bool) -> None:
         """A target's mask, with its border at the depth of its centre."""
-        beside = float(self._depths[target])
         with drawing_masks(self._context, self._into):
-            self._masks.draw_at_depth(target, own, beside, divided)
+            self._masks.draw_at_depth(target, own, self._depths[target], divided)
+
+
+def _telling(frame: FramePlan, scene: Scene, camera: Camera) -> set[tuple[int, int]]:
+    """Whose border changes the pixels of the other of its pair: that of the last one where the
+    first comes before it, that of the first one where the last lies behind it."""
+    first, last = frame.crossing.T
+    over = frame.boxes.near[first] < camera.depth(scene.centers[last])
+    under = frame.boxes.far[last] > camera.depth(scene.centers[first])
+    found = [*zip(last[over].tolist(), first[over].tolist(), strict=True)]
+    return {*found, *zip(first[under].tolist(), last[under].tolist(), strict=True)}
 
 
 @contextmanager

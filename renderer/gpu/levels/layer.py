@@ -243,14 +243,16 @@ class Layer:
         wide[frame.wide] = True
         apart = np.zeros(len(frame.reasons), dtype=bool)  # drawn otherwise, in their levels
         apart[frame.single] = True
-        apart[[members[0] for members in frame.clusters]] = True
+        if frame.clusters:
+            apart[[members[0] for members in frame.clusters]] = True
         parts = [frame.opaque, frame.wide]
         for level in frame.levels:
             alone = level.objects[~apart[level.objects]]
             within = wide[alone]
             parts += [alone[~within], alone[within]]
-        levels, single = len(parts), np.union1d(frame.single, frame.swapping)
-        parts += list(single[:, None])
+        levels = len(parts)
+        single = list(dict.fromkeys([*frame.single.tolist(), *frame.swapping[:, 1].tolist()]))
+        parts += [np.array([i]) for i in single]
         extra = []
         if frame.levels:
             own = by_masks(technique)
@@ -262,7 +264,7 @@ class Layer:
         slope = table.scene.look.detail_error * scale * camera.pixel(size[1])
         sequence, runs = table.sequence([*parts, *extra], camera, slope=slope)
         self._bind(table, sequence)
-        self._runs_of = dict(zip(single.tolist(), runs[levels:], strict=False))
+        self._runs_of = dict(zip(single, runs[levels:], strict=False))
         return runs[:levels], runs[len(parts) :]
 
     def _looked_up(

@@ -8,11 +8,13 @@ that is undone, so that nothing else is the wiser (plan/straddling.py).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import ceil, floor
 from typing import NamedTuple
 
 import moderngl
 import numpy as np
 
+from seethrough.renderer.arrays import Floats
 from seethrough.renderer.gpu.device import pipeline
 from seethrough.renderer.gpu.device.programs import Shader
 from seethrough.renderer.gpu.device.scene_table import Run
@@ -46,15 +48,15 @@ class StraddlingPainter:
     ) -> None:  # fmt: skip
         """Take on a frame: `runs` draw each of its objects, and `into` is what is drawn into."""
         self._runs, self._masks, self._into = runs, masks, into
-        self._boxes, size = frame.boxes.extents, np.array(into.size)
-        self._low = np.clip(np.floor(self._boxes[:, :2]) - 1, 0, size).astype(int)
-        self._high = np.clip(np.ceil(self._boxes[:, 2:]) + 1, 0, size).astype(int)
+        self._extents = frame.boxes.extents
         self._borders: dict[int, list[Border]] = {}
         for (i, *border), strength in zip(
             frame.straddling.tolist(), frame.strength.tolist(), strict=True
         ):
             self._borders.setdefault(i, []).append(Border(border[0], bool(border[1]), strength))
-        self._depths = depth_values(scene.centers, camera)
+        targets = frame.straddling[:, 1]
+        depths = depth_values(scene.centers[targets], camera)
+        self._depths = dict(zip(targets.tolist(), depths.tolist(), strict=True))
         self._beyond: dict[int, list[tuple[int, float]]] = {}
         for (first, last), beyond in zip(
             frame.swapping.tolist(), frame.beyond.tolist(), strict=True
@@ -64,7 +66,7 @@ class StraddlingPainter:
     def draw(self, i: int, ways: Ways) -> int:
         """Draw an object in its place. Returns how many masks that took."""
         borders = self._borders.get(i, [])
-        (left, top), (right, bottom) = self._low[i].tolist(), self._high[i].tolist()
+        left, top, right, bottom = _around(self._extents[i], self._into.size)
         pipeline.within(self._into, (left, self._into.height - bottom, right - left, bottom - top))
         ways.depth(self._runs[i])
         self._show_beyond(self._beyond.get(i, []), ways)
@@ -101,7 +103,15 @@ class StraddlingPainter:
             for target, after, strength in borders:
                 self._context.depth_func = "<=" if after else ">"
                 self._masks.draw_at_depth(
-                    *(target, _NEVER[after], float(self._depths[target])),
+                    *(target, _NEVER[after], self._depths[target]),
                     *(after == first, strength),
                 )
         self._context.depth_func = "<="
+
+
+def _around(box: Floats, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """Left, top, right, bottom of the whole pixels about a box (4,), and one more on each side."""
+    (left, top, right, bottom), (width, height) = box.tolist(), size
+    left, top = floor(min(max(left, 1.0), width)) - 1, floor(min(max(top, 1.0), height)) - 1
+    right, bottom = ceil(min(max(right, 0.0), width)) + 1, ceil(min(max(bottom, 0.0), height)) + 1
+    return left, top, min(right, width), min(bottom, height)
