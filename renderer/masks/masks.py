@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.arrays import Floats
 from seethrough.renderer.scene.camera import Camera
+from seethrough.renderer.scene.projection import corners_cut
 from seethrough.renderer.scene.scene import Object
 
 if TYPE_CHECKING:
@@ -119,15 +120,30 @@ def reach(
 ) -> NDArray[np.float64]:
     """(n, 4) what the masks of objects with these (n, 4) extents can cover, at most."""
     # What lies behind the eye has an empty box, from inf to -inf: it stays one.
-    half = np.maximum(extents[:, 2:] - extents[:, :2], 0.0) / 2
-    grow = np.full(len(extents), width + 1.0)
+    around = width + 1.0
+    if technique.mask in ("outline", "hull"):
+        return extents + np.array([-around, -around, around, around])
+    grow = np.full(len(extents), around)
     if technique.mask == "ring":
         cells = len(ring_opacities(technique, size)) + 1.5
         grow += cells * max(size) / technique.ring_size
-    elif technique.mask not in ("outline", "hull"):
+    else:
+        half = np.maximum(extents[:, 2:] - extents[:, :2], 0.0) / 2
         # A circle or ellipse about a box reaches no farther than its diagonal on all sides.
         grow += np.hypot(half[:, 0], half[:, 1])
     return extents + np.array([-1, -1, 1, 1]) * grow[:, None]
+
+
+def reach_of_slants(
+    slants: NDArray[np.float64], reached: NDArray[np.float64], technique: DynamicTransparency,
+    width: float,
+) -> NDArray[np.float64]:  # fmt: skip
+    """(n, 4) the slants (Boxes) of what masks can cover at most: of those that follow an outline as
+    far about an object's own (n, 4), of others those of what they reach (n, 4)."""
+    if technique.mask not in ("outline", "hull"):
+        return corners_cut(reached)
+    around = (width + 1.0) * np.sqrt(2)
+    return slants + np.array([-around, -around, around, around])
 
 
 @njit(cache=True)

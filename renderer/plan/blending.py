@@ -31,7 +31,7 @@ class Ordered(NamedTuple):
 @dataclass(frozen=True, eq=False)
 class Blending:
     """What is put in order: objects `seen`, from far to near, of n with `extents` and `reach` of
-    masks (n, 4); of each pair the `relation` and whether it is `uncertain` (n, n); which of them
+    masks (n, 8); of each pair the `relation` and whether it is `uncertain` (n, n); which of them
     are `blended` and `masked` (n,). See order.decide. `lost` (n, n): of which pairs a target may be
     lost whatever goes first."""
 
@@ -45,7 +45,8 @@ class Blending:
     lost: Bools
 
     @property
-    def _related(self) -> order.Related:
+    def related(self) -> order.Related:
+        """The same as compiled code takes it."""
         return order.Related(
             self.seen, self.extents, self.reach, self.relation, self.blended, self.masked
         )
@@ -57,7 +58,7 @@ class Blending:
         none = np.zeros(0, np.int64)
         if much and part_by_part:
             return Ordered(none, none, False, doubtful, True)
-        of_object, of_mask, broken = levels.levels(self._related)
+        of_object, of_mask, broken = levels.levels(self.related)
         if broken.any():
             doubtful, much = self.doubtful(broken, size, doubt)
         return Ordered(of_object, of_mask, bool(broken.any()), doubtful, much and part_by_part)
@@ -69,10 +70,10 @@ class Blending:
         CROWDED, all of them are.
         """
         whole = np.array(size, float)
-        reach = np.clip(self.reach[self.masked], 0, [*size, *size])
+        reach = np.clip(self.reach[self.masked, :4], 0, [*size, *size])
         if (reach[:, 2:] - reach[:, :2]).prod(axis=1).sum() > CROWDED * whole.prod():
             return reach, True
-        found, lost = order.doubtful(self._related, self.uncertain, broken, self.lost, whole)
+        found, lost = order.doubtful(self.related, self.uncertain, broken, self.lost, whole)
         chosen = np.concatenate([found[lost], doubts.chosen(found[~lost], size, doubt)])
         if not len(chosen):
             return chosen, False
@@ -80,7 +81,7 @@ class Blending:
 
     def parts(self, size: tuple[int, int]) -> Ints:
         """Where masks can be."""
-        return merged_parts(self.reach[self.masked], size)
+        return merged_parts(self.reach[self.masked, :4], size)
 
 
 def merged_parts(boxes: Floats, size: tuple[int, int]) -> Ints:

@@ -31,7 +31,7 @@ _trees: dict[bytes, tuple[list[Object], PreparedBsp | str]] = {}
 class United:
     """What `plan` knows of all objects, with each cluster in the place of its first member.
 
-    `members` of each cluster, its first one leading; for n objects, `extents` (n, 4), `relation`
+    `members` of each cluster, its first one leading; for n objects, `extents` (n, 8), `relation`
     and `uncertain` (n, n), and `blended` (n,): led objects do not blend by themselves.
     """
 
@@ -104,8 +104,10 @@ def _lead(united: United, members: Ints) -> bool:
     side = np.where(outside, front.astype(np.int8) - back.astype(np.int8), 0).astype(np.int8)
     leader = members[0]
     united.relation[leader], united.relation[:, leader] = side, -side
-    united.extents[leader, :2] = united.extents[members, :2].min(axis=0)
-    united.extents[leader, 2:] = united.extents[members, 2:].max(axis=0)
+    for low in range(0, united.extents.shape[1], 4):  # boxes, then slants
+        begin, end = slice(low, low + 2), slice(low + 2, low + 4)
+        united.extents[leader, begin] = united.extents[members, begin].min(axis=0)
+        united.extents[leader, end] = united.extents[members, end].max(axis=0)
     united.uncertain[np.ix_(members, members)] = False
     united.blended[members[1:]] = False
     return True

@@ -11,8 +11,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numba import njit
 
-from seethrough.renderer.arrays import Bools, Ints
+from seethrough.renderer.arrays import Bools, Ints, Signs
 from seethrough.renderer.plan.blending import Blending
 from seethrough.renderer.plan.comparing import IN_FRONT
 from seethrough.renderer.scene.projection import Boxes
@@ -39,14 +40,15 @@ def pairs(what: Blending, scene: Scene, boxes: Boxes, hard: Bools) -> Ints:
     depth buffer tells, is behind that one and no other. Nor is it so where something impenetrable
     may stand before both.
     """
-    rows, columns = np.divmod(np.flatnonzero(what.lost), len(hard))
-    found = np.stack([rows, columns], axis=1)[rows < columns]  # each pair is there both ways round
-    if not len(found):
+    # Each pair is there both ways round.
+    places = [divmod(place, len(hard)) for place in np.flatnonzero(what.lost).tolist()]
+    found = [(i, j) for i, j in places if i < j]
+    if not found:
         return NONE
     kept: list[tuple[int, int]] = []
-    chain = {t: t for t in found.ravel().tolist()}  # of each target, one name for all it hangs on
+    chain = {t: t for pair in found for t in pair}  # of each target, one name for all it hangs on
     free = {t: bool(scene.convex[t]) for t in chain}
-    for i, j in found.tolist():
+    for i, j in found:
         first, last = (i, j) if _goes_first(what, i, j) else (j, i)
         if not free[last]:
             first, last = last, first
@@ -60,18 +62,28 @@ def pairs(what: Blending, scene: Scene, boxes: Boxes, hard: Bools) -> Ints:
 
 def _goes_first(what: Blending, i: int, j: int) -> bool:
     """Whether i is better drawn before j: something lies before i and behind j; else as said."""
-    own, other = what.relation[:, i], what.relation[:, j]
-    one_way, other_way = ((own > 0) & (other < 0)).any(), ((own < 0) & (other > 0)).any()
+    one_way, other_way = _between(what.relation, i, j), _between(what.relation, j, i)
     return bool(one_way if one_way != other_way else what.relation[j, i] > 0)
+
+
+@njit(cache=True)
+def _between(relation: Signs, i: int, j: int) -> bool:
+    """Whether anything lies before i and behind j."""
+    for k in range(len(relation)):
+        if relation[k, i] > 0 and relation[k, j] < 0:
+            return True
+    return False
 
 
 def in_order(what: Blending, found: Ints) -> Blending:
     """The same with these pairs (k, 2) in that order, which is in doubt no more."""
+    if not len(found):
+        return what
     relation, uncertain, lost = what.relation.copy(), what.uncertain.copy(), what.lost.copy()
-    first, last = found.T
-    relation[last, first], relation[first, last] = IN_FRONT, -IN_FRONT
-    for doubts in (uncertain, lost):
-        doubts[first, last] = doubts[last, first] = False
+    for first, last in found.tolist():
+        relation[last, first], relation[first, last] = IN_FRONT, -IN_FRONT
+        uncertain[first, last] = uncertain[last, first] = False
+        lost[first, last] = lost[last, first] = False
     return replace(what, relation=relation, uncertain=uncertain, lost=lost)
 
 

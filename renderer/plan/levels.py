@@ -19,7 +19,7 @@ def levels(related: Related) -> tuple[Ints, Ints, Bools]:
     mask, broken[j, i] of object j behind that goes after the mask of i.
     """
     order, n = related.seen, len(related.extents)
-    starts, links = _links(related)
+    starts, links = links_of(related)
     waits, done = np.zeros(2 * n, np.int64), np.zeros((2, n), np.bool_)
     for follower in links:
         waits[follower] += 1
@@ -54,46 +54,41 @@ def levels(related: Related) -> tuple[Ints, Ints, Bools]:
 
 
 @njit(cache=True)
-def _links(related: Related) -> tuple[Ints, Ints]:
+def links_of(related: Related) -> tuple[Ints, Ints]:
     """What follows on what: of node k, which is object k or from n on the mask of object k − n,
     the followers links[starts[k] : starts[k + 1]]."""
     order, extents, reach = related.seen, related.extents, related.reach
     relation, blended, masked = related.relation, related.blended, related.masked
     n = len(extents)
-    starts, links = np.zeros(2 * n + 1, np.int64), np.empty(0, np.int64)
-    for fill in range(2):  # count them first
-        if fill:
-            starts = np.cumsum(starts)
-            links = np.empty(starts[-1], np.int64)
-            # Of each node as many as were counted, from its end.
-            starts[:-1] = starts[1:]
-        for i in order:
-            if not blended[i]:
+    found, k = np.empty((2 * len(order) * len(order) + len(order), 2), np.int64), 0
+    starts = np.zeros(2 * n + 1, np.int64)
+    for i in order:
+        if not blended[i]:
+            continue
+        if masked[i]:
+            found[k, 0], found[k, 1] = i, n + i
+            k += 1
+        for j in order:
+            sign = relation[i, j]
+            if sign == 0:
                 continue
-            if masked[i]:
-                _link(starts, links, i, n + i)
-            for j in order:
-                sign = relation[i, j]
-                if sign == 0:
-                    continue
-                if sign == 1 and blended[j] and meet(extents, i, extents, j):
-                    _link(starts, links, j, i)
-                if masked[j] and meet(extents, i, reach, j):
-                    if sign == 1:
-                        _link(starts, links, n + j, i)
-                    else:
-                        _link(starts, links, i, n + j)
+            if sign == 1 and blended[j] and meet(extents, i, extents, j):
+                found[k, 0], found[k, 1] = j, i
+                k += 1
+            if masked[j] and meet(extents, i, reach, j):
+                if sign == 1:
+                    found[k, 0], found[k, 1] = n + j, i
+                else:
+                    found[k, 0], found[k, 1] = i, n + j
+                k += 1
+    for f in range(k):
+        starts[found[f, 0] + 1] += 1
+    starts = np.cumsum(starts)
+    links, free = np.empty(k, np.int64), starts[1:].copy()  # of each node from its end
+    for f in range(k):
+        free[found[f, 0]] -= 1
+        links[free[found[f, 0]]] = found[f, 1]
     return starts, links
-
-
-@njit(cache=True)
-def _link(starts: Ints, links: Ints, node: int, follower: int) -> None:
-    """Count a follower; or put it down, once there is room."""
-    if len(links):
-        starts[node] -= 1
-        links[starts[node]] = follower
-    else:
-        starts[node + 1] += 1
 
 
 @njit(cache=True)
@@ -140,6 +135,23 @@ def _stuck(related: Related, done: Bools) -> tuple[int, int]:
         if blended[order[a]] and not done[0, order[a]]:
             return 0, order[a]
     return 1, order[0]  # not reached: a mask waits for nothing but objects
+
+
+@njit(cache=True)
+def grouped(level: Ints, last: int) -> tuple[Ints, Ints]:
+    """The objects of each level from −1 to `last`, in their order, and where each level's begin:
+    objects[starts[k + 1] : starts[k + 2]] are those of level k. `level` (n,) is −2 for none."""
+    starts = np.zeros(last + 3, np.int64)
+    for i in range(len(level)):
+        if level[i] > -2:
+            starts[level[i] + 2] += 1
+    starts = np.cumsum(starts)
+    objects, free = np.empty(starts[-1], np.int64), starts.copy()
+    for i in range(len(level)):
+        if level[i] > -2:
+            objects[free[level[i] + 1]] = i
+            free[level[i] + 1] += 1
+    return objects, starts
 
 
 def one_by_one(order: Ints, of_object: Ints, of_mask: Ints) -> tuple[Ints, Ints]:

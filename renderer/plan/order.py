@@ -24,8 +24,8 @@ LITTLE = 0.1  # of a target: what may be lost without sorting pixels
 
 class Placed(NamedTuple):
     """The n objects of a scene as the eye has them: `seen` (m,) are those to put in order, from far
-    to near by their groups' centres; `extents` (n, 4) what each covers on the screen, `reach`
-    (n, 4) what its mask would; `centers` (n, 3) from the eye, `sides` (n, 3, 3) and `radius` (n,)
+    to near by their groups' centres; `extents` (n, 8) what each covers on the screen, its box and
+    slants (Boxes), `reach` (n, 8) what its mask would; `centers` (n, 3) from the eye, `sides` (n, 3, 3) and `radius` (n,)
     of their boxes; `near` and `far` (n,) view depths; `targets` and `hard`, what is never
     penetrated, (n,). A tuple, because compiled code takes it."""
 
@@ -42,7 +42,7 @@ class Placed(NamedTuple):
 
 
 class Related(NamedTuple):
-    """Who is drawn before whom: of objects `seen` (m,), with `extents` and `reach` (n, 4) as they
+    """Who is drawn before whom: of objects `seen` (m,), with `extents` and `reach` (n, 8) as they
     are Placed, the `relation` (n, n) of each pair, and which of them are `blended` and `masked`
     (n,). See decide. A tuple, because compiled code takes it."""
 
@@ -56,8 +56,32 @@ class Related(NamedTuple):
 
 @njit(cache=True)
 def meet(a: Floats, i: int, b: Floats, j: int) -> bool:
-    """Whether box i of `a` (n, 4) and box j of `b` overlap on the screen."""
-    return a[i, 0] <= b[j, 2] and a[i, 2] >= b[j, 0] and a[i, 1] <= b[j, 3] and a[i, 3] >= b[j, 1]
+    """Whether box i of `a` (n, 4) and box j of `b` overlap on the screen; their slants, in columns
+    4 to 7 if there are any, as well."""
+    for c in range(0, a.shape[1], 4):
+        if a[i, c] > b[j, c + 2] or a[i, c + 2] < b[j, c]:
+            return False
+        if a[i, c + 1] > b[j, c + 3] or a[i, c + 3] < b[j, c + 1]:
+            return False
+    return True
+
+
+@njit(cache=True)
+def touching(boxes: Floats, size: tuple[int, int]) -> Bools:
+    """(n,) which boxes (n, 4) reach into the picture."""
+    found = np.empty(len(boxes), np.bool_)
+    for i in range(len(boxes)):
+        found[i] = boxes[i, 2] > 0 and boxes[i, 3] > 0
+        found[i] = found[i] and boxes[i, 0] < size[0] and boxes[i, 1] < size[1]
+    return found
+
+
+@njit(cache=True)
+def far_to_near(objects: Ints, group_of: Ints, depth: Floats) -> Ints:
+    """Objects (m,), given in their order in the scene, the farthest group first by the depths (n,)
+    of groups; of groups of one depth that of the lower number."""
+    by_group = objects[np.argsort(group_of[objects], kind="mergesort")]
+    return by_group[np.argsort(-depth[by_group], kind="mergesort")]
 
 
 @njit(cache=True)
@@ -65,7 +89,7 @@ def near_each_other(placed: Placed) -> Ints:
     """(k, 2) places in the order, the nearer one first, of all whose boxes overlap on the screen:
     of targets what their masks can reach. Swept from left to right."""
     order, m = placed.seen, len(placed.seen)
-    boxes = np.empty((m, 4))
+    boxes = np.empty((m, placed.extents.shape[1]))
     for a in range(m):
         i = order[a]
         boxes[a] = placed.reach[i] if placed.targets[i] else placed.extents[i]
@@ -74,12 +98,12 @@ def near_each_other(placed: Placed) -> Ints:
     k = 0
     for p in range(m):
         a = rows[p]
-        right, top, bottom = boxes[a, 2], boxes[a, 1], boxes[a, 3]
+        right = boxes[a, 2]
         for q in range(p + 1, m):
             b = rows[q]
             if boxes[b, 0] > right:
                 break
-            if boxes[b, 1] <= bottom and boxes[b, 3] >= top:
+            if meet(boxes, a, boxes, b):
                 found[k, 0], found[k, 1] = max(a, b), min(a, b)
                 k += 1
     return found[:k]
@@ -87,10 +111,10 @@ def near_each_other(placed: Placed) -> Ints:
 
 @njit(cache=True)
 def decide(
-    placed: Placed, blend: Bools, mask: Bools, known: Signs, by_center: bool
+    placed: Placed, pairs: Ints, blend: Bools, mask: Bools, known: Signs, by_center: bool
 ) -> tuple[Signs, Bools, Bools, Bools]:
     """relation (n, n) of each pair that matters, which of them are uncertain (n, n), and which
-    objects blend and are masked (n,).
+    objects blend and are masked (n,). `pairs` (k, 2) are near_each_other.
 
     Of those `seen` the order of groups' centres decides alone if `by_center`; those in `blend` (n,)
     blend in any case, those in `mask` (n,) are masked. relation[i, j] is 1 where i is drawn after
@@ -105,7 +129,6 @@ def decide(
     relation = np.zeros((n, n), np.int8)
     uncertain = np.zeros((n, n), np.bool_)
     blended, masked = blend.copy(), mask.copy()
-    pairs = near_each_other(placed)
     for both in range(2):  # first every object against the targets, then all that blend
         for a, b in pairs:
             i, j = order[a], order[b]  # j is farther by its centre
@@ -174,9 +197,10 @@ def _doubtful(
     """The same of the pairs at these places of a table (n, n), each counted once."""
     order, extents, reach = related.seen, related.extents, related.reach
     relation, blended, masked = related.relation, related.blended, related.masked
-    m, n = len(order), len(extents)
+    n = len(extents)
     there = np.zeros(n, np.bool_)
     there[order] = True
+    masks = order[masked[order]]
     pairs = np.empty(len(places), np.int64)
     for p in range(len(places)):
         a, b = places[p] // n, places[p] % n
@@ -191,10 +215,7 @@ def _doubtful(
         if not (there[i] and there[j]) or not (blended[i] or blended[j]):
             continue
         low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf
-        for c in range(m):
-            s = order[c]
-            if not masked[s]:
-                continue
+        for s in masks:
             x0 = max(0.0, max(reach[s, 0], _low(extents, reach, i, j, s, 0)))
             y0 = max(0.0, max(reach[s, 1], _low(extents, reach, i, j, s, 1)))
             x1 = min(size[0], min(reach[s, 2], _high(extents, reach, i, j, s, 2)))

@@ -17,7 +17,7 @@ import numpy as np
 
 from seethrough.renderer.arrays import Bools, Floats, Ints, Signs
 from seethrough.renderer.masks import masks
-from seethrough.renderer.plan import clusters, crossing, levels, order, straddling
+from seethrough.renderer.plan import clusters, crossing, gathering, levels, order, straddling
 from seethrough.renderer.plan import swapping as swaps
 from seethrough.renderer.plan.blending import Blending, merged_parts
 from seethrough.renderer.plan.comparing import IN_FRONT
@@ -77,17 +77,19 @@ def plan(
         touched = rules.touches(technique, state, shot)
         return _ruled(_opaque(boxes, drawn, without), touched, shot)
     technique = by_masks(technique)
-    if not (scene.targets & boxes.within).any() and not without:
+    if not (scene.targets & boxes.within).any() and "opaque" not in without:
         return _in_rooms(_opaque(boxes, drawn, without), scene, camera, size)
-    reach = masks.reach(boxes.extents, technique, technique.width * scale, size)
+    width = technique.width * scale
+    reach = masks.reach(boxes.extents, technique, width, size)
     hard = impenetrable(scene, camera, technique)
     seen = _far_to_near(scene, camera, _reaching(scene, boxes, reach, size, without))
     there = np.zeros(len(hard), dtype=bool)
     there[seen] = True
+    slanted = masks.reach_of_slants(boxes.slants, reach, technique, width)
     placed = order.Placed(
         seen=seen,
-        extents=boxes.extents,
-        reach=reach,
+        extents=np.concatenate([boxes.extents, boxes.slants], axis=1),
+        reach=np.concatenate([reach, slanted], axis=1),
         centers=scene.centers - camera.eye,
         sides=scene.box_sides,
         radius=scene.radii,
@@ -96,15 +98,18 @@ def plan(
         targets=scene.targets,
         hard=hard,
     )
+    near_by = order.near_each_other(placed)
     blend = there & ~hard & ("opaque" in without)
     mask = np.zeros_like(blend)
     across = straddling.NO_ONE
     if crossing.fits(technique) and not technique.per_pixel_only:
         across = straddling.found(
-            *(scene, camera, placed, boxes, technique, technique.width * scale, size)
+            *(scene, camera, placed, near_by, boxes, technique, width, size)
         )
         blend, mask = straddling.shown(across, blend, mask)
-    relation, uncertain, blended, masked = _decided(scene, camera, technique, placed, blend, mask)
+    relation, uncertain, blended, masked = _decided(
+        *(scene, camera, technique, placed, near_by, blend, mask)
+    )
     masked |= there & scene.targets & ("masks" in without)
     if technique.per_pixel_only:
         masked |= order.overlapped(placed)
@@ -128,7 +133,7 @@ def plan(
     # Of two targets that no plane separates one is lost where it lies behind, whoever goes first.
     lost = uncertain & (blended & masked) & (blended & masked)[:, None]
     lost |= _beside(scene, camera, technique, boxes, relation, masked)
-    what = Blending(seen, boxes.extents, reach, relation, uncertain, blended, masked, lost)
+    what = Blending(seen, placed.extents, placed.reach, relation, uncertain, blended, masked, lost)
     pairs = crossing.NONE
     if "crossing" not in without and crossing.fits(technique):
         pairs = crossing.pairs(what, scene, boxes, hard)
@@ -137,14 +142,14 @@ def plan(
 
 def _decided(
     scene: Scene, camera: Camera, technique: DynamicTransparency, placed: order.Placed,
-    blend: Bools, mask: Bools,
+    near_by: Ints, blend: Bools, mask: Bools,
 ) -> tuple[Signs, Bools, Bools, Bools]:  # fmt: skip
     """order.decide, again if planes were found between pairs that it is uncertain of."""
     by_center = technique.order == "centers"
     planes = scene.separations
     while True:
         relation, uncertain, blended, masked = order.decide(
-            placed, blend, mask, planes.relation(camera.eye), by_center
+            placed, near_by, blend, mask, planes.relation(camera.eye), by_center
         )
         new = uncertain & ~planes.tried
         if not new.any() or not planes.learn(np.argwhere(np.triu(new)), scene):
@@ -210,15 +215,13 @@ def _reaching(
     scene: Scene, boxes: Boxes, reach: Floats, size: tuple[int, int], without: Set[str]
 ) -> Ints:
     """What can change the picture: objects in view, and targets whose mask reaches into it."""
-    near = (reach[:, 2:] > 0).all(axis=1) & (reach[:, :2] < np.array(size)).all(axis=1)
-    near &= scene.targets & boxes.within
-    return np.nonzero(boxes.inside | near | (boxes.within & ("cull" in without)))[0]
+    reaching = order.touching(reach, size) & scene.targets & boxes.within
+    return np.flatnonzero(boxes.inside | reaching | (boxes.within & ("cull" in without)))
 
 
 def _far_to_near(scene: Scene, camera: Camera, objects: Ints) -> Ints:
     """Farthest group first, by view depth; a group stays together, in its order in the scene."""
-    depth = camera.depth(scene.group_centers[objects])
-    return objects[np.lexsort((objects, scene.group_of[objects], -depth))]
+    return order.far_to_near(objects, scene.group_of, camera.depth(scene.group_centers))
 
 
 def _counted(relation: Signs, masked: Bools, technique: DynamicTransparency) -> Ints:
@@ -264,22 +267,27 @@ def _with_levels(
         what.lost,
     )
     part_by_part = "parts" not in base.without
-    ordered = crossing.in_order(what, pairs).ordered(size, doubt, part_by_part)
+    with_pairs = crossing.in_order(what, pairs)
+    ordered = with_pairs.ordered(size, doubt, part_by_part)
     if len(pairs) and len(ordered.doubtful):  # what lies between the two may be drawn wrongly then
         without = what.ordered(size, doubt, part_by_part)
         if union(without.doubtful) <= union(ordered.doubtful):
-            pairs, ordered = crossing.NONE, without
+            pairs, with_pairs, ordered = crossing.NONE, what, without
     if ordered.much:
         return _held(base, what.parts(size), triangles, size)
     of_object, of_mask, doubtful = ordered.of_object, ordered.of_mask, ordered.doubtful
     if "levels" in base.without:
         of_object, of_mask = levels.one_by_one(seen, of_object, of_mask)
+    elif not ordered.broken:
+        of_object, of_mask = gathering.gathered(
+            with_pairs.related, scene.mesh_of, scene.convex, of_object, of_mask
+        )
     parts = merged_parts(doubtful, size)
     if len(parts) and not part_by_part:
         parts, doubtful = np.array([[0, 0, *size]]), doubtful[:0]
     keep = np.zeros(len(masked), dtype=bool)
     keep[base.opaque] = True
-    around = holes(what.reach, base.masked, size)
+    around = holes(base.reach, base.masked, size)
     apart = united.clustered
     apart[pairs] = True
     told, strength = straddling.kept(across, of_object, of_mask, apart)
@@ -307,16 +315,15 @@ def _with_levels(
 
 def _levels(of_object: Ints, of_mask: Ints) -> tuple[Level, ...]:
     """The levels, from what level each object and each mask has."""
-    last = max(of_object.max(initial=-1), of_mask.max(initial=-1))
+    last = max(int(of_object.max(initial=-1)), int(of_mask.max(initial=-1)))
     parts = zip(_grouped(of_object, last), _grouped(of_mask, last), strict=True)
     return tuple(Level(objects, targets) for objects, targets in parts)
 
 
 def _grouped(level: Ints, last: int) -> list[Ints]:
     """The objects of each level from −1 to `last`, in their order."""
-    order_ = np.argsort(level, kind="stable")
-    cuts = np.searchsorted(level[order_], np.arange(-1, last + 2)).tolist()
-    return [order_[a:b] for a, b in pairwise(cuts)]
+    objects, starts = levels.grouped(level, last)
+    return [objects[a:b] for a, b in pairwise(starts.tolist())]
 
 
 def _held(base: FramePlan, parts: Ints, triangles: Ints, size: tuple[int, int]) -> FramePlan:

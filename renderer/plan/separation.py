@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from seethrough.renderer.arrays import Floats, Ints
+from seethrough.renderer.arrays import Floats, Ints, Signs
 from seethrough.renderer.plan.comparing import BEHIND, IN_FRONT, NEITHER, UNCERTAIN
 from seethrough.renderer.scene.scene import Scene
 
@@ -71,14 +71,7 @@ class Separations:
 
     def relation(self, eye: NDArray[np.float64]) -> NDArray[np.int8]:
         """(n, n) who is in front of whom as seen from `eye`, UNCERTAIN where no plane is known."""
-        known = np.full(self.tried.shape, UNCERTAIN, np.int8)
-        first, second = self.pairs.T
-        at = self.planes[:, :3] @ eye
-        found = np.where(at >= self.planes[:, 3], IN_FRONT, NEITHER)
-        found[at <= self.planes[:, 4]] = BEHIND
-        known[first, second] = found
-        known[second, first] = -found
-        return known
+        return _known(len(self.tried), self.pairs, self.planes, eye)
 
     def learn(self, pairs: NDArray[np.int64], scene: Scene) -> bool:
         """Look for planes between (k, 2) objects not tried yet; whether any was found."""
@@ -99,6 +92,19 @@ class Separations:
             self.pairs = np.concatenate([self.pairs, found])
             self.planes = np.concatenate([self.planes, planes])
         return bool(found)
+
+
+@njit(cache=True)
+def _known(n: int, pairs: Ints, planes: Floats, eye: Floats) -> Signs:
+    """(n, n) as Separations.relation says."""
+    known = np.full((n, n), UNCERTAIN, np.int8)
+    for k in range(len(pairs)):
+        at = planes[k, 0] * eye[0] + planes[k, 1] * eye[1] + planes[k, 2] * eye[2]
+        way = IN_FRONT if at >= planes[k, 3] else NEITHER
+        if at <= planes[k, 4]:
+            way = BEHIND
+        known[pairs[k, 0], pairs[k, 1]], known[pairs[k, 1], pairs[k, 0]] = way, -way
+    return known
 
 
 @njit(cache=True)

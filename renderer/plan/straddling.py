@@ -18,7 +18,7 @@ from numba import njit
 
 from seethrough.renderer.arrays import Bools, Floats, Ints
 from seethrough.renderer.plan.comparing import BEHIND, IN_FRONT, compare, turning
-from seethrough.renderer.plan.order import Placed, near_each_other
+from seethrough.renderer.plan.order import Placed
 from seethrough.renderer.plan.separation import away
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.projection import Boxes
@@ -53,11 +53,11 @@ class Straddling(NamedTuple):
 
 
 def found(
-    scene: Scene, camera: Camera, placed: Placed, boxes: Boxes,
+    scene: Scene, camera: Camera, placed: Placed, near_by: Ints, boxes: Boxes,
     technique: DynamicTransparency, width: float, size: tuple[int, int],
 ) -> Straddling:  # fmt: skip
     """All that may be drawn on the wrong side of a border `width` pixels wide, over more than a FEW
-    pixels.
+    pixels. `near_by` (k, 2) are order.near_each_other.
 
     Only as much of the border counts as may change a pixel by what is SEEN. What the near plane
     cuts is left out. Of what is not convex, cavities count as filled, and a target's as border.
@@ -70,7 +70,9 @@ def found(
     known, view = scene.separations, (camera.eye, camera.rotation, lens)
     while True:
         planes = (known.tried, known.pairs, known.planes)
-        pairs, counts, new = _found(placed, boxes.crosses, scene.convex, planes, scene.hulls, view)
+        pairs, counts, new = _found(
+            placed, near_by, boxes.crosses, scene.convex, planes, scene.hulls, view
+        )
         if not len(new):
             break
         known.learn(new, scene)
@@ -110,7 +112,8 @@ def kept(these: Straddling, of_object: Ints, of_mask: Ints, apart: Bools) -> tup
 
 @njit(cache=True)
 def _found(
-    placed: Placed, crosses: Bools, convex: Bools, planes: tuple[Bools, Ints, Floats],
+    placed: Placed, close: Ints, crosses: Bools, convex: Bools,
+    planes: tuple[Bools, Ints, Floats],
     hulls: tuple[Floats, Ints, Ints], view: tuple[Floats, Floats, Floats],
 ) -> tuple[Ints, Floats, Ints]:  # fmt: skip
     """(k, 2) objects and targets, and (k, 3) over how many pixels the object is nearer and farther
@@ -122,7 +125,6 @@ def _found(
     (tried, separate, sides), (points, edges, starts) = planes, hulls
     eye, rotation, lens = view
     order, near, far = placed.seen, placed.near, placed.far
-    close = near_each_other(placed)
     pairs, depths, k = np.empty((2 * len(close), 2), np.int64), np.empty((2 * len(close), 2)), 0
     untried, new = np.empty((2 * len(close), 2), np.int64), 0
     for c in range(len(close)):

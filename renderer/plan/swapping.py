@@ -10,6 +10,7 @@ something else may stand before both.
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
 from seethrough.renderer.arrays import Bools, Floats, Ints
 from seethrough.renderer.plan.blending import Blending
@@ -32,21 +33,13 @@ def swapping(
     found = np.flatnonzero(what.uncertain)
     if not len(found):
         return NONE, np.zeros(0)
-    rows, columns = np.divmod(found, len(apart))
+    depth = camera.depth(scene.group_centers)
     free = what.blended & ~scene.targets & ~apart
-    both = (rows < columns) & free[rows] & free[columns]
-    both &= scene.group_of[rows] != scene.group_of[columns]
-    i, j = rows[both], columns[both]
+    i, j, away = _close(found, free, scene.group_of, depth, scene.radii)
     if not len(i):
         return NONE, np.zeros(0)
-    depth = camera.depth(scene.group_centers)
-    away = np.abs(depth[i] - depth[j]) / (DEEP * (scene.radii[i] + scene.radii[j]))
-    close = away < 1 - LEAST
-    if not close.any():
-        return NONE, np.zeros(0)
-    i, j, away = i[close], j[close], away[close]
     low = np.maximum(what.extents[i, :2], what.extents[j, :2])
-    high = np.minimum(what.extents[i, 2:], what.extents[j, 2:])
+    high = np.minimum(what.extents[i, 2:4], what.extents[j, 2:4])
     shared = np.maximum(high - low, 0).prod(axis=1)
     strength = np.minimum(1 - away, shared / FEW - 1)
     turned = of_object[i] > of_object[j]
@@ -58,14 +51,33 @@ def swapping(
     return pairs[there], np.minimum(strength[there], 1.0)
 
 
+@njit(cache=True)
+def _close(
+    places: Ints, free: Bools, group_of: Ints, depth: Floats, radii: Floats
+) -> tuple[Ints, Ints, Floats]:
+    """Of the pairs at these places of a table (n, n) the two objects (k,), i before j, and how far
+    the depths (n,) of their groups are apart (k,), of what swaps them at most: those that are both
+    `free` (n,) and close."""
+    n, k = len(free), 0
+    i, j, away = np.empty(len(places), np.int64), np.empty(len(places), np.int64), np.empty(len(places))
+    for place in places:
+        a, b = place // n, place % n
+        if a < b and free[a] and free[b] and group_of[a] != group_of[b]:
+            apart = abs(depth[a] - depth[b]) / (DEEP * (radii[a] + radii[b]))
+            if apart < 1 - LEAST:
+                i[k], j[k], away[k] = a, b, apart
+                k += 1
+    return i[:k], j[:k], away[:k]
+
+
 def _hidden(what: Blending, boxes: Boxes, of_object: Ints, first: int, last: int) -> bool:
     """Whether what was drawn before the first one may lie before the last one where both are: then
     what is behind it, as the depth buffer tells, need not be behind the first one."""
     extents = what.extents
     low = np.maximum(extents[first, :2], extents[last, :2])
-    high = np.minimum(extents[first, 2:], extents[last, 2:])
+    high = np.minimum(extents[first, 2:4], extents[last, 2:4])
     there = boxes.inside & (boxes.near < boxes.far[last])
-    there &= (extents[:, :2] <= high).all(axis=1) & (extents[:, 2:] >= low).all(axis=1)
+    there &= (extents[:, :2] <= high).all(axis=1) & (extents[:, 2:4] >= low).all(axis=1)
     there &= ~what.blended | (of_object < of_object[first])
     surely = (what.relation[last] == IN_FRONT) & ~what.uncertain[last]
     there &= ~surely

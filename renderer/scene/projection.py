@@ -20,16 +20,21 @@ _EDGES = np.array(
 )
 
 
+SNAP = 1 / 64  # pixels: what 32 bits and a rasteriser's grid (1/256) move a corner by is less
+
+
 @dataclass(frozen=True, eq=False)
 class Boxes:
     """What objects cover on the screen, at most.
 
-    extents (n, 4): left, top, right, bottom in pixels; near, far (n,): view depths of the nearest
+    extents (n, 4): left, top, right, bottom in pixels; slants (n, 4): the least x + y and x − y, and
+    the greatest, which cut the corners of such a box; near, far (n,): view depths of the nearest
     and farthest corner; crosses (n,): whether the near plane cuts it; within (n,): whether
     any of it lies between the near and far planes; inside (n,): whether it can be in the picture.
     """
 
     extents: NDArray[np.float64]
+    slants: NDArray[np.float64]
     near: NDArray[np.float64]
     far: NDArray[np.float64]
     crosses: NDArray[np.bool_]
@@ -96,29 +101,40 @@ def screen_boxes(
     scale = camera.lens(size[1])
     lens = np.array([scale, size[0] / 2, size[1] / 2, camera.near])
     held, starts = around or (corners.reshape(-1, 3), 8 * np.arange(len(corners) + 1))
-    extents, near, far, crosses = _boxes(held, starts, camera.eye, camera.rotation, lens)
+    extents, slants, near, far, crosses = _boxes(held, starts, camera.eye, camera.rotation, lens)
     if crosses.any():
         points = to_camera(corners, camera)
         rows = np.nonzero(crosses)[0]
         low, high = extents[:, :2], extents[:, 2:]
         _add_cuts(low, high, rows, points, -points[..., 2], camera, size)
-    return Boxes(
-        extents, near, far, crosses, *_seen(extents, near, far, camera.near, camera.far, size)
-    )
+        slants[rows] = corners_cut(extents[rows])
+    seen = _seen(extents, near, far, camera.near, camera.far, size)
+    return Boxes(extents, slants, near, far, crosses, *seen)
+
+
+def corners_cut(extents: Floats) -> Floats:
+    """(n, 4) slants of boxes (n, 4) that nothing cuts the corners of."""
+    left, top, right, bottom = extents.T
+    with np.errstate(invalid="ignore"):
+        slants = np.stack([left + top, left - bottom, right + bottom, right - top], axis=1)
+    slants[left > right] = [np.inf, np.inf, -np.inf, -np.inf]  # what lies behind the eye
+    return slants
 
 
 @njit(cache=True)
 def _boxes(
     points: Floats, starts: Ints, eye: Floats, rotation: Floats, lens: Floats
-) -> tuple[Floats, Floats, Floats, Bools]:
-    """(n, 4) extents of what lies beyond the near plane, nearest and farthest depth (n,), and
-    whether it cuts; of object i by rows starts[i] to starts[i + 1] of the points (p, 3)."""
+) -> tuple[Floats, Floats, Floats, Floats, Bools]:
+    """(n, 4) extents and slants of what lies beyond the near plane, nearest and farthest depth
+    (n,), and whether it cuts; of object i by rows starts[i] to starts[i + 1] of the points (p, 3).
+    """
     n = len(starts) - 1
-    extents, near, far = np.empty((n, 4)), np.full(n, np.inf), np.full(n, -np.inf)
+    extents, slants = np.empty((n, 4)), np.empty((n, 4))
+    near, far = np.full(n, np.inf), np.full(n, -np.inf)
     crosses = np.zeros(n, np.bool_)
     for i in range(n):
-        extents[i, 0] = extents[i, 1] = np.inf
-        extents[i, 2] = extents[i, 3] = -np.inf
+        extents[i, 0] = extents[i, 1] = slants[i, 0] = slants[i, 1] = np.inf
+        extents[i, 2] = extents[i, 3] = slants[i, 2] = slants[i, 3] = -np.inf
         ahead = 0
         for k in range(starts[i], starts[i + 1]):
             x, y, z = 0.0, 0.0, 0.0
@@ -134,8 +150,12 @@ def _boxes(
             x, y = lens[1] + lens[0] * x / z, lens[2] - lens[0] * y / z
             extents[i, 0], extents[i, 1] = min(extents[i, 0], x), min(extents[i, 1], y)
             extents[i, 2], extents[i, 3] = max(extents[i, 2], x), max(extents[i, 3], y)
+            slants[i, 0], slants[i, 1] = min(slants[i, 0], x + y), min(slants[i, 1], x - y)
+            slants[i, 2], slants[i, 3] = max(slants[i, 2], x + y), max(slants[i, 3], x - y)
+        for side in range(4):
+            slants[i, side] += -SNAP if side < 2 else SNAP
         crosses[i] = 0 < ahead < starts[i + 1] - starts[i]
-    return extents, near, far, crosses
+    return extents, slants, near, far, crosses
 
 
 @njit(cache=True)

@@ -180,6 +180,13 @@ class Scene:
         return np.array([len(o.mesh.triangles) for o in self.objects], dtype=np.int64)
 
     @cached_property
+    def mesh_of(self) -> NDArray[np.int64]:
+        """(n,) which mesh each object has, by number."""
+        numbers: dict[int, int] = {}
+        found = [numbers.setdefault(id(o.mesh), len(numbers)) for o in self.objects]
+        return np.array(found, dtype=np.int64)
+
+    @cached_property
     def convex(self) -> NDArray[np.bool_]:
         """(n,) which objects are known to be convex."""
         return np.array([o.mesh.convex for o in self.objects], dtype=bool)

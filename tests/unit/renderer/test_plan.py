@@ -15,6 +15,7 @@ from seethrough.renderer.plan.frame_plan import BLENDED, HARD, OUTSIDE
 from seethrough.renderer.plan.planner import _counted, impenetrable, plan
 from seethrough.renderer.scene import geometry, transforms
 from seethrough.renderer.scene.camera import look_at
+from seethrough.renderer.scene.projection import to_camera, to_pixels
 from seethrough.renderer.scene.scene import Object, Scene
 from seethrough.renderer.techniques import named
 from seethrough.renderer.techniques.dynamic import exact
@@ -33,25 +34,66 @@ def place_of(frame, kind, index):
     return None
 
 
+def pixels_of(scene, camera):
+    """The pixels (v, 2) of each object's corners."""
+    points = [o.mesh.vertices @ o.transform[:3, :3].T + o.transform[:3, 3] for o in scene.objects]
+    return [to_pixels(to_camera(p, camera), camera, SIZE) for p in points]
+
+
+def apart(one, other, directions=90):
+    """How far two sets of pixels are apart, at least: along the best of many directions."""
+    angles = np.linspace(0, 2 * np.pi, directions, endpoint=False)
+    ways = np.stack([np.cos(angles), np.sin(angles)])
+    return ((one @ ways).min(axis=0) - (other @ ways).max(axis=0)).max()
+
+
 @pytest.mark.parametrize("seed", range(10))
 def test_order_and_masks_respect_depth(seed):
-    """In a column every overlapping pair is drawn from back to front, masks in their place."""
+    """In a column every pair whose outlines overlap is drawn from back to front, masks in their
+    place."""
     scene, camera = column(seed, count=20, spread=0.8), before_column(seed)
     frame = plan(scene, camera, TECHNIQUE, SIZE)
-    depth = camera.depth(scene.centers)
-    boxes = frame.boxes.extents
+    depth, pixels = camera.depth(scene.centers), pixels_of(scene, camera)
     for i in np.nonzero(frame.reasons == BLENDED)[0]:
         for j in np.nonzero(frame.reasons == BLENDED)[0]:
-            meet = (boxes[i, :2] <= boxes[j, 2:]).all() and (boxes[i, 2:] >= boxes[j, :2]).all()
-            if i != j and meet and depth[i] < depth[j]:
+            if i != j and depth[i] < depth[j] and apart(pixels[i], pixels[j]) <= 0:
                 assert place_of(frame, "objects", i) > place_of(frame, "objects", j)
         for s in frame.masked:
-            reach = frame.reach[s]
-            meet = (boxes[i, :2] <= reach[2:]).all() and (boxes[i, 2:] >= reach[:2]).all()
-            if i == s or not meet:
+            if i == s or apart(pixels[i], pixels[s]) > TECHNIQUE.width:
                 continue
             before = place_of(frame, "masks", s) < place_of(frame, "objects", i)
             assert before == (depth[i] < depth[s])
+
+
+@pytest.mark.parametrize("without", [frozenset(), frozenset({"still"}), frozenset({"cull", "masks"})])
+def test_without_a_target_in_view_nothing_is_put_in_order(without):
+    """Whatever else is left out: not even pairs are compared, so the frame costs a standard one."""
+    scene = column(3)
+    free = replace(scene, objects=tuple(replace(o, target=False) for o in scene.objects))
+    frame = plan(free, before_column(3), TECHNIQUE, SIZE, without)
+    assert frame.relation.shape == (0, 0) and not frame.levels
+    assert len(plan(scene, before_column(3), TECHNIQUE, SIZE, without).relation) == len(scene.objects)
+
+
+def test_what_passes_masks_by_their_corners_stays_opaque():
+    """Aside and above or below, farther than masks reach, though its box lies over theirs: told
+    from the pixels of its corners, along both diagonals."""
+    diagonals = np.array([[1.0, 1], [1, -1], [-1, 1], [-1, -1]]).T / np.sqrt(2)
+    passed = 0
+    for seed in range(20):
+        scene, camera = column(seed, count=40, targets=0.1, spread=3.0), before_column(seed)
+        frame, pixels = plan(scene, camera, TECHNIQUE, SIZE), pixels_of(scene, camera)
+        boxes, reach = frame.boxes.extents, frame.reach[scene.targets]
+        low, high = (np.array([f(p @ diagonals, axis=0) for p in pixels]) for f in (np.min, np.max))
+        beyond = low[:, None] - high[scene.targets]
+        beyond = beyond.max(axis=2) > TECHNIQUE.width + 1.1  # a pixel's margin, and for rounding
+        over = (boxes[:, None, :2] <= reach[:, 2:]) & (boxes[:, None, 2:] >= reach[:, :2])
+        over = over.all(axis=2)
+        for i in np.nonzero(frame.boxes.inside & ~scene.targets & over.any(axis=1))[0]:
+            if beyond[i][over[i]].all():
+                passed += 1
+                assert i in frame.opaque
+    assert passed > 10
 
 
 def test_reasons_name_what_is_hard_outside_and_blended():
