@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.scene.geometry import CORNERS, Mesh
 from seethrough.renderer.scene.look import PLAIN, Look
+from seethrough.renderer.scene.transforms import all_moved
 
 if TYPE_CHECKING:
     from seethrough.renderer.plan.separation import Separations
@@ -106,10 +107,13 @@ class Scene:
     def around(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """(p, 3) world points that hold each object between them (Mesh.around), and where each
         object's begin (n + 1,)."""
-        local = [o.mesh.around for o in self.objects]
-        starts = np.cumsum([0, *(len(points) for points in local)])
-        moved = [p @ t[:3, :3].T + t[:3, 3] for p, t in zip(local, self.transforms, strict=True)]
-        return np.concatenate([np.zeros((0, 3)), *moved]), starts
+        firsts = np.unique(self.mesh_of, return_index=True)[1]
+        local = [self.objects[k].mesh.around for k in firsts.tolist()]
+        sizes = np.array([len(points) for points in local], np.int64)
+        starts = np.cumsum(np.concatenate([np.zeros(1, np.int64), sizes[self.mesh_of]]))
+        first = (np.cumsum(sizes) - sizes)[self.mesh_of]
+        points = np.concatenate([np.zeros((0, 3)), *local])
+        return all_moved(points, first, starts, self.transforms), starts
 
     @cached_property
     def group_of(self) -> NDArray[np.int64]:

@@ -43,7 +43,6 @@ class SceneTable:
                 slots[id(mesh)] = len(self.meshes)
                 self.meshes.append(mesh)
             self.slot[i] = slots[id(mesh)]
-        self.inverse = np.asarray(np.linalg.inv(linear), np.float64)
         sizes = [len(o.mesh.triangles) for o in scene.objects]
         self.first_triangle = np.cumsum([0, *sizes])
         rows = np.zeros((max(n, 1), 4, 4), dtype="f4")
@@ -58,6 +57,11 @@ class SceneTable:
         self._shaped = np.zeros(len(self.meshes), np.bool_)  # of which they have been asked for
         self._context = context
         self._sequences = [kept(_texture(context, (2, max(n, 1)))) for _ in range(_SEQUENCES)]
+
+    @cached_property
+    def inverse(self) -> NDArray[np.float64]:
+        """(n, 3, 3) mesh ← world, but for where objects stand."""
+        return np.asarray(np.linalg.inv(self.scene.transforms[:, :3, :3]), np.float64)
 
     def set_look(self, shader: Shader, camera: Camera, height: int) -> None:
         """Tell a shader what it has to know for the scene's look, in a picture so high."""
