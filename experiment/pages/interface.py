@@ -147,7 +147,7 @@ def _style() -> None:
         imgui.Col_.button_hovered: (0.22, 0.48, 0.80, 1),
         imgui.Col_.button_active: (0.12, 0.32, 0.58, 1),
         imgui.Col_.check_mark: (0.16, 0.40, 0.70, 1),
-        imgui.Col_.nav_cursor: (0.95, 0.55, 0.05, 1),
+        imgui.Col_.nav_cursor: (0, 0, 0, 0),  # page_blocks.ring draws one that grows with the text
     }
     for which, value in colors.items():
         style.set_color_(which, imgui.ImVec4(*value))

@@ -44,6 +44,7 @@ COLORS = {
     "wrong": rgba(0.75, 0.07, 0.07),
     "paper": rgba(*PAPER),
     "pale": rgba(0.90, 0.93, 0.97),
+    "focus": rgba(0.95, 0.55, 0.05),
 }
 
 PALE = {  # of a button that is not what is usually meant
@@ -137,6 +138,7 @@ class Blocks:
             chosen = form.answers.get(scale.name) == str(number)
             if imgui.radio_button(f"{name}##{scale.name}", chosen):
                 form.answers[scale.name] = str(number)
+            ring()
         if beside:
             imgui.same_line()
             imgui.text_disabled(high)
@@ -164,6 +166,7 @@ class Blocks:
             "%d" if answered else "?",
             imgui.SliderFlags_.always_clamp,  # a number may be typed as well
         )
+        ring()
         if changed or imgui.is_item_activated():
             form.answers[scale.name] = str(value - scale.first)
         self.on_slider |= imgui.is_item_focused() and self.interface.io.nav_visible
@@ -206,6 +209,7 @@ class Blocks:
                 if imgui.radio_button(f"{rank}##{asked.name}{number}", ranks[number] == rank):
                     other = ranks.index(rank) if rank in ranks else number
                     ranks[other], ranks[number] = ranks[number], rank
+                ring()
             text = self.texts.get(option)
             _beside(min(imgui.calc_text_size(text).x, 0.4 * room) + gap)
             imgui.align_text_to_frame_padding()
@@ -219,10 +223,12 @@ class Blocks:
         if field_.lines == 1:
             imgui.set_next_item_width(0.3 * room)
             _, text = imgui.input_text(name, text)
+            ring()
             text = _stepped(field_, text) if field_.most is not None else text
         else:
             size = imgui.ImVec2(room, 0.05 * field_.lines * unit)
             _, text = imgui.input_text_multiline(name, text, size)
+            ring()
         form.answers[field_.name] = text
         wrong = form.insisted and not field_.takes(text)
         if wrong or (measured and field_.most is not None):
@@ -308,6 +314,20 @@ def _stepped(field_: TextField, text: str) -> str:
     return text
 
 
+def ring() -> None:
+    """About what was drawn last, if the keyboard is on it. ImGui's own ring is as thin on every
+    display, and touches the words beside a circle."""
+    if not (imgui.get_io().nav_visible and imgui.is_item_focused()):
+        return
+    low, high, off = imgui.get_item_rect_min(), imgui.get_item_rect_max(), thick(3.0)
+    imgui.get_window_draw_list().add_rect(
+        imgui.ImVec2(low.x - off, low.y - off),
+        imgui.ImVec2(high.x + off, high.y + off),
+        COLORS["focus"],
+        thickness=thick(2.0),
+    )
+
+
 def _beside(width: float) -> None:
     """What comes next stands beside what came last where it fits, else below."""
     imgui.same_line()
@@ -329,8 +349,11 @@ def _option(draw: Callable[[str, bool], bool], text: str, name: str, chosen: boo
     gap = imgui.get_style().item_inner_spacing.x
     room = imgui.get_content_region_avail().x - imgui.get_frame_height() - gap
     if imgui.calc_text_size(text).x <= room:
-        return draw(f"{text}##{name}", chosen)
+        pressed = draw(f"{text}##{name}", chosen)
+        ring()
+        return pressed
     pressed = draw(f"##{name}", chosen)
+    ring()
     imgui.same_line(0, gap)
     imgui.align_text_to_frame_padding()
     imgui.text_wrapped(text)

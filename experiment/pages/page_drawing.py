@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 from seethrough.experiment.pages.form import Form, Setting
 from seethrough.experiment.pages.hud_drawing import thick
 from seethrough.experiment.pages.interface import SCREENS, Interface
-from seethrough.experiment.pages.page_blocks import COLORS, PALE, Blocks
+from seethrough.experiment.pages.page_blocks import COLORS, PALE, Blocks, ring
 from seethrough.experiment.pages.pages import Picture
 from seethrough.experiment.pages.texts import Texts
 from seethrough.tasks.kit.hud import Inset
@@ -96,7 +96,7 @@ class PageDrawing:
         style.window_padding = imgui.ImVec2(side, MARGIN * gaps * height)
         style.item_spacing = imgui.ImVec2(0.012 * unit, 0.016 * gaps * unit)
         style.item_inner_spacing = imgui.ImVec2(thick(4.0), thick(4.0))
-        style.frame_border_size = round(thick(1.0))
+        style.frame_border_size = style.input_text_cursor_size = round(thick(1.0))
         style.scrollbar_size, style.grab_min_size = thick(14.0), thick(12.0)
         style.frame_padding = imgui.ImVec2(0.022 * unit, 0.012 * gaps * unit)
         imgui.push_font(self.interface.regular, 0.034 * unit)
@@ -218,5 +218,6 @@ def _button(text: str, number: int) -> bool:
     for which, color in colors.items():
         imgui.push_style_color(which, color)
     pressed = imgui.button(f"{text}##button{number}")
+    ring()
     imgui.pop_style_color(len(colors))
     return bool(pressed)

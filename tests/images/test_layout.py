@@ -28,7 +28,7 @@ from seethrough.experiment.pages.pages import (
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.study.tables.ready import one_page
 
-SIZES = [(800, 600), (1024, 768), (1920, 1080), (2560, 1080)]
+SIZES = [(800, 600), (1024, 768), (1920, 1080), (2560, 1080), (3840, 2160)]
 LANGUAGES = ["en", "de"]
 WIDGETS = {
     "text_wrapped", "text_disabled", "radio_button", "checkbox", "slider_int", "input_text",
