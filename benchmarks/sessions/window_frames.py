@@ -1,7 +1,9 @@
-"""Frames of a session in a real window while somebody drags the abstract scene.
+"""Frames of a session in a real window while somebody drags the abstract scene, or walks.
 
-    python -m seethrough.benchmarks.sessions.window_frames standard|dynamic [SECONDS]
+    python -m seethrough.benchmarks.sessions.window_frames standard|dynamic|walks [SECONDS]
 
+`walks`: along the ways through the building that simulated people took in the published study
+without dynamic transparency (data/walks), a second of every EVERY in which the walker moves.
 Prints {frames, missed, worst, cpu, drawing} as JSON: the share of frames that took over 1.5
 periods; the worst frame; and the processor time of a frame, of all threads, for the whole of the
 session's loop (recorder and digests included) and for the renderer alone on the same views. In s.
@@ -13,29 +15,39 @@ import json
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
+from seethrough.benchmarks.drawing.walks import Walked, walked
 from seethrough.experiment.display.clock import RealClock
 from seethrough.experiment.display.window import _KEYS, Window
 from seethrough.experiment.pages.texts import Texts
 from seethrough.experiment.record.recorder import FileRecorder, Who
 from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
-from seethrough.experiment.study.config import load
-from seethrough.experiment.study.design.design import session_for
+from seethrough.experiment.study.config import Study, load
+from seethrough.experiment.study.design.design import Trial, session_for
+from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
 from seethrough.tasks.kit.base import View
 
 LEFT = 1  # pyglet's number of the left button
 AGAIN = 300  # views that the renderer draws again alone
+RATE, EVERY = 60, 20  # frames a second of a walk; one second of so many is walked
+ANSWERS = {  # keys that end a trial
+    "count": ("1", "enter"),
+    "count_in_building": ("1", "enter"),
+    "unique": ("space", "left", "enter"),
+}
 
 
 class Hand:
-    """Drags in circles, then answers. Its events come as pyglet's do, between two frames."""
+    """Moves, then answers. Its events come as pyglet's do, between two frames."""
 
-    def __init__(self, window: Window, seconds: float) -> None:
-        self.window, self.seconds = window, seconds
+    def __init__(self, window: Window, task: str) -> None:
+        self.window, self.task = window, task
         self.began: float | None = None
         self.views: list[View] = []
         self.cpu = 0.0
@@ -50,42 +62,117 @@ class Hand:
 
     def act(self) -> None:
         """One move a frame; at the end an answer."""
-        now = time.perf_counter()
         if self.began is None:
-            self.began, self.cpu = now, time.process_time()
-            self.window.on_mouse_press(300, 300, LEFT, 0)
-        elif now - self.began < self.seconds:
-            way = 1 if (now - self.began) % 4 < 2 else -1
-            self.window.on_mouse_drag(300, 300, 5 * way, way, LEFT, 0)
-        elif self.cpu > 0:
+            self.began, self.cpu = time.perf_counter(), time.process_time()
+            self.begin()
+        elif not self.moved() and self.cpu > 0:
             self.cpu = -(time.process_time() - self.cpu)
             symbols = {ours: theirs for theirs, ours in _KEYS.items()}
-            for name in ("1", "enter"):
+            for name in ANSWERS[self.task]:
                 self.window.on_key_press(symbols[name], 0)
 
+    def begin(self) -> None:
+        """What comes before the first move."""
 
-def measured(transparency: str, seconds: float) -> dict[str, float]:
-    """A counting trial of the published study at that level, dragged for so long."""
+    def moved(self) -> bool:
+        """Make the next move; whether there was one."""
+        raise NotImplementedError
+
+    def let_go(self) -> None:
+        """Leave the window as it was."""
+        self.window.show = self._show  # type: ignore[method-assign]
+        self.window.on_frame = lambda: None
+
+
+class Dragging(Hand):
+    """Drags to and fro for so many seconds."""
+
+    def __init__(self, window: Window, task: str, seconds: float) -> None:
+        super().__init__(window, task)
+        self.seconds = seconds
+
+    def begin(self) -> None:
+        """The button goes down."""
+        self.window.on_mouse_press(300, 300, LEFT, 0)
+
+    def moved(self) -> bool:
+        """A way to the side, until the time is over."""
+        since = time.perf_counter() - (self.began or 0.0)
+        if since >= self.seconds:
+            return False
+        way = 1 if since % 4 < 2 else -1
+        self.window.on_mouse_drag(300, 300, 5 * way, way, LEFT, 0)
+        return True
+
+
+class Walking(Hand):
+    """Sees what a walker saw, a frame after the other."""
+
+    def __init__(self, window: Window, task: str, cameras: list[Camera]) -> None:
+        super().__init__(window, task)
+        self.cameras = cameras
+
+    def show(self, view: View, technique: Parameters) -> float:
+        """The view from where the walker was."""
+        camera = self.cameras[min(len(self.views), len(self.cameras) - 1)]
+        return super().show(replace(view, camera=camera), technique)
+
+    def moved(self) -> bool:
+        """Whether the walk goes on."""
+        return len(self.views) < len(self.cameras)
+
+
+def stretches(cameras: list[Camera], every: int) -> list[Camera]:
+    """One second of every `every`, from the middle of each; of a shorter walk its middle."""
+    long = max(min(every * RATE, len(cameras)), RATE)
+    begins = range((long - RATE) // 2, len(cameras) - RATE + 1, long)
+    return [camera for begin in begins for camera in cameras[begin : begin + RATE]]
+
+
+def measured(what: str, seconds: float) -> dict[str, float]:
+    """Trials of the published study: one of counting at that level, dragged for so long; or those
+    of the walks."""
     study = load("published")
-    trials = [t for s in session_for(1, study.plan) for t in s.trials]
-    trial = next(t for t in trials if (t.task, t.levels["transparency"]) == ("count", transparency))
     window = Window(study.display, Texts("en"), RealClock(), "bench")
+    hands, records = [], []
     with tempfile.TemporaryDirectory() as folder:
         recorder = FileRecorder(Path(folder), Who("published", "P01", "pilot", 1, {}))
-        hand = Hand(window, seconds)
         run = TrialRun(study, Surroundings(window, window, window.clock, recorder, TASKS))
-        record = run.play(trial, 0.0)
-        recorder.trial_ends(record)
+        for trial, walk in _walks(study) if what == "walks" else _counting(study, what):
+            hand: Hand
+            if walk is None:
+                hand = Dragging(window, trial.task, seconds)
+            else:
+                hand = Walking(window, trial.task, stretches(walk.frames(RATE)[1], EVERY))
+            records.append(run.play(trial, 0.0))
+            recorder.trial_ends(records[-1])
+            hand.let_go()
+            hands.append(hand)
         recorder.close("complete")
-    drawing = _alone(window, hand.views, run.technique(trial))
+    views = [view for hand in hands for view in hand.views]
+    drawing = _alone(window, views, run.technique(trial))
     window.close()
+    frames = sum(record.frames for record in records)
     return {
-        "frames": record.frames,
-        "missed": record.frames_missed / record.frames,
-        "worst": record.worst_frame,
-        "cpu": -hand.cpu / record.frames,
+        "frames": frames,
+        "missed": sum(record.frames_missed for record in records) / frames,
+        "worst": max(record.worst_frame for record in records),
+        "cpu": -sum(hand.cpu for hand in hands) / frames,
         "drawing": drawing,
     }
+
+
+def _counting(study: Study, level: str) -> Iterator[tuple[Trial, None]]:
+    trials = [t for s in session_for(1, study.plan) for t in s.trials]
+    of_level = ("count", level)
+    yield next(t for t in trials if (t.task, t.levels["transparency"]) == of_level), None
+
+
+def _walks(study: Study) -> Iterator[tuple[Trial, Walked]]:
+    for walk in walked():
+        if walk.level == "standard":
+            trials = [t for s in session_for(walk.slot, study.plan) for t in s.trials]
+            yield next(t for t in trials if t.number == walk.trial), walk
 
 
 def _alone(window: Window, views: list[View], technique: Parameters) -> float:
