@@ -23,6 +23,7 @@ from seethrough.experiment.record.trial_record import TrialRecord
 from seethrough.experiment.replay.replayer import find_trial, replay
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design.design import SIMULATED, Trial, generator, session_for
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.renderer.events import PointerMove, Tick
 from seethrough.renderer.gpu.device.context import standalone
 from seethrough.tasks.catalog import TASKS
@@ -83,7 +84,7 @@ def _recording(folder: Path) -> tuple[float, float]:
     """Seconds for a frame with two events, and for a trial's end with fsync (medians)."""
     study = load("published")
     trial, view = _first_view(study)
-    who = Who("published", "P01", "pilot", 1, {})
+    who = Who("published", "P01", "pilot", 1, {}, design=design_entry(study))
     recorder = FileRecorder(folder, who)
     frames, ends = [], []
     for _ in range(5):
@@ -114,7 +115,8 @@ def _replay(folder: Path) -> float:
 
     study, clock, context = load("demo"), SimulatedClock(), standalone()
     display = OffscreenDisplay(context, (study.display.width, study.display.height), clock)
-    who = Who("demo", "S01", "simulated", 1, provenance(study, display.describe()))
+    made = provenance(study, display.describe())
+    who = Who("demo", "S01", "simulated", 1, made, design=design_entry(study))
     person = SimulatedParticipant(generator(1, (SIMULATED, 1)))
     recorder = FileRecorder(folder / "replay", who)
     run_session(

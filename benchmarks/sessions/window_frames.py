@@ -28,6 +28,7 @@ from seethrough.experiment.session.surroundings import Surroundings
 from seethrough.experiment.session.trial import TrialRun
 from seethrough.experiment.study.config import Study, load
 from seethrough.experiment.study.design.design import Trial, session_for
+from seethrough.experiment.study.shown.described import design_entry
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.techniques.base import Parameters
 from seethrough.tasks.catalog import TASKS
@@ -136,7 +137,8 @@ def measured(what: str, seconds: float) -> dict[str, float]:
     window = Window(study.display, Texts("en"), RealClock(), "bench")
     hands, records = [], []
     with tempfile.TemporaryDirectory() as folder:
-        recorder = FileRecorder(Path(folder), Who("published", "P01", "pilot", 1, {}))
+        who = Who("published", "P01", "pilot", 1, {}, design=design_entry(study))
+        recorder = FileRecorder(Path(folder), who)
         run = TrialRun(study, Surroundings(window, window, window.clock, recorder, TASKS))
         for trial, walk in _walks(study) if what == "walks" else _counting(study, what):
             hand: Hand
