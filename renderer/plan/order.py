@@ -25,9 +25,9 @@ LITTLE = 0.1  # of a target: what may be lost without sorting pixels
 class Placed(NamedTuple):
     """The n objects of a scene as the eye has them: `seen` (m,) are those to put in order, from far
     to near by their groups' centres; `extents` (n, 8) what each covers on the screen, its box and
-    slants (Boxes), `reach` (n, 8) what its mask would; `centers` (n, 3) from the eye, `sides` (n, 3, 3) and `radius` (n,)
-    of their boxes; `near` and `far` (n,) view depths; `targets` and `hard`, what is never
-    penetrated, (n,). A tuple, because compiled code takes it."""
+    slants (Boxes), `reach` (n, 8) what its mask would; `centers` (n, 3) from the eye, `sides`
+    (n, 3, 3) and `radius` (n,) of their boxes; `near` and `far` (n,) view depths; `targets` and
+    `hard`, what is never penetrated, (n,). A tuple, because compiled code takes it."""
 
     seen: Ints
     extents: Floats

@@ -103,9 +103,7 @@ def plan(
     mask = np.zeros_like(blend)
     across = straddling.NO_ONE
     if crossing.fits(technique) and not technique.per_pixel_only:
-        across = straddling.found(
-            *(scene, camera, placed, near_by, boxes, technique, width, size)
-        )
+        across = straddling.found(*(scene, camera, placed, near_by, boxes, technique, width, size))
         blend, mask = straddling.shown(across, blend, mask)
     relation, uncertain, blended, masked = _decided(
         *(scene, camera, technique, placed, near_by, blend, mask)

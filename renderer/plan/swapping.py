@@ -59,7 +59,11 @@ def _close(
     the depths (n,) of their groups are apart (k,), of what swaps them at most: those that are both
     `free` (n,) and close."""
     n, k = len(free), 0
-    i, j, away = np.empty(len(places), np.int64), np.empty(len(places), np.int64), np.empty(len(places))
+    i, j, away = (
+        np.empty(len(places), np.int64),
+        np.empty(len(places), np.int64),
+        np.empty(len(places)),
+    )
     for place in places:
         a, b = place // n, place % n
         if a < b and free[a] and free[b] and group_of[a] != group_of[b]:

@@ -27,9 +27,9 @@ SNAP = 1 / 64  # pixels: what 32 bits and a rasteriser's grid (1/256) move a cor
 class Boxes:
     """What objects cover on the screen, at most.
 
-    extents (n, 4): left, top, right, bottom in pixels; slants (n, 4): the least x + y and x − y, and
-    the greatest, which cut the corners of such a box; near, far (n,): view depths of the nearest
-    and farthest corner; crosses (n,): whether the near plane cuts it; within (n,): whether
+    extents (n, 4): left, top, right, bottom in pixels; slants (n, 4): the least x + y and x − y,
+    and the greatest, which cut the corners of such a box; near, far (n,): view depths of the
+    nearest and farthest corner; crosses (n,): whether the near plane cuts it; within (n,): whether
     any of it lies between the near and far planes; inside (n,): whether it can be in the picture.
     """
 

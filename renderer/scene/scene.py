@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from seethrough.renderer.scene.geometry import CORNERS, Mesh
 from seethrough.renderer.scene.look import PLAIN, Look
-from seethrough.renderer.scene.transforms import all_moved
 
 if TYPE_CHECKING:
     from seethrough.renderer.plan.separation import Separations
@@ -107,6 +106,8 @@ class Scene:
     def around(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """(p, 3) world points that hold each object between them (Mesh.around), and where each
         object's begin (n + 1,)."""
+        from seethrough.renderer.scene.placing import all_moved
+
         firsts = np.unique(self.mesh_of, return_index=True)[1]
         local = [self.objects[k].mesh.around for k in firsts.tolist()]
         sizes = np.array([len(points) for points in local], np.int64)

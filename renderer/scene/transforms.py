@@ -5,11 +5,8 @@ from __future__ import annotations
 from math import sqrt
 
 import numpy as np
-from numba import njit
 from numpy.random import Generator
 from numpy.typing import ArrayLike, NDArray
-
-from seethrough.renderer.arrays import Floats, Ints
 
 
 def translation(x: float, y: float, z: float) -> NDArray[np.float64]:
@@ -81,19 +78,3 @@ def placed(
 def moved(points: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, 3) points under the affine (4, 4) matrix."""
     return points @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-@njit(cache=True)
-def all_moved(points: Floats, first: Ints, starts: Ints, matrices: Floats) -> Floats:
-    """(starts[n], 3) points of n objects one after the other, each by its matrix (n, 4, 4): object
-    i's are starts[i + 1] - starts[i] rows of `points` (p, 3), from row first[i] on."""
-    out = np.empty((starts[-1], 3))
-    for i in range(len(first)):
-        matrix, row = matrices[i], first[i]
-        for k in range(starts[i], starts[i + 1]):
-            for axis in range(3):
-                out[k, axis] = matrix[axis, 3]
-                for c in range(3):
-                    out[k, axis] += matrix[axis, c] * points[row, c]
-            row += 1
-    return out

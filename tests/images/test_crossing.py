@@ -41,7 +41,8 @@ def pane(rng):
 
 
 def crossed(seed, both_convex=True, apart=0.7):
-    """Two targets that cross, `apart` from one another, at random, before a third, with a pane before a part of them."""
+    """Two targets that cross, `apart` from one another, at random, before a third, with a pane
+    before a part of them."""
     rng = np.random.default_rng(seed)
 
     meshes = [CONVEX[k] for k in rng.integers(len(CONVEX), size=2)]
@@ -72,7 +73,7 @@ def renderer(context):
 
 
 def test_borders_that_change_nothing_are_not_drawn(renderer):
-    """Of pairs that hardly cross a sixth of the draws of borders at least, each of which takes four:
+    """Of pairs that hardly cross a sixth of the draws of borders at least, of which each has four:
     with them all the pictures are the same, but for what dividing out leaves of 16 bits."""
     counts, pairs = {True: 0, False: 0}, 0
     for seed in range(60):

@@ -65,14 +65,18 @@ def test_order_and_masks_respect_depth(seed):
             assert before == (depth[i] < depth[s])
 
 
-@pytest.mark.parametrize("without", [frozenset(), frozenset({"still"}), frozenset({"cull", "masks"})])
+@pytest.mark.parametrize(
+    "without", [frozenset(), frozenset({"still"}), frozenset({"cull", "masks"})]
+)
 def test_without_a_target_in_view_nothing_is_put_in_order(without):
     """Whatever else is left out: not even pairs are compared, so the frame costs a standard one."""
     scene = column(3)
     free = replace(scene, objects=tuple(replace(o, target=False) for o in scene.objects))
     frame = plan(free, before_column(3), TECHNIQUE, SIZE, without)
     assert frame.relation.shape == (0, 0) and not frame.levels
-    assert len(plan(scene, before_column(3), TECHNIQUE, SIZE, without).relation) == len(scene.objects)
+    assert len(plan(scene, before_column(3), TECHNIQUE, SIZE, without).relation) == len(
+        scene.objects
+    )
 
 
 def test_what_passes_masks_by_their_corners_stays_opaque():
