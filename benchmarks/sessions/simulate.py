@@ -158,11 +158,11 @@ def many(job: batch.Batch, count: int = MANY) -> Iterator[Row]:
         processor = sum(os.times()[2:4]) - before
     whole = count == MANY
     name = f"{count} participants, data mode"
-    yield figure(name, seconds / 60, "min", 30, 5) if whole else told(name, seconds / 60, "min")
+    yield figure(name, seconds / 60, "min", 20, 5) if whole else told(name, seconds / 60, "min")
     yield told("the same, processor time a participant", processor / count, "s")
     if watch.peak is not None:
         name, gib = f"memory at {count} participants, largest process", watch.peak / 1024
-        yield figure(name, gib, "GiB", 1, 1) if whole else told(name, gib, "GiB")
+        yield figure(name, gib, "GiB", 0.7, 0.7) if whole else told(name, gib, "GiB")
         yield told("the same, all processes together", watch.total / 1024, "GiB")
 
 

@@ -206,8 +206,13 @@ def test_what_is_compared_with_older_commits_is_where_the_benchmark_looks() -> N
     from importlib import import_module
 
     from seethrough.benchmarks.drawing import against
+    from seethrough.benchmarks.sessions import since
 
     wanted = (
+        (since.SIMULATE, "simulate"),
+        (since.CONFIG, "load"),
+        (since.BATCH, "play_files"),
+        (since.DATA_RUN, "make_tables"),
         (against.DYNAMIC, "DynamicTransparency"),
         (against.STANDARD, "Standard"),
         (against.ABSTRACT, "abstract_scene"),
