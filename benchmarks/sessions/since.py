@@ -45,7 +45,7 @@ class Player:
     """What one folder's code does of each part; every call plays it anew."""
 
     def __init__(self, get: Callable[[Sequence[str], str], Any], folder: Path) -> None:
-        self._get, self._folder, self._made = get, folder, 0
+        self._get, self._folder, self._made, self._ready = get, folder, 0, False
 
     def visual(self, share: float) -> None:
         """The real session, drawn and looked at."""
@@ -58,9 +58,10 @@ class Player:
         self._get(DATA_RUN, "make_tables")(job, round(WALKERS * share) or 1)
 
     def data(self, share: float) -> None:
-        """Playing from tables that are there: the first turn, of all people, draws them."""
-        if share < 1:
+        """Playing from tables that are there: the first time, of all people, draws them."""
+        if not self._ready:
             self._get(BATCH, "prepare")(self._job(POOL))
+            self._ready = True
         for first in range(1, MANY + 1, PEOPLE):
             self._get(BATCH, "play_files")(tuple(range(first, first + PEOPLE)))
 
@@ -109,15 +110,18 @@ def playing(folder: Path) -> Iterator[Callable[[str, float], float]]:
 
 
 def spent(
-    players: Sequence[Callable[[str, float], float]], part: str, turns: int
+    players: Sequence[Callable[[str, float], float]], part: str, turns: int, share: float = 1.0
 ) -> Iterator[tuple[float, ...]]:
     """Seconds of each player in each turn, as they come; which one begins changes with the turn."""
     for play_part in players:
         play_part(part, 1 / PEOPLE)  # compiles and uploads
     for turn in range(turns):
         order = range(len(players)) if turn % 2 else reversed(range(len(players)))
-        took = {which: players[which](part, 1.0) for which in order}
-        yield tuple(took[which] for which in range(len(players)))
+        took = {which: players[which](part, share) for which in order}
+        found = tuple(took[which] for which in range(len(players)))
+        told = ", ".join(f"{seconds:.1f} s" for seconds in found)
+        print(f"since: {part}, turn {turn + 1}: {told}", file=sys.stderr, flush=True)
+        yield found
 
 
 def report(part: str, seconds: Sequence[Sequence[float]]) -> str:
@@ -139,6 +143,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("commit")
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--only", default=",".join(PARTS))
+    parser.add_argument("--share", type=float, default=1.0, help="of people and scenes; default: 1")
     args = parser.parse_args(given)
     here = Path(__file__).resolve().parents[2]
     found = subprocess.run(["git", "archive", args.commit], cwd=here, capture_output=True)
@@ -148,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         tarfile.open(fileobj=io.BytesIO(found.stdout)).extractall(folder, filter="data")
         both = [stack.enter_context(playing(tree)) for tree in (Path(folder), here)]
         for part in args.only.split(","):
-            print(report(part, list(spent(both, part, args.turns))), flush=True)
+            print(report(part, list(spent(both, part, args.turns, args.share))), flush=True)
     return 0
 
 
