@@ -67,6 +67,7 @@ def figures() -> Iterator[Row]:
             found = _in_a_window(what, screen)
             yield row("frames missed in a window", scene, found["missed"], "part", 0.01, 0.002)
             yield row("frames", scene, found["frames"], "frames")
+            yield row("of them, from elsewhere", scene, found["moved"], "part", 0.9, more=True)
             yield row("longest frame", scene, 1000 * found["worst"], "ms")
             yield row("a frame, all threads", scene, 1000 * found["cpu"], "ms")
             yield row("of that, the renderer", scene, 1000 * found["drawing"], "ms")

@@ -4,9 +4,10 @@
 
 `walks`: along the ways through the building that simulated people took in the published study
 without dynamic transparency (data/walks), a second of every EVERY in which the walker moves.
-Prints {frames, missed, worst, cpu, drawing} as JSON: the share of frames that took over 1.5
-periods; the worst frame; and the processor time of a frame, of all threads, for the whole of the
-session's loop (recorder and digests included) and for the renderer alone on the same views. In s.
+Prints {frames, moved, missed, worst, cpu, drawing} as JSON: the share of frames that were seen from
+elsewhere than the one before, and of those that took over 1.5 periods; the worst frame; and the
+processor time of a frame, of all threads, for the whole of the session's loop (recorder and digests
+included) and for the renderer alone on the same views. In s.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 from seethrough.benchmarks.drawing.walks import Walked, walked
@@ -65,15 +67,11 @@ class Hand:
         """One move a frame; at the end an answer."""
         if self.began is None:
             self.began, self.cpu = time.perf_counter(), time.process_time()
-            self.begin()
         elif not self.moved() and self.cpu > 0:
             self.cpu = -(time.process_time() - self.cpu)
             symbols = {ours: theirs for theirs, ours in _KEYS.items()}
             for name in ANSWERS[self.task]:
                 self.window.on_key_press(symbols[name], 0)
-
-    def begin(self) -> None:
-        """What comes before the first move."""
 
     def moved(self) -> bool:
         """Make the next move; whether there was one."""
@@ -90,17 +88,16 @@ class Dragging(Hand):
 
     def __init__(self, window: Window, task: str, seconds: float) -> None:
         super().__init__(window, task)
-        self.seconds = seconds
-
-    def begin(self) -> None:
-        """The button goes down."""
-        self.window.on_mouse_press(300, 300, LEFT, 0)
+        self.seconds, self.down = seconds, False
 
     def moved(self) -> bool:
         """A way to the side, until the time is over."""
         since = time.perf_counter() - (self.began or 0.0)
         if since >= self.seconds:
             return False
+        if not self.down:  # not before the first frame was seen: that would count for nothing
+            self.window.on_mouse_press(300, 300, LEFT, 0)
+            self.down = True
         way = 1 if since % 4 < 2 else -1
         self.window.on_mouse_drag(300, 300, 5 * way, way, LEFT, 0)
         return True
@@ -157,6 +154,7 @@ def measured(what: str, seconds: float) -> dict[str, float]:
     frames = sum(record.frames for record in records)
     return {
         "frames": frames,
+        "moved": sum(_pose(a) != _pose(b) for a, b in pairwise(views)) / frames,
         "missed": sum(record.frames_missed for record in records) / frames,
         "worst": max(record.worst_frame for record in records),
         "cpu": -sum(hand.cpu for hand in hands) / frames,
@@ -175,6 +173,10 @@ def _walks(study: Study) -> Iterator[tuple[Trial, Walked]]:
         if walk.level == "standard":
             trials = [t for s in session_for(walk.slot, study.plan) for t in s.trials]
             yield next(t for t in trials if t.number == walk.trial), walk
+
+
+def _pose(view: View) -> bytes:
+    return view.camera.eye.tobytes() + view.camera.rotation.tobytes()
 
 
 def _alone(window: Window, views: list[View], technique: Parameters) -> float:
