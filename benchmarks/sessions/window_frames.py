@@ -16,6 +16,7 @@ import json
 import sys
 import tempfile
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
@@ -46,7 +47,7 @@ ANSWERS = {  # keys that end a trial
 }
 
 
-class Hand:
+class Hand(ABC):
     """Moves, then answers. Its events come as pyglet's do, between two frames."""
 
     def __init__(self, window: Window, task: str) -> None:
@@ -73,9 +74,9 @@ class Hand:
             for name in ANSWERS[self.task]:
                 self.window.on_key_press(symbols[name], 0)
 
+    @abstractmethod
     def moved(self) -> bool:
         """Make the next move; whether there was one."""
-        raise NotImplementedError
 
     def let_go(self) -> None:
         """Leave the window as it was."""
