@@ -2,12 +2,14 @@
 
 `seethrough bench looks --json FILE`. Times are processor time, all threads together, as multiples
 of the same frame without the key, at 800 × 600: every turn draws each view with each key once; told
-are the median over turns, and half the range of their middle half ("±"). "Changed" are the pixels
-that differ from that frame by more than 2/255, "by" the mean difference of those. Edges are the
-pixels in which a picture of 16 samples a pixel differs from the plain one by more than 4/255: their
-mean error, that of the whole picture, and that of what changes from a frame to the next along a
-path ("crawl": .2° of an orbit, or 2 cm of a walk, a frame) are given as parts of the plain
-picture's.
+are the median over turns, and half the range of their middle half ("±"). Each timed frame follows
+one of the same scene. The frame before those is told by itself ("first frame"): the renderer keeps
+too few scenes for a turn (SCENES_KEPT), and makes what it has of one, tables, the shadows' texture,
+the list of edges, anew there, as at the begin of a trial. "Changed" are the pixels that differ
+from the plain frame by more than 2/255, "by" the mean difference of those. Edges are the pixels in
+which a picture of 16 samples a pixel differs from the plain one by more than 4/255: their mean
+error, that of the whole picture, and that of what changes from a frame to the next along a path
+("crawl": .2° of an orbit, or 2 cm of a walk, a frame) are given as parts of the plain picture's.
 """
 
 from __future__ import annotations
@@ -68,10 +70,11 @@ def _of(
         if name == "antialiasing":
             plain = p.technique.name == "standard" and world != "abstract"
             must, aim = (1.35, 1.2) if plain else (1.5, 1.25)
-        low, middle, high = np.percentile(ratios[name], (25, 50, 75)).tolist()
+        low, middle, high = np.percentile(ratios[name][1], (25, 50, 75)).tolist()
         line = f"{label}: {name}"
         yield row("frame / without", line, middle, "×", must, aim)
         yield row("±", line, (high - low) / 2, "×")
+        yield row("first frame / without", line, float(np.median(ratios[name][0])), "×")
         share, by = _changed(renderer, scenes["none"], scenes[name], cameras, p)
         yield row("changed", line, share, "%")
         yield row("by", line, by, "/255")
@@ -80,17 +83,19 @@ def _of(
 def _ratios(
     renderer: Renderer, scenes: dict[str, Scene], cameras: list[Camera], p: Parameters
 ) -> dict[str, Floats]:
-    """Of each scene (TURNS,) its time over that of "none" in the same turn."""
-    spent = {name: np.zeros(TURNS + 1) for name in scenes}
+    """Of each scene (2, TURNS) the time of its first frame, and of those that follow, over that of
+    "none" in the same turn."""
+    spent = {name: np.zeros((2, TURNS + 1)) for name in scenes}
     for turn in range(TURNS + 1):
         for name, scene in scenes.items():
-            start = time.process_time()
-            for camera in cameras:
-                renderer.draw(scene, camera, p)
-                renderer.context.finish()
-            spent[name][turn] = time.process_time() - start
+            for some in range(2):
+                start = time.process_time()
+                for camera in cameras if some else cameras[-1:]:
+                    renderer.draw(scene, camera, p)
+                    renderer.context.finish()
+                spent[name][some, turn] = time.process_time() - start
     # The first turn compiles and uploads.
-    return {name: seconds[1:] / spent["none"][1:] for name, seconds in spent.items()}
+    return {name: seconds[:, 1:] / spent["none"][:, 1:] for name, seconds in spent.items()}
 
 
 def _changed(
