@@ -118,8 +118,8 @@ class Room(NamedTuple):
     of the line is seen if it is of what may show through others. Of pixels that take a part of a
     neighbour, in the order in which they were found (p,): where, how far off the neighbour is, the
     part, and the new colour (p, 3). slot (p,): 1 + where each pixel of the part stands in that
-    order, all 0 between frames. How much of a pixel has ink (p,), all 0 between frames, and the
-    pixels that have any (p,).
+    order, all 0 between frames. The pixels that have any ink (p,), and what alpha each has: how
+    much ink is told by the picture's own in its place, so that there is no other array to fetch.
     """
 
     line: NDArray[np.int32]
@@ -132,8 +132,8 @@ class Room(NamedTuple):
     takes: NDArray[np.int32]
     part: Floats32
     colors: NDArray[np.uint16]
-    ink: Floats32
     inked: NDArray[np.int32]
+    held: NDArray[np.uint16]
 
 
 def room(steps: int, pixels: int) -> Room:
@@ -143,5 +143,5 @@ def room(steps: int, pixels: int) -> Room:
         line, at, beside, np.zeros(steps + 1), np.zeros(steps + 1),
         np.zeros(pixels, np.int32), np.zeros(pixels, np.int32), np.zeros(pixels, np.int32),
         np.zeros(pixels, np.float32), np.zeros((pixels, 3), np.uint16),
-        np.zeros(pixels, np.float32), np.zeros(pixels + 1, np.int32),
+        np.zeros(pixels + 1, np.int32), np.zeros(pixels + 1, np.uint16),
     )  # fmt: skip

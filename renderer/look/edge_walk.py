@@ -26,6 +26,7 @@ Whole = NDArray[np.uint32]
 NEARER = 0.004  # of its depth, by which a pixel may be nearer than a line on its surface
 UNIT = 1.0 / (2**32 - 1)
 INK, DARK = 0.12, 0.8  # of outlines: a grey, and how much of it there is
+INKED = 0x7FFF  # all of a pixel has ink, as its alpha says meanwhile, which never is below 0
 JUMP, FLAT = 0.3, 1e-6  # part of a step of depth that steps beside it have at most, and rounding
 LEAST = 2.0 / 255.0  # a step of colour that is worth smoothing
 FIRM = 0.1  # the same, from which on an outline through something has all of its ink
@@ -119,7 +120,9 @@ def _ink(steps: int, count: int, lines: Lines, view: View, picture: Picture, roo
     columns, through, width = lines.flat, lines.through, lines.inked
     depth, color, decoded = picture.depth, picture.color, picture.decoded
     line, at, beside, place, seen = room.line, room.at, room.beside, room.place, room.seen
-    ink, inked = room.ink, room.inked
+    inked, held = room.inked, room.held
+    # As many pixels for all lines, the most that any band reaches into: what a processor can guess.
+    reach = int(np.ceil(2.0 * np.sqrt(2.0) * view.half)) + 1
     for s in range(steps):
         k, p, v = line[s], at[s], place[s]
         half, aside, j = width[k], beside[s], int(np.floor(v))
@@ -129,14 +132,21 @@ def _ink(steps: int, count: int, lines: Lines, view: View, picture: Picture, roo
         beyond = j < wide - 2 if aside > 0 else j > 1
         if not (through[k] or _parts(depth, color, decoded, p, aside, beyond)):
             continue
-        shown = seen[s] if through[k] else 1.0
+        shown = INKED * (seen[s] if through[k] else 1.0)
         low, high = v - half, v + half
-        for q in range(max(int(np.floor(low)), 0), min(int(np.ceil(high)), wide)):
+        first = int(np.floor(low))
+        last = first + reach
+        if first < 0 or last > wide:
+            first, last = max(first, 0), min(int(np.ceil(high)), wide)
+        for q in range(first, last):
             part = shown * (min(q + 1.0, high) - max(float(q), low))
             r = p + (q - j) * across
-            inked[count] = r
-            count += (ink[r] == 0.0) & (part > 0.0)
-            ink[r] = max(ink[r], np.float32(part))
+            mine, there = np.int32(max(part, 0.0) + 0.5), np.int32(color[r, 3])
+            has = there >> 15
+            inked[count], held[count] = r, there
+            count += (1 - has) & (mine > 0)
+            mine = max(mine, has * (there & INKED))
+            color[r, 3] = (mine | (INKED + 1)) if mine > 0 else there
     return count
 
 
@@ -163,11 +173,11 @@ def _apply(count: int, picture: Picture, room: Room) -> None:
 def _draw_ink(count: int, picture: Picture, room: Room) -> None:
     """Put the ink of so many pixels onto the picture, and make the room empty again."""
     color, decoded, encoded = picture.color, picture.decoded, picture.encoded
-    ink, inked = room.ink, room.inked
+    inked, held = room.inked, room.held
     for i in range(count):
         p = inked[i]
-        part = DARK * min(ink[p], np.float32(1.0))
-        ink[p] = 0.0
+        part = np.float32(DARK / INKED) * np.float32(color[p, 3] & INKED)
+        color[p, 3] = held[i]
         for n in range(3):
             own = decoded[color[p, n]]
             mixed = min(max(own + part * (INK - own), 0.0), 1.0)
