@@ -29,11 +29,11 @@ class Edges(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """Which objects (k,) are drawn, and of all that there are (n): mesh (n,), matrix (n, 4, 4):
-    world ← mesh, the inverse (n, 3, 3) of its turn, and whether it may show through others (n,);
-    the camera's eye (3,) and rotation (3, 3): world ← camera."""
+    """Of all objects (n): whether it is drawn (n,), mesh (n,), matrix (n, 4, 4): world ← mesh, the
+    inverse (n, 3, 3) of its turn, and whether it may show through others (n,); the camera's eye
+    (3,) and rotation (3, 3): world ← camera."""
 
-    objects: Ints
+    drawn: Bools
     mesh: Ints
     matrix: Floats
     inverse: Floats

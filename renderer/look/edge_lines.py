@@ -15,21 +15,28 @@ Codes = NDArray[np.uint8]
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def lines_of(edges: Edges, poses: Poses, view: View, out: Lines) -> tuple[int, Box]:
-    """Put the lines of all objects into `out`, which has room for all edges. Returns how many there
-    are, and the part of the picture that their pixels are in: its left, lower, right and upper
-    border."""
-    longest = np.zeros(2, np.int64)
-    for m in range(len(edges.starts) - 1):
-        for n in range(2):
-            longest[n] = max(longest[n], edges.starts[m + 1, n] - edges.starts[m, n])
-    found, front = np.empty(longest[0], np.int32), np.zeros(longest[1] + 1, np.uint8)
+    """Put the lines of all objects that are drawn into `out`. Returns how many there are, and the
+    part of the picture that their pixels are in: its left, lower, right and upper border. If `out`
+    has no room for all edges, it only returns how many those are."""
     starts, ends, sides, crease = edges.starts, edges.ends, edges.sides, edges.crease
-    planes, mesh, objects, see_through = edges.planes, poses.mesh, poses.objects, poses.through
+    planes, mesh, drawn, see_through = edges.planes, poses.mesh, poses.drawn, poses.through
     numbers, span, inked, columns, through = out.numbers, out.span, out.inked, out.flat, out.through
+    most, longest, largest = 0, 0, 0
+    for o in range(len(drawn)):
+        if drawn[o]:
+            m = mesh[o]
+            size = starts[m + 1, 0] - starts[m, 0]
+            most, longest = most + size, max(longest, size)
+            largest = max(largest, starts[m + 1, 1] - starts[m, 1])
+    if most > len(columns):
+        return most, (0, 0, 0, 0)
+    found, front = np.empty(longest, np.int32), np.zeros(largest + 1, np.uint8)
     turn, eye = np.empty((3, 4)), np.empty(3)
     left, below, right, above = view.width, view.height, 0, 0
     count = 0
-    for o in objects:
+    for o in range(len(drawn)):
+        if not drawn[o]:
+            continue
         m, shines = mesh[o], see_through[o]
         _place(poses, o, turn, eye)
         xx, xy, xz, xw = turn[0, 0], turn[0, 1], turn[0, 2], turn[0, 3]

@@ -95,6 +95,14 @@ class FramePlan:
         return np.array([*self.crossing.ravel().tolist(), *sorted(alone)], np.int64)
 
     @cached_property
+    def depths(self) -> tuple[float, float]:
+        """View depths of the nearest and farthest corner in the picture: (inf, −inf) if it is
+        empty."""
+        seen, boxes = self.boxes.inside, self.boxes
+        near = boxes.near.min(where=seen, initial=np.inf)
+        return float(near), float(boxes.far.max(where=seen, initial=-np.inf))
+
+    @cached_property
     def behind(self) -> Ints:
         """(n,) a masked target behind each blended object, −1 where there is none."""
         found = np.full(len(self.reasons), -1)

@@ -44,9 +44,7 @@ class EdgePainter:
         """Smooth what was drawn into the target, or draw outlines so many pixels wide into it, or
         both."""
         # What no doorway shows can have no line that is seen, and is most of a building.
-        objects = np.nonzero(frame.boxes.inside & (frame.reasons != UNSEEN))[0]
-        if not len(objects):
-            return
+        drawn = frame.boxes.inside & (frame.reasons != UNSEEN)
         lens = tight(camera, frame)
         near, deep = lens.near, lens.far - lens.near
         view = edge_arrays.View(
@@ -54,14 +52,14 @@ class EdgePainter:
             lens.far / deep, smooth, width / 2,
         )  # fmt: skip
         poses = edge_arrays.Poses(
-            objects, table.slot, table.scene.transforms, table.inverse, _through(frame),
+            drawn, table.slot, table.scene.transforms, table.inverse, _through(frame),
             camera.eye, camera.rotation,
         )  # fmt: skip
         edges = self._joined(table)
-        most = int(np.diff(edges.starts[:, 0])[table.slot[objects]].sum())
-        if most > len(self._lines.flat):
-            self._lines = edge_arrays.lines(most)
         count, around = lines_of(edges, poses, view, self._lines)
+        if count > len(self._lines.flat):
+            self._lines = edge_arrays.lines(count)
+            count, around = lines_of(edges, poses, view, self._lines)
         if count:
             box = about(around, view)
             self._make_room(TOGETHER + max(box[2:]), box[2] * box[3])

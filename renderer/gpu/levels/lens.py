@@ -17,11 +17,8 @@ def clip_from_offset(camera: Camera, size: tuple[int, int]) -> bytes:
 
 def tight(camera: Camera, frame: FramePlan) -> Camera:
     """The camera with its depth range closed in on what is drawn: more bits for each unit."""
-    seen = np.nonzero(frame.boxes.inside)[0]
-    if not len(seen):
-        return camera
-    near = max(camera.near, float(frame.boxes.near[seen].min()) * (1 - 1e-6))
-    far = min(camera.far, float(frame.boxes.far[seen].max()) * (1 + 1e-6))
+    nearest, farthest = frame.depths
+    near, far = max(camera.near, nearest * (1 - 1e-6)), min(camera.far, farthest * (1 + 1e-6))
     if near >= far:
         return camera
     return Camera(camera.eye, camera.rotation, camera.fov_y, near, far)
