@@ -45,6 +45,8 @@ class EdgePainter:
         both."""
         # What no doorway shows can have no line that is seen, and is most of a building.
         drawn = frame.boxes.inside & (frame.reasons != UNSEEN)
+        if not drawn.any():
+            return
         lens = tight(camera, frame)
         near, deep = lens.near, lens.far - lens.near
         view = edge_arrays.View(
