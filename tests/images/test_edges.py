@@ -206,6 +206,20 @@ def test_no_outline_lies_within_a_surface(renderer):
     assert (plain != lined)[~inside | door].any(axis=-1).sum() > 300
 
 
+@pytest.mark.parametrize("antialiasing", ["none", "edges"])
+@pytest.mark.parametrize("way", ["standard", "dynamic"])
+def test_ink_leaves_no_trace_in_alpha(renderer, way, antialiasing):
+    """How much of a pixel has ink is told there meanwhile; what it says otherwise stays."""
+    case, alphas, colors = CASES["scattered 1"], [], []
+    for width in (0.0, 6.0):
+        scene = dressed(case.scene, Look(antialiasing=antialiasing, outlines=width))
+        renderer.draw(scene, case.camera, named(way))
+        picture = np.frombuffer(renderer.raw(), np.uint16).reshape(-1, 4)
+        alphas.append(picture[:, 3])
+        colors.append(picture[:, :3])
+    assert (alphas[0] == alphas[1]).all() and (colors[0] != colors[1]).any()
+
+
 def test_what_turns_transparent_keeps_its_line(renderer):
     """Over the target that shows through it, it is as dark as where the thing is opaque."""
     box = Object(geometry.box(3, 3, 0.1), transforms.translation(0, 1.5, 2), (0.3, 0.6, 0.9))
