@@ -144,9 +144,9 @@ def _ink(steps: int, count: int, lines: Lines, view: View, picture: Picture, roo
             mine, there = np.int32(max(part, 0.0) + 0.5), np.int32(color[r, 3])
             has = there >> 15
             inked[count], held[count] = r, there
-            count += (1 - has) & (mine > 0)
-            mine = max(mine, has * (there & INKED))
-            color[r, 3] = (mine | (INKED + 1)) if mine > 0 else there
+            count += int((1 - has) & (mine > 0))
+            most = max(mine, has * (there & INKED))
+            color[r, 3] = (most | (INKED + 1)) if most > 0 else there
     return count
 
 
