@@ -15,11 +15,8 @@ the package that it lies in, but the one in FOLDER.
 from __future__ import annotations
 
 import argparse
-import io
 import subprocess
 import sys
-import tarfile
-import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -182,13 +179,10 @@ def main() -> None:
     parser.add_argument("commit")
     parser.add_argument("--turns", type=int, default=TURNS)
     args = parser.parse_args()
-    here = Path(__file__).resolve().parents[2]
-    found = subprocess.run(["git", "archive", args.commit], cwd=here, capture_output=True)
-    if found.returncode:
-        parser.error(f"{args.commit}: {found.stderr.decode().strip()}; expected a commit")
-    with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
-        tarfile.open(fileobj=io.BytesIO(found.stdout)).extractall(folder, filter="data")
-        both = [stack.enter_context(drawer(tree)) for tree in (Path(folder), here)]
+    from seethrough.benchmarks.older import both_trees  # not where this file runs as a script
+
+    with both_trees(parser, args.commit) as trees, ExitStack() as stack:
+        both = [stack.enter_context(drawer(tree)) for tree in trees]
         for name in both[0].views:
             seconds = spent(both, name, args.turns)
             low, high = interval(seconds, np.random.default_rng(0))

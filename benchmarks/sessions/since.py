@@ -15,10 +15,8 @@ the package that it lies in, but the one in FOLDER.
 from __future__ import annotations
 
 import argparse
-import io
 import subprocess
 import sys
-import tarfile
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -145,13 +143,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--only", default=",".join(PARTS))
     parser.add_argument("--share", type=float, default=1.0, help="of people and scenes; default: 1")
     args = parser.parse_args(given)
-    here = Path(__file__).resolve().parents[2]
-    found = subprocess.run(["git", "archive", args.commit], cwd=here, capture_output=True)
-    if found.returncode:
-        parser.error(f"{args.commit}: {found.stderr.decode().strip()}; expected a commit")
-    with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
-        tarfile.open(fileobj=io.BytesIO(found.stdout)).extractall(folder, filter="data")
-        both = [stack.enter_context(playing(tree)) for tree in (Path(folder), here)]
+    from seethrough.benchmarks.older import both_trees  # not where this file runs as a script
+
+    with both_trees(parser, args.commit) as trees, ExitStack() as stack:
+        both = [stack.enter_context(playing(tree)) for tree in trees]
         for part in args.only.split(","):
             print(report(part, list(spent(both, part, args.turns, args.share))), flush=True)
     return 0

@@ -60,7 +60,7 @@ def links_of(related: Related) -> tuple[Ints, Ints]:
     order, extents, reach = related.seen, related.extents, related.reach
     relation, blended, masked = related.relation, related.blended, related.masked
     n = len(extents)
-    found, k = np.empty((2 * len(order) * len(order) + len(order), 2), np.int64), 0
+    found, k = np.empty((4 * len(order) + 4, 2), np.int64), 0
     starts = np.zeros(2 * n + 1, np.int64)
     for i in order:
         if not blended[i]:
@@ -72,6 +72,8 @@ def links_of(related: Related) -> tuple[Ints, Ints]:
             sign = relation[i, j]
             if sign == 0:
                 continue
+            if k + 3 > len(found):  # most scenes have few links: as many as there can be is n²
+                found = np.concatenate((found, np.empty_like(found)))
             if sign == 1 and blended[j] and meet(extents, i, extents, j):
                 found[k, 0], found[k, 1] = j, i
                 k += 1

@@ -179,7 +179,7 @@ def test_a_border_is_told_by_how_many_pixels_and_how_close(wrong, close, strengt
 
 
 def test_a_target_before_two_that_swap_is_not_drawn_over(context):
-    """Both lie behind it; drawn behind what is there, the last one had an eighth of its pixels."""
+    """Were the last one drawn behind what is there, a target would keep .877 of its shares."""
 
     def some(seed, aspect):
         scene, cameras = guarantee.abstract_views(seed, aspect)

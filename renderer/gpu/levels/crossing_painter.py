@@ -73,18 +73,18 @@ class CrossingPainter:
             bordering = [last for last in lasts if (last, target) in self._telling]
             for last in bordering:
                 self._mask(last, _NEVER_BEYOND, divided=False)
-        told = first is not None and (first, target) in self._telling
-        if first is not None and told:
-            self._mask(first, _ALWAYS_BEYOND, divided=True)
+        told = [first] if first is not None and (first, target) in self._telling else []
+        for other in told:
+            self._mask(other, _ALWAYS_BEYOND, divided=True)
         self._colors(target, ways)
-        if first is not None and told:
-            self._mask(first, _ALWAYS_BEYOND, divided=False)
+        for other in told:
+            self._mask(other, _ALWAYS_BEYOND, divided=False)
         with self._beyond():
             for last in bordering:
                 self._mask(last, _NEVER_BEYOND, divided=True)
             for last in lasts:
                 self._multiply(last, 1 / self._alpha, ways)
-        return 2 * (len(bordering) + told)
+        return 2 * (len(bordering) + len(told))
 
     def _colors(self, target: int, ways: Ways) -> None:
         ways.lit(self._runs[target])
