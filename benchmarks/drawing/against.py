@@ -179,6 +179,8 @@ def main() -> None:
     parser.add_argument("commit")
     parser.add_argument("--turns", type=int, default=TURNS)
     args = parser.parse_args()
+    if args.turns < 1:
+        parser.error(f"--turns: {args.turns}; expected at least 1")
     from seethrough.benchmarks.older import both_trees  # not where this file runs as a script
 
     with both_trees(parser, args.commit) as trees, ExitStack() as stack:

@@ -143,11 +143,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--only", default=",".join(PARTS))
     parser.add_argument("--share", type=float, default=1.0, help="of people and scenes; default: 1")
     args = parser.parse_args(given)
+    parts = args.only.split(",")
+    if unknown := [part for part in parts if part not in PARTS]:
+        parser.error(f"--only: {', '.join(unknown)}; expected some of {', '.join(PARTS)}")
+    if args.turns < 1:
+        parser.error(f"--turns: {args.turns}; expected at least 1")
+    if not 0 < args.share <= 1:
+        parser.error(f"--share: {args.share}; expected a number above 0, at most 1")
     from seethrough.benchmarks.older import both_trees  # not where this file runs as a script
 
     with both_trees(parser, args.commit) as trees, ExitStack() as stack:
         both = [stack.enter_context(playing(tree)) for tree in trees]
-        for part in args.only.split(","):
+        for part in parts:
             print(report(part, list(spent(both, part, args.turns, args.share))), flush=True)
     return 0
 

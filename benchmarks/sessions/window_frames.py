@@ -12,8 +12,8 @@ included) and for the renderer alone on the same views. In s.
 
 from __future__ import annotations
 
+import argparse
 import json
-import sys
 import tempfile
 import time
 from abc import ABC, abstractmethod
@@ -191,4 +191,8 @@ def _alone(window: Window, views: list[View], technique: Parameters) -> float:
 
 
 if __name__ == "__main__":
-    print(json.dumps(measured(sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else 10.0)))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("what", choices=("standard", "dynamic", "walks"))
+    parser.add_argument("seconds", type=float, nargs="?", default=10.0)
+    given = parser.parse_args()
+    print(json.dumps(measured(given.what, given.seconds)))

@@ -32,3 +32,18 @@ def test_the_ratio_is_of_sums_and_each_turn_is_told():
 def test_a_code_that_stops_is_said(tmp_path):
     with since.playing(tmp_path) as play, pytest.raises(RuntimeError, match="has stopped"):
         play("data", 1.0)  # the folder holds no code
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--only", "visual,nosuch"], "--only: nosuch; expected some of visual, tables, data"),
+        (["--turns", "0"], "--turns: 0; expected at least 1"),
+        (["--share", "1.5"], "--share: 1.5; expected a number above 0, at most 1"),
+        ([], "nosuchcommit: "),
+    ],
+)
+def test_what_cannot_be_measured_is_refused_in_a_line(words, said, capsys):
+    with pytest.raises(SystemExit) as stopped:
+        since.main(["nosuchcommit", *words])
+    assert stopped.value.code == 2 and said in capsys.readouterr().err
