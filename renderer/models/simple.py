@@ -17,7 +17,8 @@ def simplified(scene: Scene) -> Scene:
     """The same objects, with the proxy of each model in its place (renderer/models/proxies.py).
 
     What is no model stays as it is. A tenth of a building's triangles are left; `python -m
-    benchmarks.eyes` shows what that does to what a simulated participant measures.
+    seethrough.benchmarks.sessions.eyes` shows what that does to what a simulated participant
+    measures.
     """
     if scene.bare is not None:
         return dressed(simplified(scene.bare), scene.look)
