@@ -103,22 +103,9 @@ def screen_boxes(
     held, starts = around or (corners.reshape(-1, 3), 8 * np.arange(len(corners) + 1))
     extents, slants, near, far, crosses = _boxes(held, starts, camera.eye, camera.rotation, lens)
     if crosses.any():
-        points = to_camera(corners, camera)
-        rows = np.nonzero(crosses)[0]
-        low, high = extents[:, :2], extents[:, 2:]
-        _add_cuts(low, high, rows, points, -points[..., 2], camera, size)
-        slants[rows] = corners_cut(extents[rows])
+        _add_cuts(extents, slants, crosses, corners, camera.eye, camera.rotation, lens)
     seen = _seen(extents, near, far, camera.near, camera.far, size)
     return Boxes(extents, slants, near, far, crosses, *seen)
-
-
-def corners_cut(extents: Floats) -> Floats:
-    """(n, 4) slants of boxes (n, 4) that nothing cuts the corners of."""
-    left, top, right, bottom = extents.T
-    with np.errstate(invalid="ignore"):
-        slants = np.stack([left + top, left - bottom, right + bottom, right - top], axis=1)
-    slants[left > right] = [np.inf, np.inf, -np.inf, -np.inf]  # what lies behind the eye
-    return slants
 
 
 @njit(cache=True)
@@ -172,25 +159,52 @@ def _seen(
     return within, inside
 
 
+@njit(cache=True)
+def corners_cut(extents: Floats) -> Floats:
+    """(n, 4) slants of boxes (n, 4) that nothing cuts the corners of."""
+    slants = np.empty(extents.shape)
+    for i in range(len(extents)):
+        _cut(extents[i], slants[i])
+    return slants
+
+
+@njit(cache=True)
+def _cut(extents: Floats, slants: Floats) -> None:
+    left, top, right, bottom = extents
+    if left > right:  # what lies behind the eye
+        slants[:2], slants[2:] = np.inf, -np.inf
+    else:
+        slants[0], slants[1] = left + top, left - bottom
+        slants[2], slants[3] = right + bottom, right - top
+
+
+@njit(cache=True)
 def _add_cuts(
-    low: NDArray[np.float64],
-    high: NDArray[np.float64],
-    rows: NDArray[np.int64],
-    points: NDArray[np.float64],
-    depth: NDArray[np.float64],
-    camera: Camera,
-    size: tuple[int, int],
-) -> None:
-    """Widen the extents by the points where the near plane cuts the boxes' edges."""
-    a, b = points[rows][:, _EDGES[:, 0]], points[rows][:, _EDGES[:, 1]]
-    da, db = depth[rows][:, _EDGES[:, 0]], depth[rows][:, _EDGES[:, 1]]
-    cut = (da < camera.near) != (db < camera.near)
-    t = np.where(cut, (camera.near - da) / np.where(cut, db - da, 1.0), 0.0)
-    cuts = a + t[..., None] * (b - a)
-    cuts[..., 2] = -camera.near
-    flat = to_pixels(cuts, camera, size)
-    low[rows] = np.minimum(low[rows], np.where(cut[..., None], flat, np.inf).min(axis=1))
-    high[rows] = np.maximum(high[rows], np.where(cut[..., None], flat, -np.inf).max(axis=1))
+    extents: Floats, slants: Floats, crosses: Bools,
+    corners: Floats, eye: Floats, rotation: Floats, lens: Floats,
+) -> None:  # fmt: skip
+    """Widen what `crosses` by the points where the near plane cuts the edges of its box, one of
+    `corners` (n, 8, 3); nothing cuts the corners of that on the screen."""
+    offset, place = np.empty((8, 3)), np.empty(2)
+    for i in range(len(crosses)):
+        if not crosses[i]:
+            continue
+        for k in range(8):
+            for c in range(3):
+                offset[k, c] = 0.0
+                for d in range(3):
+                    offset[k, c] += (corners[i, k, d] - eye[d]) * rotation[d, c]
+        for e in range(len(_EDGES)):
+            a, b = offset[_EDGES[e, 0]], offset[_EDGES[e, 1]]
+            if (-a[2] < lens[3]) == (-b[2] < lens[3]):
+                continue
+            t = (lens[3] + a[2]) / (a[2] - b[2])
+            place[0] = lens[1] + lens[0] * (a[0] + t * (b[0] - a[0])) / lens[3]
+            place[1] = lens[2] - lens[0] * (a[1] + t * (b[1] - a[1])) / lens[3]
+            for c in range(2):
+                extents[i, c] = min(extents[i, c], place[c])
+                extents[i, 2 + c] = max(extents[i, 2 + c], place[c])
+        _cut(extents[i], slants[i])
 
 
 def depth_values(points: Floats, camera: Camera) -> Floats:

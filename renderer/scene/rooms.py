@@ -8,6 +8,7 @@ out would have been hidden by a wall, pixel for pixel, as long as walls are opaq
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,14 @@ class Rooms:
     thickness: float
     low: float
     high: float
+
+    @cached_property
+    def doorways(self) -> tuple[Floats, NDArray[np.int64], Floats]:
+        """Corners (d, 8, 3) of the openings, the axis (d,) across each, and where its plane lies
+        along that (d,)."""
+        axis = (self.openings[:, 1] - self.openings[:, 0]).argmin(axis=1)
+        plane = np.take_along_axis(self.openings[:, 0], axis[:, None], axis=1)[:, 0]
+        return self.openings[:, _BITS, _AXES], axis, plane
 
     def stand(self, transforms: NDArray[np.float64]) -> bool:
         """Whether the walls are where they were, among objects (n, 4, 4)."""
@@ -83,10 +92,11 @@ def seen(
     first = rooms.around(camera, size)
     if not len(first):
         return np.ones(len(extents), dtype=bool)
-    found = np.zeros(len(extents), dtype=bool)
-    for room, (left, top, right, bottom) in _views(rooms, first.tolist(), camera, size):
-        shown = (extents[:, 0] < right) & (extents[:, 1] < bottom)
-        found |= held[:, room] & shown & (extents[:, 2] > left) & (extents[:, 3] > top)
+    views = _views(rooms, first.tolist(), camera, size)
+    left, top, right, bottom = np.array([view for _, view in views]).T
+    shown = (extents[:, :1] < right) & (extents[:, 1:2] < bottom)
+    shown &= (extents[:, 2:3] > left) & (extents[:, 3:] > top)
+    found: Bools = (shown & held[:, [room for room, _ in views]]).any(axis=1)
     return found
 
 
@@ -99,11 +109,9 @@ def _views(
     """Rooms and what of the screen shows each, once for every way of doorways that leads there."""
     from seethrough.renderer.scene.projection import screen_boxes  # worlds need no kernels
 
-    corners = rooms.openings[:, _BITS, _AXES]
+    corners, axis, plane = rooms.doorways
     boxes = screen_boxes(corners, camera, size)
     around = boxes.extents + np.array([-MARGIN, -MARGIN, MARGIN, MARGIN])
-    axis = (rooms.openings[:, 1] - rooms.openings[:, 0]).argmin(axis=1)
-    plane = np.take_along_axis(rooms.openings[:, 0], axis[:, None], axis=1)[:, 0]
     beyond = (camera.eye[axis] < plane).tolist()  # the higher side lies beyond the doorway
     ways: dict[int, list[tuple[int, View]]] = {}
     for d in np.nonzero(boxes.within)[0].tolist():
