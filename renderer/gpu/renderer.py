@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seethrough.renderer.gpu.device.meshes import MeshStore
 from seethrough.renderer.gpu.device.programs import program
 from seethrough.renderer.gpu.device.scene_table import SceneTable
-from seethrough.renderer.gpu.device.targets import FrameTarget
+from seethrough.renderer.gpu.device.targets import FrameTarget, half_values
 from seethrough.renderer.gpu.edges.edge_painter import EdgePainter
 from seethrough.renderer.gpu.levels.layer import FrameStats, Layer
 from seethrough.renderer.look.shaders import defines
@@ -19,10 +19,12 @@ from seethrough.renderer.plan.frame_plan import SHORTCUTS, FramePlan
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
+from seethrough.renderer.scene.tallies import changed
 from seethrough.renderer.scene.visibility import Drawn, Visibility, visibility, visibility_of_shares
 from seethrough.renderer.techniques.base import Parameters, Shot
 
 SCENES_KEPT = 4  # a trial's own, its inset's, and the last ones of both
+ALL_OPAQUE = np.zeros((0, 0, 4), np.uint16)
 
 
 class Renderer:
@@ -158,8 +160,7 @@ class Renderer:
             shares = self.shares(scene, camera, technique, size)
             return visibility_of_shares(shares, small.read(), n)
         layers = self._drawn(scene, camera, technique, size, frame, state)
-        if len(scene.objects) > n:  # what a technique adds is nobody's
-            layers = [(w[ids <= n], ids[ids <= n], alpha[ids <= n]) for w, ids, alpha in layers]
+        # What a technique adds to the scene is nobody's.
         return visibility(layers, self._looking(size, scene)[0].read(), n)
 
     def _looked(
@@ -225,11 +226,8 @@ class Renderer:
             if left >= right or top >= bottom:
                 return
             ids, before = small.read_ids(part), last[top:bottom, left:right]
-            row, column = np.nonzero((ids != before) & (ids > 0))
-            opacity = small.read_alpha(part)[row, column]
-            where = (row + top) * size[0] + column + left
-            found.append((where, ids[row, column].astype(np.int64), opacity))
-            before[...] = ids
+            colors = ALL_OPAQUE if objects is None else small.read_colors(part)
+            found.append(changed(ids, colors, before, (left, top, size[0]), half_values()))
 
         scale = size[1] / self.size[1]
         layer.draw(self._table(scene), frame, camera, technique, small, scale, keep, state)

@@ -5,6 +5,7 @@ Eight bits of alpha drift visibly over many layers: each mask and each layer rou
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TypeVar
 
 import moderngl
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seethrough.renderer.gpu.device.reused import spoil
+from seethrough.renderer.scene.tallies import as_bytes
 
 Owned = TypeVar("Owned", moderngl.Texture, moderngl.Renderbuffer, moderngl.Framebuffer)
 
@@ -63,9 +65,10 @@ class FrameTarget:
 
     def read(self) -> NDArray[np.uint8]:
         """(h, w, 3), row 0 on top."""
+        # Software rasterisers take ten times as long to make bytes of the numbers that they hold.
         width, height = self.size
-        data = self.resolved.read(components=3, alignment=1, dtype="f1")
-        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1].copy()
+        halves = np.frombuffer(self.raw(), np.uint16).reshape(height, width, 4)
+        return as_bytes(halves[::-1], _bytes())
 
     def raw(self) -> bytes:
         """The picture's numbers as the driver holds them: RGBA half floats, bottom row first."""
@@ -78,12 +81,13 @@ class FrameTarget:
         data = self.framebuffer.read(viewport, 1, attachment=1, alignment=1, dtype="f4")
         return np.frombuffer(data, "f4").reshape(viewport[:1:-1])[::-1]
 
-    def read_alpha(self, part: tuple[int, int, int, int]) -> NDArray[np.float16]:
-        """(h, w) a part of the frame's own alpha: how strongly the next object would show."""
+    def read_colors(self, part: tuple[int, int, int, int]) -> NDArray[np.uint16]:
+        """(h, w, 4) bits of the half floats RGBA of a part of the picture. A says how strongly the
+        next object would show."""
         viewport = self._viewport(part)
         # As the driver holds it: to make another type of it takes ten times as long.
         data = self.framebuffer.read(viewport, 4, alignment=1, dtype="f2")
-        return np.frombuffer(data, "f2").reshape(*viewport[:1:-1], 4)[::-1, :, 3]
+        return np.frombuffer(data, np.uint16).reshape(*viewport[:1:-1], 4)[::-1]
 
     def _viewport(self, part: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
         left, top, right, bottom = part
@@ -93,3 +97,17 @@ class FrameTarget:
         """Give the GPU's memory back."""
         for thing in self._owned:
             thing.release()
+
+
+@cache
+def half_values() -> NDArray[np.float64]:
+    """(65536,) the number that 16 bits of a half float are."""
+    return np.arange(1 << 16, dtype=np.uint16).view(np.float16).astype(np.float64)
+
+
+@cache
+def _bytes() -> NDArray[np.uint8]:
+    """(65536,) the byte that a driver makes of 16 bits of a half float: the nearest of 0 to 255,
+    0 of what is no number."""
+    numbers = np.clip(np.nan_to_num(half_values(), nan=0.0), 0.0, 1.0)
+    return np.rint(numbers * 255.0).astype(np.uint8)
