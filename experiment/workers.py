@@ -6,7 +6,6 @@ handed over once.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -76,15 +75,8 @@ def _executor(
 ) -> ProcessPoolExecutor:
     # Spawned, not forked: a forked process would share this one's graphics context.
     return ProcessPoolExecutor(
-        workers, mp_context=get_context("spawn"), initializer=_begin, initargs=(prepare, arguments)
+        workers, mp_context=get_context("spawn"), initializer=prepare, initargs=arguments
     )
-
-
-def _begin(prepare: Callable[..., None] | None, arguments: tuple[object, ...]) -> None:
-    # The software rasteriser would take every core for itself, in each worker.
-    os.environ.setdefault("LP_NUM_THREADS", "1")
-    if prepare is not None:
-        prepare(*arguments)
 
 
 def _run(

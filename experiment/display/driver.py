@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from typing import TYPE_CHECKING
 
 from seethrough.experiment.errors import InputError
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "software")  # rasterisers on the processor
 INSTEAD = "`seethrough simulate` plays a study, `seethrough render` draws"
+THREADS = "LP_NUM_THREADS"  # environment variable of Mesa's llvmpipe
 AUTOMATIC = 4  # samples where a graphics card draws
 
 
@@ -41,16 +43,34 @@ def on_the_processor(context: Context) -> bool:
     return any(name in renderer for name in SOFTWARE)
 
 
-def open_context() -> Context:
-    """A context without a window. Raises InputError, one line, where there is no OpenGL."""
+def open_context(looks: bool = False) -> Context:
+    """A context without a window. Raises InputError, one line, where there is no OpenGL.
+
+    `looks`: for pictures so small that a software rasteriser is done sooner alone than with threads
+    that it has to wake. A process's first context decides.
+    """
     from seethrough.renderer.gpu.device.context import (
         standalone,
     )  # here: who only names drivers needs no OpenGL
 
+    with _alone() if looks else nullcontext():
+        try:
+            return standalone()
+        except RuntimeError as error:
+            raise InputError(str(error)) from None
+
+
+@contextmanager
+def _alone() -> Iterator[None]:
+    """What is opened here rasterises without threads of its own (Mesa), unless the user says."""
+    if THREADS in os.environ:
+        yield
+        return
+    os.environ[THREADS] = "0"
     try:
-        return standalone()
-    except RuntimeError as error:
-        raise InputError(str(error)) from None
+        yield
+    finally:
+        del os.environ[THREADS]
 
 
 def no_window(error: Exception, instead: str = INSTEAD) -> InputError:

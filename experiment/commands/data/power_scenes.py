@@ -27,7 +27,7 @@ def describe(study: Study, path: Path) -> int:
     from seethrough.experiment.display.driver import open_context
     from seethrough.experiment.study.checked.shown import Shower, breaking
 
-    context = open_context()
+    context = open_context(looks=True)
     shower = Shower(study, context)
     scenes = _looked(shower, shower.scenes())
     write(study, scenes, path)

@@ -83,7 +83,7 @@ def _visibility(recorded: Recorded, path: Path) -> None:
     from seethrough.experiment.display.driver import open_context
     from seethrough.experiment.display.looking import Looking
 
-    looking = Looking(open_context(), recorded.size)
+    looking = Looking(open_context(looks=True), recorded.size)
     looking.technique = recorded.technique
     with open(path, "x", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")

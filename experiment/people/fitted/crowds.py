@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Collection
 from concurrent.futures import ProcessPoolExecutor
@@ -91,8 +90,6 @@ def _executor(workers: int, of: tuple[Study, int, Path]) -> ProcessPoolExecutor:
 
 
 def _begin(study: Study, pool: int, tables: Path) -> None:
-    # The software rasteriser would take every core for itself, in each worker.
-    os.environ.setdefault("LP_NUM_THREADS", "1")
     _made[:] = [drawing(study, pool, KeptLooks(tables))]
 
 

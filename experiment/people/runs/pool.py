@@ -158,6 +158,6 @@ class LazyDraw:
             from seethrough.experiment.display.driver import open_context
             from seethrough.experiment.display.looking import Looking
 
-            self._looking = Looking(open_context(), window_of(self.study), simple=True)
+            self._looking = Looking(open_context(looks=True), window_of(self.study), simple=True)
         self._looking.technique = technique
         return self._looking.look(View(scene, camera))

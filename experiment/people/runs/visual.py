@@ -54,7 +54,7 @@ class Seat:
 
     def __init__(self, job: Visual) -> None:
         self.job = job
-        self._context: Context = open_context()
+        self._context: Context = open_context(looks=True)
         self._looking: Looking | None = None
 
     def play(self, slot: int, ended: Ended) -> None:
