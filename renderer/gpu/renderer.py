@@ -19,7 +19,7 @@ from seethrough.renderer.plan.frame_plan import SHORTCUTS, FramePlan
 from seethrough.renderer.plan.planner import plan
 from seethrough.renderer.scene.camera import Camera
 from seethrough.renderer.scene.scene import Scene
-from seethrough.renderer.scene.tallies import changed
+from seethrough.renderer.scene.tallies import around, changed
 from seethrough.renderer.scene.visibility import Drawn, Visibility, visibility, visibility_of_shares
 from seethrough.renderer.techniques.base import Parameters, Shot
 
@@ -285,12 +285,7 @@ def _about(
     extents: NDArray[np.float64], objects: NDArray[np.int64] | None, size: tuple[int, int]
 ) -> tuple[int, int, int, int]:
     """Left, top, right, bottom in pixels of what objects can cover; None: the whole picture."""
-    if objects is None:
-        return (0, 0, *size)
-    boxes = extents[objects]
-    low = np.clip(np.floor(boxes[:, :2].min(axis=0)) - 1, 0, size).astype(int).tolist()
-    high = np.clip(np.ceil(boxes[:, 2:].max(axis=0)) + 1, 0, size).astype(int).tolist()
-    return (*low, *high)
+    return (0, 0, *size) if objects is None else around(extents, objects, *size)
 
 
 def _shown(

@@ -47,6 +47,19 @@ def changed(
 
 
 @njit(cache=True)
+def around(extents: Floats, objects: Ints, width: int, height: int) -> tuple[int, int, int, int]:
+    """Left, top, right, bottom of the pixels that some objects with these extents (n, 4) can cover,
+    and one beyond."""
+    left, top, right, bottom = float(width), float(height), 0.0, 0.0
+    for i in objects:
+        left, top = min(left, extents[i, 0]), min(top, extents[i, 1])
+        right, bottom = max(right, extents[i, 2]), max(bottom, extents[i, 3])
+    low = int(np.floor(max(left, 0.0))) - 1, int(np.floor(max(top, 0.0))) - 1
+    high = int(np.ceil(min(right, width))) + 1, int(np.ceil(min(bottom, height))) + 1
+    return max(low[0], 0), max(low[1], 0), min(high[0], width), min(high[1], height)
+
+
+@njit(cache=True)
 def as_bytes(colors: Halves, table: Bytes) -> Bytes:
     """(h, w, 3) red, green and blue of (h, w, 4), by a byte for each of the 65536 half floats."""
     height, width = colors.shape[:2]
@@ -118,21 +131,36 @@ def _tallied(
     sums = np.zeros((objects, 6))
     box = np.empty((objects, 4), np.int64)
     box[:, :2], box[:, 2:] = np.iinfo(np.int64).max, -1
-    row, start = 0, 0
+    row, start, last = 0, 0, -1
+    shown, top, left, bottom, right = 0, 0, 0, 0, 0
+    a, x, y, r, g, b = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(len(which)):
         n, part = which[i], share[i]
+        if n != last:  # neighbours are mostly of one object: their sums stay in registers
+            if last >= 0:
+                count[last] = shown
+                sums[last] = a, x, y, r, g, b
+                box[last] = top, left, bottom, right
+            shown, last = count[n], n
+            a, x, y, r, g, b = sums[n]
+            top, left, bottom, right = box[n]
         if not 0 <= pixel[i] - start < width:  # most follow in a row, and dividing takes long
             row = pixel[i] // width
             start = row * width
         column = pixel[i] - start
-        count[n] += 1
-        sums[n, 0] += part
-        sums[n, 1] += part * (column + 0.5)
-        sums[n, 2] += part * (row + 0.5)
-        for c in range(3):
-            sums[n, 3 + c] += part * shade[picture[row, column, c]]
-        box[n, 0], box[n, 1] = min(box[n, 0], row), min(box[n, 1], column)
-        box[n, 2], box[n, 3] = max(box[n, 2], row), max(box[n, 3], column)
+        shown += 1
+        a += part
+        x += part * (column + 0.5)
+        y += part * (row + 0.5)
+        r += part * shade[picture[row, column, 0]]
+        g += part * shade[picture[row, column, 1]]
+        b += part * shade[picture[row, column, 2]]
+        top, left = min(top, row), min(left, column)
+        bottom, right = max(bottom, row), max(right, column)
+    if last >= 0:
+        count[last] = shown
+        sums[last] = a, x, y, r, g, b
+        box[last] = top, left, bottom, right
     return count, sums, box
 
 
