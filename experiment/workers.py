@@ -11,7 +11,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
-from typing import TypeVar
+from typing import Any, TypeVar
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -71,7 +71,7 @@ def _result(made: Result | _Raised) -> Result:
 
 
 def _executor(
-    workers: int, prepare: Callable[..., None] | None, arguments: tuple[object, ...]
+    workers: int, prepare: Callable[..., None] | None, arguments: tuple[Any, ...]
 ) -> ProcessPoolExecutor:
     # Spawned, not forked: a forked process would share this one's graphics context.
     return ProcessPoolExecutor(

@@ -82,11 +82,12 @@ def visibility_of_shares(
     objects: int,
 ) -> Visibility:
     """The same from layers of object + 1 and its share of the pixel (h, w), in any order."""
-    found = []
+    which, pixel = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    shown = [np.zeros(0, np.float64)]
     for ids, share in layers:
         where = np.nonzero((ids.ravel() > 0) & (share.ravel() >= SEEN))[0]
-        found.append((ids.ravel()[where] - 1, where, share.ravel()[where].astype(float)))
-    found.append((np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0)))
-    which, pixel = (np.concatenate([f[k] for f in found]) for k in range(2))
-    share = np.concatenate([f[2] for f in found], dtype=np.float64)
-    return Visibility(*measured(which, pixel, share, picture, objects))
+        which.append(ids.ravel()[where] - 1)
+        pixel.append(where)
+        shown.append(share.ravel()[where].astype(np.float64))
+    found = (np.concatenate(which), np.concatenate(pixel), np.concatenate(shown))
+    return Visibility(*measured(*found, picture, objects))

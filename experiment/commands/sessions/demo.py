@@ -60,7 +60,7 @@ def _next_folder(parent: Path) -> Path:
 
 
 def _in_window(data: Path, simulated: bool, speed: float) -> str:
-    from seethrough.experiment.display.clock import RealClock
+    from seethrough.experiment.display.clock import RealClock, WatchClock
     from seethrough.experiment.session.live import play_in_window
 
     study = load("demo")
@@ -68,7 +68,7 @@ def _in_window(data: Path, simulated: bool, speed: float) -> str:
         return play_in_window(study, "P01", 1, "human", data, RealClock())
     from seethrough.experiment.people.participant import SimulatedParticipant
 
-    seed, clock = 1, RealClock(speed)
+    seed, clock = 1, WatchClock(speed)
     person = SimulatedParticipant(generator(seed, (SIMULATED, 1)))
     about = person.about(seed)
     return play_in_window(study, "S01", 1, "simulated", data, clock, watched=person, about=about)
